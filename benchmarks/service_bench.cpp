@@ -75,7 +75,7 @@ void preview(benchmark::State& state, const RecordedSet& set, double wanted_per_
   std::size_t points = 0;
   const double processor_before_s = processor_s();
   const Stopwatch all;
-  for (auto _ : state) {
+  for ([[maybe_unused]] auto _ : state) {
     auto decode =
         std::make_shared<LiveDecode>(decode_live(set.stacks, set.rig, set.rays, set.settings));
     points = decode->points;

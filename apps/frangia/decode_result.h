@@ -41,6 +41,8 @@ class DecodedScan {
   ~DecodedScan();
   DecodedScan(const DecodedScan&) = delete;
   DecodedScan& operator=(const DecodedScan&) = delete;
+  DecodedScan(DecodedScan&&) = delete;
+  DecodedScan& operator=(DecodedScan&&) = delete;
 
   void add(const ViewResult& result);
   void finish();

@@ -61,42 +61,10 @@ void check_inspect_arguments(const InspectArguments& arguments, const Inspection
           "--align datum needs a --plan whose `datums` name one to three of its [[features]]");
 }
 
-void add_inspect_options(CLI::App& verb, InspectArguments& arguments) {
-  verb.add_option("MESH", arguments.meshes, "the measured mesh; several for --batch")->required();
-  verb.add_option("--plan",
-                  arguments.plan,
-                  "inspection.toml: reference, alignment, tolerances, features and sections of a "
-                  "part");
-  verb.add_option("--report",
-                  arguments.report,
-                  "write a report as one .html page, and .json and .csv files of the same name");
-  verb.add_option("--qif",
-                  arguments.qif,
-                  "write the characteristics of the plan and their features as QIF 3.0 results");
-  verb.add_option("--batch",
-                  arguments.batch,
-                  "inspect several meshes by the plan and write a table with mean, Cp and Cpk: "
-                  ".csv, or .html with trends");
-  verb.add_option("--section",
-                  arguments.sections,
-                  "cut by a plane such as z=60; --report writes it as DXF and SVG; may repeat")
-      ->check(a_section())
-      ->allow_extra_args(false);
-  verb.add_flag("--blade",
-                arguments.blade,
-                "the sections are profiles of a blade: chord, thickness, edge radii, stagger");
-  verb.add_option(
-      "--reference",
-      arguments.reference,
-      "the reference, in the frame of the mesh unless --align finds its pose: a mesh, or a "
-      "CAD model (.step, .iges), to whose faces deviations are measured");
-  verb.add_option(
-          "--units",
-          arguments.unit_mm,
-          "unit of the reference: um, mm (default), cm, m, in, ft, or its length; CAD files "
-          "state theirs")
-      ->transform(unit_length());
-  add_alignment_options(verb, arguments.alignment);
+namespace {
+
+/// How the deviations are measured and judged.
+void add_measure_options(CLI::App& verb, InspectArguments& arguments) {
   verb.add_option("-o,--output",
                   arguments.outputs,
                   "write the aligned mesh with its deviations: .ply with deviation_mm (and "
@@ -136,6 +104,9 @@ void add_inspect_options(CLI::App& verb, InspectArguments& arguments) {
           "degrees")
       ->check(from_to(1.0, 90.0))
       ->capture_default_str();
+}
+
+void add_picture_options(CLI::App& verb, InspectArguments& arguments) {
   verb.add_option(
       "--picture", arguments.picture, "draw the mesh into this .png, with a color scale");
   verb.add_option("--width", arguments.width_px, "of the picture without its scale, pixels")
@@ -162,6 +133,48 @@ void add_inspect_options(CLI::App& verb, InspectArguments& arguments) {
                   "tolerance, or 0.1 for sigma")
       ->transform(length_above_zero());
   verb.add_flag("!--no-legend", arguments.legend, "leave out the color scale");
+}
+
+}  // namespace
+
+void add_inspect_options(CLI::App& verb, InspectArguments& arguments) {
+  verb.add_option("MESH", arguments.meshes, "the measured mesh; several for --batch")->required();
+  verb.add_option("--plan",
+                  arguments.plan,
+                  "inspection.toml: reference, alignment, tolerances, features and sections of a "
+                  "part");
+  verb.add_option("--report",
+                  arguments.report,
+                  "write a report as one .html page, and .json and .csv files of the same name");
+  verb.add_option("--qif",
+                  arguments.qif,
+                  "write the characteristics of the plan and their features as QIF 3.0 results");
+  verb.add_option("--batch",
+                  arguments.batch,
+                  "inspect several meshes by the plan and write a table with mean, Cp and Cpk: "
+                  ".csv, or .html with trends");
+  verb.add_option("--section",
+                  arguments.sections,
+                  "cut by a plane such as z=60; --report writes it as DXF and SVG; may repeat")
+      ->check(a_section())
+      ->allow_extra_args(false);
+  verb.add_flag("--blade",
+                arguments.blade,
+                "the sections are profiles of a blade: chord, thickness, edge radii, stagger");
+  verb.add_option(
+      "--reference",
+      arguments.reference,
+      "the reference, in the frame of the mesh unless --align finds its pose: a mesh, or a "
+      "CAD model (.step, .iges), to whose faces deviations are measured");
+  verb.add_option(
+          "--units",
+          arguments.unit_mm,
+          "unit of the reference: um, mm (default), cm, m, in, ft, or its length; CAD files "
+          "state theirs")
+      ->transform(unit_length());
+  add_alignment_options(verb, arguments.alignment);
+  add_measure_options(verb, arguments);
+  add_picture_options(verb, arguments);
   add_allow_memory(verb, arguments.read);
 }
 

@@ -29,6 +29,38 @@ Conformity verdict_of_part(const InspectedPart& part) {
   return verdict_of(report);
 }
 
+/// Writes what the arguments ask for and names it in the answer. The names of the files, in the
+/// order in which they are told.
+std::vector<std::string> write_files(const InspectArguments& arguments,
+                                     const InspectionPlan& plan,
+                                     const InspectedPart& part,
+                                     InspectAnswer& answer,
+                                     Terminal& terminal) {
+  const Run run = terminal.run();
+  std::vector<std::string> written;
+  if (!arguments.picture.empty()) {
+    draw_picture(arguments, part, run);
+    written.push_back(arguments.picture.string());
+  }
+  for (const auto& path : arguments.outputs) {
+    write_deviations(path, arguments, part, run);
+    written.push_back(path.string());
+  }
+  if (!arguments.report.empty()) {
+    for (std::string& path : write_report(arguments, plan, part, answer, terminal.warnings(), run))
+      written.push_back(std::move(path));
+  }
+  if (!arguments.qif.empty()) {
+    write_report_text(arguments.qif,
+                      qif_of({part.named_features, part.characteristics, verdict_of_part(part)}));
+    written.push_back(arguments.qif.string());
+    answer.json["qif"] = arguments.qif.string();
+  }
+  if (!arguments.picture.empty()) answer.json["picture"] = arguments.picture.string();
+  if (!arguments.report.empty()) answer.json["report"] = arguments.report.string();
+  return written;
+}
+
 void inspect(InspectArguments arguments, Terminal& terminal) {
   const Run run = terminal.run();
   const InspectionPlan plan = plan_of(arguments, run);
@@ -46,21 +78,7 @@ void inspect(InspectArguments arguments, Terminal& terminal) {
   InspectAnswer answer;
   const std::optional<Reference> reference = read_reference(arguments, run);
   const InspectedPart part = inspect_mesh(arguments, plan, reference, answer, run);
-  const bool drawn = !arguments.picture.empty();
-  if (drawn) draw_picture(arguments, part, run);
-  for (const auto& path : arguments.outputs)
-    write_deviations(path, arguments, part, run);
-  std::vector<std::string> written;
-  if (!arguments.report.empty())
-    written = write_report(arguments, plan, part, answer, terminal.warnings(), run);
-  if (!arguments.qif.empty()) {
-    write_report_text(arguments.qif,
-                      qif_of({part.named_features, part.characteristics, verdict_of_part(part)}));
-    written.push_back(arguments.qif.string());
-    answer.json["qif"] = arguments.qif.string();
-  }
-  if (drawn) answer.json["picture"] = arguments.picture.string();
-  if (!arguments.report.empty()) answer.json["report"] = arguments.report.string();
+  const std::vector<std::string> written = write_files(arguments, plan, part, answer, terminal);
   terminal.finish();
   for (const auto& [stage, seconds] : terminal.stage_seconds())
     answer.json["seconds"][stage] = seconds;
@@ -71,9 +89,6 @@ void inspect(InspectArguments arguments, Terminal& terminal) {
   } else {
     write_output(answer.text);
   }
-  if (drawn) terminal.print_written(arguments.picture.string());
-  for (const auto& path : arguments.outputs)
-    terminal.print_written(path.string());
   for (const std::string& path : written)
     terminal.print_written(path);
 }

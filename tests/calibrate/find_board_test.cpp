@@ -27,9 +27,10 @@ Image<float> picture_of(const Eigen::Matrix3d& px_from_mm, const Albedo& albedo)
     for (int x = 0; x < image.width(); ++x) {
       double sum = 0.0;
       for (int i = 0; i < kSamples * kSamples; ++i) {
-        const Eigen::Vector3d pixel(x + (i % kSamples + 0.5) / kSamples - 0.5,
-                                    y + (i / kSamples + 0.5) / kSamples - 0.5,
-                                    1.0);
+        const int across = i % kSamples;
+        const int down = i / kSamples;
+        const Eigen::Vector3d pixel(
+            x + (across + 0.5) / kSamples - 0.5, y + (down + 0.5) / kSamples - 0.5, 1.0);
         sum += albedo((mm_from_px * pixel).hnormalized());
       }
       image(x, y) = static_cast<float>(20.0 + 180.0 * sum / (kSamples * kSamples));

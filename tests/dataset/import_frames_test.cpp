@@ -46,8 +46,8 @@ class ImportFrames : public ::testing::Test {
   void SetUp() override {
     std::filesystem::create_directories(images());
     std::filesystem::create_directories(target().parent_path());
-    options.period_px = {{"", 20.0}};
-    options.names = "{pattern}_{frame:02}.png";
+    options_.period_px = {{"", 20.0}};
+    options_.names = "{pattern}_{frame:02}.png";
   }
   /// A PNG whose pixels hold `value`.
   template <typename T = std::uint8_t>
@@ -60,13 +60,12 @@ class ImportFrames : public ::testing::Test {
   }
   /// The scan in the target folder.
   Scan import() const {
-    static_cast<void>(import_frames(plan_import(images(), options), target()));
+    static_cast<void>(import_frames(plan_import(images(), options_), target()));
     return read_scan(target(), {}, RigContent::StartValues);
   }
   /// The sentence of the error. Nothing may be left of the scan.
   std::string complaint() const {
-    const std::string error =
-        error_of([&] { import_frames(plan_import(images(), options), target()); });
+    std::string error = error_of([&] { import_frames(plan_import(images(), options_), target()); });
     EXPECT_TRUE(std::filesystem::is_empty(target().parent_path())) << error;
     return error;
   }
@@ -74,18 +73,18 @@ class ImportFrames : public ::testing::Test {
     const std::string error = complaint();
     EXPECT_NE(error.find(part), std::string::npos) << error;
   }
-  ImportOptions options;
+  ImportOptions options_;
 
  private:
   TemporaryFolder folder_;
 };
 
 TEST_F(ImportFrames, SortsFramesByPatternAndNumberWithoutChangingAPixel) {
-  options.projector_px = {1280, 800};
-  options.period_px.clear();
-  options.fringes = {{"p64", 64.0}, {"p8", 8.0}};
-  options.reverse_shifts = true;
-  options.origin_rad = rad_from_deg(-90.0);
+  options_.projector_px = {1280, 800};
+  options_.period_px.clear();
+  options_.fringes = {{"p64", 64.0}, {"p8", 8.0}};
+  options_.reverse_shifts = true;
+  options_.origin_rad = rad_from_deg(-90.0);
   write_fringes("p64");
   write_fringes("p8", 3);
   const Scan scan = import();
@@ -103,8 +102,8 @@ TEST_F(ImportFrames, SortsFramesByPatternAndNumberWithoutChangingAPixel) {
 }
 
 TEST_F(ImportFrames, PutsEachCamerasFramesIntoAFolderOfItsName) {
-  options.names = "{camera}/{pattern}_{frame:02}.png";
-  options.projector_px = {1280, 800};
+  options_.names = "{camera}/{pattern}_{frame:02}.png";
+  options_.projector_px = {1280, 800};
   for (int k = 0; k < 4; ++k) {
     std::filesystem::create_directories(images() / "left");
     std::filesystem::create_directories(images() / "right");
@@ -124,18 +123,18 @@ TEST_F(ImportFrames, PutsEachCamerasFramesIntoAFolderOfItsName) {
 }
 
 TEST_F(ImportFrames, RefusesCamerasThatDoNotFitEachOther) {
-  options.names = "{camera}_{frame}.png";
+  options_.names = "{camera}_{frame}.png";
   for (int k = 0; k < 4; ++k) {
     write(fmt::format("l_{}.png", k), 10 + k);
     if (k < 3) write(fmt::format("r_{}.png", k), 10 + k);
   }
   expect_complaint("the patterns have 4 frames, but 3 were found, r_0.png to r_2.png");
-  options.reference = "middle";
+  options_.reference = "middle";
   expect_complaint("`reference` is \"middle\", but the cameras are l, r");
 }
 
 TEST_F(ImportFrames, KeepsTheColorOfAWhiteFrameBesideGreyFringes) {
-  options.projector_px = {1280, 800};
+  options_.projector_px = {1280, 800};
   write_fringes("a");
   Image<Rgb> picture(8, 6, Rgb{10, 100, 200});
   picture(3, 2) = {255, 0, 51};
@@ -156,8 +155,8 @@ TEST_F(ImportFrames, KeepsTheColorOfAWhiteFrameBesideGreyFringes) {
 }
 
 TEST_F(ImportFrames, DemosaicsAWhiteFrame) {
-  options.projector_px = {1280, 800};
-  options.color = parse_color_choice("demosaic:RGGB");
+  options_.projector_px = {1280, 800};
+  options_.color = parse_color_choice("demosaic:RGGB");
   write_fringes("a");
   Image<std::uint8_t> mosaic(8, 6);
   for (int y = 0; y < 6; ++y) {
@@ -173,8 +172,8 @@ TEST_F(ImportFrames, DemosaicsAWhiteFrame) {
 }
 
 TEST_F(ImportFrames, RecordsEachOriginalWithItsChecksum) {
-  options.projector_px = {1280, 800};
-  options.names = "{frame}.bmp";
+  options_.projector_px = {1280, 800};
+  options_.names = "{frame}.bmp";
   for (int k = 0; k < 3; ++k)
     std::filesystem::copy_file(image_path("grey8.bmp"), images() / fmt::format("{}.bmp", k + 1));
   static_cast<void>(import());
@@ -188,9 +187,9 @@ TEST_F(ImportFrames, RecordsEachOriginalWithItsChecksum) {
 }
 
 TEST_F(ImportFrames, TakesTheImagesOfAStackAsFrames) {
-  options.projector_px = {1280, 800};
-  options.names = "";
-  const ImportPlan plan = plan_import(image_path("pages.tiff"), options);
+  options_.projector_px = {1280, 800};
+  options_.names = "";
+  const ImportPlan plan = plan_import(image_path("pages.tiff"), options_);
   EXPECT_EQ(plan.frames.size(), 3U);
   static_cast<void>(import_frames(plan, target()));
   const Scan scan = read_scan(target(), {}, RigContent::StartValues);
@@ -198,8 +197,8 @@ TEST_F(ImportFrames, TakesTheImagesOfAStackAsFrames) {
 }
 
 TEST_F(ImportFrames, KeepsFloatingPointFramesAndScalesThemWhenTheyAreRead) {
-  options.projector_px = {1280, 800};
-  options.names = "{frame}.tiff";
+  options_.projector_px = {1280, 800};
+  options_.names = "{frame}.tiff";
   for (int k = 0; k < 3; ++k)
     std::filesystem::copy_file(image_path("float.tiff"), images() / fmt::format("{}.tiff", k));
   const Scan scan = import();
@@ -218,7 +217,7 @@ TEST_F(ImportFrames, KeepsFloatingPointFramesAndScalesThemWhenTheyAreRead) {
 }
 
 TEST_F(ImportFrames, FindsTheWhiteLevelOf16BitFrames) {
-  options.projector_px = {1280, 800};
+  options_.projector_px = {1280, 800};
   for (int k = 0; k < 3; ++k)
     write<std::uint16_t>(fmt::format("a_{:02}.png", k), 1000 + 1000 * k);
   EXPECT_EQ(import().rig.camera.white_level, 4095);
@@ -229,8 +228,8 @@ TEST_F(ImportFrames, FindsTheWhiteLevelOf16BitFrames) {
 }
 
 TEST_F(ImportFrames, StatesTheVarianceOfAJpeg) {
-  options.projector_px = {1280, 800};
-  options.names = "{frame}.jpg";
+  options_.projector_px = {1280, 800};
+  options_.names = "{frame}.jpg";
   for (int k = 0; k < 3; ++k)
     std::filesystem::copy_file(image_path("grey.jpg"), images() / fmt::format("{}.jpg", k));
   const Scan scan = import();
@@ -239,11 +238,11 @@ TEST_F(ImportFrames, StatesTheVarianceOfAJpeg) {
 }
 
 TEST_F(ImportFrames, NumbersTheViewsAndTakesBlackImagesAsAmbient) {
-  options = {};
-  options.layout = "3dunderworld";
-  options.names = "v{view}/{frame:04}.png";
-  options.projector_px = {4, 2};
-  options.angles_rad = {0.0, 1.5};
+  options_ = {};
+  options_.layout = "3dunderworld";
+  options_.names = "v{view}/{frame:04}.png";
+  options_.projector_px = {4, 2};
+  options_.angles_rad = {0.0, 1.5};
   for (const char* view : {"v7", "v9"}) {
     std::filesystem::create_directories(images() / view);
     for (int k = 0; k < 8; ++k)
@@ -262,17 +261,17 @@ TEST_F(ImportFrames, NumbersTheViewsAndTakesBlackImagesAsAmbient) {
 
 TEST_F(ImportFrames, WritesTheCameraAloneWhereNothingElseIsKnown) {
   write_fringes("a");
-  static_cast<void>(import_frames(plan_import(images(), options), target()));
+  static_cast<void>(import_frames(plan_import(images(), options_), target()));
   EXPECT_EQ(all_of(target() / "rig.toml"),
             "format = \"frangia-rig\"\nversion = 1\n\n[camera]\nsize_px = [8, 6]\nwhite_level = "
             "255\n");
 }
 
 TEST_F(ImportFrames, RefusesWhatIsIncompleteOrAmbiguous) {
-  options.names = "{pattern}-{frame}.png";
+  options_.names = "{pattern}-{frame}.png";
   write_fringes("a");
   expect_complaint("the template \"{pattern}-{frame}.png\" fits none of 4 files, such as a_00.png");
-  options.names = "{pattern}_{frame}.png";
+  options_.names = "{pattern}_{frame}.png";
   write("a_0.png", 1);
   expect_complaint("a_00.png are the same frame by the template");
   std::filesystem::remove(images() / "a_0.png");
@@ -290,35 +289,35 @@ TEST_F(ImportFrames, RefusesFramesOfSeveralKinds) {
   expect_complaint("a_02.png has 8 x 7 pixels, 8 bits, but");
   write<std::uint16_t>("a_02.png", 9);
   expect_complaint("a_02.png has 8 x 6 pixels, 16 bits, but");
-  options.names = "color8.{pattern}";
+  options_.names = "color8.{pattern}";
   std::filesystem::copy_file(image_path("color8.png"), images() / "color8.png");
   expect_complaint("color8.png: is a colour image; set `color` to red, green, blue or luminance");
 }
 
 TEST_F(ImportFrames, RefusesADescriptionThatDoesNotFit) {
   write_fringes("a");
-  options.period_px.clear();
+  options_.period_px.clear();
   expect_complaint("the patterns are not described; set `fringes`");
-  options.fringes = {{"", 64.0}};
+  options_.fringes = {{"", 64.0}};
   expect_complaint("set `projector`, such as 1280x800");
-  options.projector_px = {1280, 800};
-  options.shifts_rad = {0.0, 1.0, 2.0};
+  options_.projector_px = {1280, 800};
+  options_.shifts_rad = {0.0, 1.0, 2.0};
   expect_complaint("pattern \"a\" has 4 frames, but `shifts` lists 3");
-  options.shifts_rad.clear();
-  options.fringes = {{"b", 64.0}};
+  options_.shifts_rad.clear();
+  options_.fringes = {{"b", 64.0}};
   expect_complaint("no file shows the pattern \"b\"");
-  options.patterns = images() / "patterns.toml";
-  std::ofstream(options.patterns)
+  options_.patterns = images() / "patterns.toml";
+  std::ofstream(options_.patterns)
       << "[[pattern]]\nname = \"a\"\nkind = \"fringe\"\nperiod_px = 20\n"
          "shifts_deg = [0, 120, 240]\n";
   expect_complaint("pattern \"a\" has 3 frames, but 4 were found, a_00.png to a_03.png");
-  options.angles_rad = {0.0, 1.0};
+  options_.angles_rad = {0.0, 1.0};
   expect_complaint("`angles` lists 2, but the folder has 1 view;");
 }
 
 TEST_F(ImportFrames, LeavesNothingWhenItIsStoppedOrAFrameIsDamaged) {
   write_fringes("a", 12);
-  const ImportPlan plan = plan_import(images(), options);
+  const ImportPlan plan = plan_import(images(), options_);
   std::stop_source source;
   frangia::Run run;
   run.stop = source.get_token();
@@ -337,7 +336,7 @@ TEST_F(ImportFrames, RefusesATargetThatExists) {
   std::filesystem::create_directories(target());
   std::ofstream(target() / "mine.txt") << "keep";
   const std::string error =
-      error_of([&] { import_frames(plan_import(images(), options), target()); });
+      error_of([&] { import_frames(plan_import(images(), options_), target()); });
   EXPECT_NE(error.find("exists already; remove it or choose another name"), std::string::npos);
   EXPECT_EQ(all_of(target() / "mine.txt"), "keep");
 }

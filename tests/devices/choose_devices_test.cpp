@@ -30,11 +30,11 @@ using testing::error_of;
 class Screen final : public PatternDisplay {
  public:
   [[nodiscard]] std::string name() const override { return "screen"; }
-  [[nodiscard]] std::string test(const Deadline&) override { return "works"; }
+  [[nodiscard]] std::string test(const Deadline& /*until*/) override { return "works"; }
   void make_safe() noexcept override {}
   [[nodiscard]] const DisplayInfo& info() const override { return info_; }
-  void show(const Image<float>&, const Deadline&) override {}
-  void show_dark(const Deadline&) override {}
+  void show(const Image<float>& /*picture*/, const Deadline& /*until*/) override {}
+  void show_dark(const Deadline& /*until*/) override {}
 
  private:
   DisplayInfo info_{.width_px = 1280, .height_px = 800, .refresh_period_ms = 0.0};

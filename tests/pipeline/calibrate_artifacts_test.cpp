@@ -40,10 +40,10 @@ Rig small_angular_rig() {
 class CalibrateArtifacts : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {
-    folder_ = new testing::TemporaryFolder;  // NOLINT(*-owning-memory) deleted below
+    shared_folder = new testing::TemporaryFolder;  // NOLINT(*-owning-memory) deleted below
     const auto render = [](const char* name, const Artifact& artifact, int views, double turn_rad) {
       ArtifactPlan plan;
-      plan.folder = folder_->path() / name;
+      plan.folder = shared_folder->path() / name;
       plan.rig = small_angular_rig();
       plan.artifact = artifact;
       plan.views = views;
@@ -55,35 +55,35 @@ class CalibrateArtifacts : public ::testing::Test {
     render("ball-bar", Balls{40.0, 70.0}, 4, 1.0);
   }
   static void TearDownTestSuite() {
-    delete folder_;  // NOLINT(*-owning-memory)
-    delete found_;   // NOLINT(*-owning-memory)
+    delete shared_folder;  // NOLINT(*-owning-memory)
+    delete shared_result;  // NOLINT(*-owning-memory)
   }
 
   [[nodiscard]] static Scan scan(const char* name) {
-    return read_scan(folder_->path() / name, {}, RigContent::StartValues);
+    return read_scan(shared_folder->path() / name, {}, RigContent::StartValues);
   }
   [[nodiscard]] static Rig truth() {
-    return read_rig(folder_->path() / "plate" / "truth-rig.toml");
+    return read_rig(shared_folder->path() / "plate" / "truth-rig.toml");
   }
   /// What all captures together give, calibrated once: it takes half a minute.
   [[nodiscard]] static const ArtifactCalibration& found() {
-    if (found_ == nullptr) {
-      found_ = new ArtifactCalibration(  // NOLINT(*-owning-memory) deleted with the suite
+    if (shared_result == nullptr) {
+      shared_result = new ArtifactCalibration(  // NOLINT(*-owning-memory) deleted with the suite
           calibrate_artifacts(std::vector{scan("screen"), scan("plate"), scan("ball-bar")}));
     }
-    return *found_;
+    return *shared_result;
   }
   static std::string fault_of(const std::vector<Scan>& scans) {
     return testing::error_of([&] { static_cast<void>(calibrate_artifacts(scans)); });
   }
 
  private:
-  static testing::TemporaryFolder* folder_;
-  static ArtifactCalibration* found_;
+  static testing::TemporaryFolder* shared_folder;
+  static ArtifactCalibration* shared_result;
 };
 
-testing::TemporaryFolder* CalibrateArtifacts::folder_ = nullptr;
-ArtifactCalibration* CalibrateArtifacts::found_ = nullptr;
+testing::TemporaryFolder* CalibrateArtifacts::shared_folder = nullptr;
+ArtifactCalibration* CalibrateArtifacts::shared_result = nullptr;
 
 double degrees_apart(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
   return deg_from_rad(std::atan2(a.cross(b).norm(), a.dot(b)));

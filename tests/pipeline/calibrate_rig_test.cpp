@@ -27,44 +27,45 @@ namespace {
 class CalibrateRig : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {
-    folder_ = new testing::TemporaryFolder;  // NOLINT(*-owning-memory) deleted below
+    shared_folder = new testing::TemporaryFolder;  // NOLINT(*-owning-memory) deleted below
     CalibrationPlan plan;
-    plan.folder = folder_->path() / "poses";
+    plan.folder = shared_folder->path() / "poses";
     plan.rig = rig_preset("digital");
     plan.poses = 6;
     static_cast<void>(simulate_calibration(plan, {.samples_per_px = 4}));
   }
   static void TearDownTestSuite() {
-    delete folder_;  // NOLINT(*-owning-memory)
-    delete found_;   // NOLINT(*-owning-memory)
+    delete shared_folder;  // NOLINT(*-owning-memory)
+    delete shared_result;  // NOLINT(*-owning-memory)
   }
 
   [[nodiscard]] static Scan scan() {
-    return read_scan(folder_->path() / "poses", {}, RigContent::StartValues);
+    return read_scan(shared_folder->path() / "poses", {}, RigContent::StartValues);
   }
   [[nodiscard]] static Rig truth() {
-    return read_rig(folder_->path() / "poses" / "truth-rig.toml");
+    return read_rig(shared_folder->path() / "poses" / "truth-rig.toml");
   }
   /// What the poses give, with the pictures for a report, calibrated once.
   [[nodiscard]] static const RigCalibration& found() {
-    if (found_ == nullptr) {
+    if (shared_result == nullptr) {
       CalibrateRigOptions options;
       options.pose.keep_picture = true;
-      found_ = new RigCalibration(calibrate_rig(scan(), options));  // NOLINT(*-owning-memory)
+      shared_result =
+          new RigCalibration(calibrate_rig(scan(), options));  // NOLINT(*-owning-memory)
     }
-    return *found_;
+    return *shared_result;
   }
   static std::string fault_of(const Scan& scan) {
     return testing::error_of([&] { static_cast<void>(calibrate_rig(scan)); });
   }
 
  private:
-  static testing::TemporaryFolder* folder_;
-  static RigCalibration* found_;
+  static testing::TemporaryFolder* shared_folder;
+  static RigCalibration* shared_result;
 };
 
-testing::TemporaryFolder* CalibrateRig::folder_ = nullptr;
-RigCalibration* CalibrateRig::found_ = nullptr;
+testing::TemporaryFolder* CalibrateRig::shared_folder = nullptr;
+RigCalibration* CalibrateRig::shared_result = nullptr;
 
 TEST_F(CalibrateRig, FindsTheRigThatRenderedThePoses) {
   const RigCalibration& found = CalibrateRig::found();

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <chrono>
 #include <cstring>
 #include <functional>
@@ -40,9 +41,10 @@ class LiveServiceTest : public ::testing::Test {
   [[nodiscard]] Json project() const { return Json::parse(service_.state()).at("project"); }
   [[nodiscard]] bool busy() const {
     const Json state = Json::parse(service_.state());
-    for (const Json& job : state.at("jobs"))
-      if (job.at("state") == "waiting" || job.at("state") == "running") return true;
-    return false;
+    const Json& jobs = state.at("jobs");
+    return std::any_of(jobs.begin(), jobs.end(), [](const Json& job) {
+      return job.at("state") == "waiting" || job.at("state") == "running";
+    });
   }
   [[nodiscard]] static bool wait(const std::function<bool()>& done) {
     for (int i = 0; i < 12'000; ++i) {

@@ -44,9 +44,10 @@ inline Mesh relief() {
   Mesh mesh;
   for (std::uint32_t i = 0; i < kSide * kSide; ++i) {
     const auto x = static_cast<float>(i % kSide);
-    const auto y = static_cast<float>(i / kSide);
+    const std::uint32_t row = i / kSide;
+    const auto y = static_cast<float>(row);
     mesh.vertices_mm.emplace_back(x, y, 8.0F * std::sin(0.1F * x) * std::cos(0.08F * y));
-    if (i % kSide == kSide - 1 || i / kSide == kSide - 1) continue;
+    if (i % kSide == kSide - 1 || row == kSide - 1) continue;
     mesh.triangles.push_back({i, i + 1, i + kSide + 1});
     mesh.triangles.push_back({i, i + kSide + 1, i + kSide});
   }

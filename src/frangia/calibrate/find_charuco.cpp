@@ -52,8 +52,8 @@ std::vector<Prediction> predict(const MarkerCorners& corners, const Board& board
   constexpr float kReach = 1.2F;  // squares; the corners of the two markers that touch an inner one
   std::vector<Prediction> predictions;
   for (int index = 0; index < board.columns * board.rows; ++index) {
-    const cv::Point2f at(static_cast<float>(index % board.columns),
-                         static_cast<float>(index / board.columns));
+    const int row = index / board.columns;
+    const cv::Point2f at(static_cast<float>(index % board.columns), static_cast<float>(row));
     MarkerCorners near;
     for (std::size_t i = 0; i < corners.squares.size(); ++i) {
       if (cv::norm(corners.squares[i] - at) > kReach) continue;

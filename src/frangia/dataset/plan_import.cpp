@@ -90,7 +90,9 @@ std::vector<std::size_t> frames_per_pattern(const std::map<std::string, ImageSeq
                     all,
                     patterns));
   }
-  return std::vector<std::size_t>(patterns, patterns > 0 ? all / patterns : 0);
+  const std::size_t each = patterns > 0 ? all / patterns : 0;
+  counts.assign(patterns, each);
+  return counts;
 }
 
 void check_views(const ImportPlan& plan) {
@@ -144,9 +146,11 @@ void check_cameras(std::vector<std::vector<NamedFile>>& files, ImportPlan& plan,
   }
 }
 
-}  // namespace
-
-ImportPlan plan_import(const fs::path& source, const ImportOptions& options, const Run& run) {
+/// The plan up to the names of its files: folder, rig, patterns that a file describes.
+ImportPlan start_plan(const fs::path& source,
+                      const ImportOptions& options,
+                      const KnownLayout* known,
+                      const Run& run) {
   ImportPlan plan;
   plan.options = options;
   const bool is_file = fs::is_regular_file(source);
@@ -154,9 +158,6 @@ ImportPlan plan_import(const fs::path& source, const ImportOptions& options, con
     refuse_import(fmt::format("{}: is neither a folder nor an image file", source.string()));
   plan.folder = is_file && source.has_parent_path() ? source.parent_path() : source;
   if (is_file && !source.has_parent_path()) plan.folder = ".";
-  const KnownLayout* const known = options.layout.empty() ? nullptr : find_layout(options.layout);
-  if (!options.layout.empty() && known == nullptr)
-    refuse_import(fmt::format("`layout` is \"{}\", which is unknown", options.layout));
   find_rig(plan, run);
   if (!options.patterns.empty())
     plan.patterns = read_patterns_file(options.patterns, plan.rig, run);
@@ -167,6 +168,16 @@ ImportPlan plan_import(const fs::path& source, const ImportOptions& options, con
     plan.names = guess_name_template(images_below(plan.folder, options.files.raw.has_value()));
     plan.guessed = true;
   }
+  return plan;
+}
+
+}  // namespace
+
+ImportPlan plan_import(const fs::path& source, const ImportOptions& options, const Run& run) {
+  const KnownLayout* const known = options.layout.empty() ? nullptr : find_layout(options.layout);
+  if (!options.layout.empty() && known == nullptr)
+    refuse_import(fmt::format(R"(`layout` is "{}", which is unknown)", options.layout));
+  ImportPlan plan = start_plan(source, options, known, run);
   std::vector<std::string> described;
   for (const Pattern& pattern : plan.patterns)
     described.push_back(pattern.name);
@@ -178,7 +189,7 @@ ImportPlan plan_import(const fs::path& source, const ImportOptions& options, con
     of_cameras.push_back(sequences_of(files[i]));
     if (of_cameras[i].size() == of_cameras[0].size()) continue;
     refuse_import(fmt::format(
-        "camera \"{}\" has {} views, but camera \"{}\" has {}; each camera takes all views",
+        R"(camera "{}" has {} views, but camera "{}" has {}; each camera takes all views)",
         plan.cameras[i].name,
         of_cameras[i].size(),
         plan.cameras[0].name,

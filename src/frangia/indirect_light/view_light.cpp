@@ -60,12 +60,14 @@ ViewLight::Grid ViewLight::grid(int step_px, const View& view) const {
       const int y = std::min(row * step_px, rays_.height() - 1);
       if (!grids_.empty() && !grids_.back().touches_varying(x, y)) continue;
       if (!is_measured_near(view.range.depth_mm, x, y, step_px)) continue;
-      out.nodes[static_cast<std::size_t>(row * out.columns + column)] = trace(x, y);
+      const int node = row * out.columns + column;
+      out.nodes[static_cast<std::size_t>(node)] = trace(x, y);
     }
   });
   parallel_rows(out.rows - 1, [&](int row) {
     for (int column = 0; column + 1 < out.columns; ++column) {
-      const auto cell = static_cast<std::size_t>(row * out.columns + column);
+      const int number = row * out.columns + column;
+      const auto cell = static_cast<std::size_t>(number);
       const bool within_smooth =
           !grids_.empty() &&
           grids_.back().varies[grids_.back().cell_of(column * step_px, row * step_px)] == 0;
@@ -76,7 +78,8 @@ ViewLight::Grid ViewLight::grid(int step_px, const View& view) const {
 }
 
 std::size_t ViewLight::Grid::cell_of(int x, int y) const {
-  return static_cast<std::size_t>((y / step_px) * columns + x / step_px);
+  const int cell = y / step_px * columns + x / step_px;
+  return static_cast<std::size_t>(cell);
 }
 
 const ViewLight::Node& ViewLight::Grid::corner(std::size_t cell, int number) const {

@@ -30,6 +30,7 @@ struct CameraRays {
 
  private:
   std::shared_ptr<const Image<Eigen::Vector2f>> shared_;
+  // NOLINTNEXTLINE(modernize-pass-by-value): moving a camera model copies it
   CameraRays(const CameraModel& camera, std::shared_ptr<const Image<Eigen::Vector2f>> shared)
       : model(camera), shared_(std::move(shared)), rays(*shared_) {}
 

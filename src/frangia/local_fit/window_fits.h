@@ -78,8 +78,8 @@ class WindowFits {
   }
 
   int width_;
-  std::unique_ptr<float[]>
-      values_;  // NOLINT(*-avoid-c-arrays): a vector would be initialized twice
+  // NOLINTNEXTLINE(*-avoid-c-arrays): a vector would be initialized twice
+  std::unique_ptr<float[]> values_;
 };
 
 }  // namespace frangia

@@ -164,7 +164,7 @@ class GrayCodeSample {
     }
     return true;
   }
-  [[nodiscard]] std::uint32_t stripe_of(const GrayTrial& trial, const CodedPixel& pixel) const {
+  [[nodiscard]] static std::uint32_t stripe_of(const GrayTrial& trial, const CodedPixel& pixel) {
     std::uint32_t code = 0;
     for (int bit = 0; bit < trial.code.bits; ++bit) {
       const auto declared = static_cast<std::size_t>(frame_of_bit(trial.code, bit, false));

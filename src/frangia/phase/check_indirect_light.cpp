@@ -90,6 +90,47 @@ double median_modulation(const WrappedPhase& map) {
   return values.empty() ? 0.0 : static_cast<double>(median_in_place(std::span(values)));
 }
 
+/// How a pattern disagrees with the finest one beyond the noise.
+struct Disagreement {
+  double affected = 0.0;  ///< share of the pixels that decide it
+  double rms_rad = 0.0;   ///< over these
+};
+
+/// Compares a pattern with the finest one, and raises `square` to the squares of what they disagree
+/// by, in phases of the finest one.
+Disagreement compare(const WrappedPhase& map, const AbsolutePhase& phase, Image<float>& square) {
+  const double ratio = map.pattern.fringes_per_unit() / phase.pattern.fringes_per_unit();
+  const Image<float> disagreement = disagreement_of(map, phase);
+  double decided = 0.0;
+  double affected = 0.0;
+  double sum = 0.0;
+  for (std::size_t i = 0; i < square.pixels().size(); ++i) {
+    const auto found = static_cast<double>(disagreement.pixels()[i]);
+    if (std::isnan(found)) continue;
+    decided += 1.0;
+    if (found == 0.0) continue;
+    affected += 1.0;
+    sum += found;
+    float& all = square.pixels()[i];
+    all = std::max(all, static_cast<float>(found * ratio));
+  }
+  if (affected == 0.0) return {};
+  return {affected / decided, std::sqrt(sum / affected)};
+}
+
+/// Adds squares to the systematic part of a phase.
+void add_systematic(const Image<float>& square, AbsolutePhase& phase) {
+  phase.differing_share = 0.0F;  // indirect light is much alike in neighbouring views
+  if (phase.systematic_rad.empty())
+    phase.systematic_rad = Image<float>(square.width(), square.height(), 0.0F);
+  for (std::size_t i = 0; i < square.pixels().size(); ++i) {
+    float& systematic = phase.systematic_rad.pixels()[i];
+    const float known = std::isnan(systematic) ? 0.0F : systematic;
+    const bool measured = !std::isnan(phase.phase_rad.pixels()[i]);
+    systematic = measured ? std::sqrt(known * known + square.pixels()[i]) : kMissing;
+  }
+}
+
 }  // namespace
 
 IndirectLightCheck check_indirect_light(std::span<const WrappedPhase> coarse_to_fine,
@@ -106,47 +147,23 @@ IndirectLightCheck check_indirect_light(std::span<const WrappedPhase> coarse_to_
   if (coarse > 0.0) out.modulation_ratio = median_modulation(coarse_to_fine.back()) / coarse;
   Image<float> square(phase.phase_rad.width(), phase.phase_rad.height(), 0.0F);
   for (const WrappedPhase& map : coarse_to_fine.first(coarse_to_fine.size() - 1)) {
-    const double ratio = map.pattern.fringes_per_unit() / phase.pattern.fringes_per_unit();
-    const Image<float> disagreement = disagreement_of(map, phase);
-    double decided = 0.0;
-    double affected = 0.0;
-    double sum = 0.0;
-    for (std::size_t i = 0; i < square.pixels().size(); ++i) {
-      const auto found = static_cast<double>(disagreement.pixels()[i]);
-      if (std::isnan(found)) continue;
-      decided += 1.0;
-      if (found == 0.0) continue;
-      affected += 1.0;
-      sum += found;
-      float& all = square.pixels()[i];
-      all = std::max(all, static_cast<float>(found * ratio));
-    }
-    if (affected == 0.0) continue;
-    const double rms = std::sqrt(sum / affected);
-    if (affected / decided < kFound || rms < material_rad || rms < out.disagreement_rad) continue;
+    const Disagreement one = compare(map, phase, square);
+    if (one.affected < kFound || one.rms_rad < material_rad) continue;
+    if (one.rms_rad < out.disagreement_rad) continue;
     out.found = true;
-    out.affected = affected / decided;
-    out.disagreement_rad = rms;
+    out.affected = one.affected;
+    out.disagreement_rad = one.rms_rad;
     out.pattern = map.pattern.name;
   }
-  if (!out.found) return out;
-  phase.differing_share = 0.0F;  // indirect light is much alike in neighbouring views
-  if (phase.systematic_rad.empty())
-    phase.systematic_rad = Image<float>(square.width(), square.height(), 0.0F);
-  for (std::size_t i = 0; i < square.pixels().size(); ++i) {
-    float& systematic = phase.systematic_rad.pixels()[i];
-    const float known = std::isnan(systematic) ? 0.0F : systematic;
-    const bool measured = !std::isnan(phase.phase_rad.pixels()[i]);
-    systematic = measured ? std::sqrt(known * known + square.pixels()[i]) : kMissing;
-  }
+  if (out.found) add_systematic(square, phase);
   return out;
 }
 
 std::string describe(const IndirectLightCheck& check) {
   return fmt::format(
       "pattern \"{}\" disagrees with the finest one by {:.3f} rad at {:.0f} % of the pixels, "
-      "beyond "
-      "their noise: indirect light (a concave part that lights itself, or scattering below the "
+      "beyond their "
+      "noise: indirect light (a concave part that lights itself, or scattering below the "
       "surface; the finest fringes have {:.0f} % of the modulation of the coarsest); it is counted "
       "in sigma; project only fine fringes, as a plan for indirect light proposes",
       check.pattern,

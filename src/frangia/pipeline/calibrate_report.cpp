@@ -148,19 +148,21 @@ void add_poses(const RigCalibration& result, std::string& html) {
 
 /// Share of the cells of a grid over the image that hold a point.
 double coverage_of(const RigCalibration& result, const CameraModel& model) {
-  constexpr int kColumns = 8;
-  constexpr int kRows = 6;
+  constexpr std::size_t kColumns = 8;
+  constexpr std::size_t kRows = 6;
   std::array<bool, kColumns * kRows> seen{};
+  const auto cell = [](double share, std::size_t cells) {
+    const double place = share * static_cast<double>(cells);
+    return static_cast<std::size_t>(std::clamp(place, 0.0, static_cast<double>(cells - 1)));
+  };
   for (const BoardView& view : result.views) {
     for (const BoardPoint& point : view.points) {
-      const int column = std::clamp(
-          static_cast<int>(point.camera_px.x() / model.width_px * kColumns), 0, kColumns - 1);
-      const int row =
-          std::clamp(static_cast<int>(point.camera_px.y() / model.height_px * kRows), 0, kRows - 1);
-      seen.at(static_cast<std::size_t>(row * kColumns + column)) = true;
+      const std::size_t column = cell(point.camera_px.x() / model.width_px, kColumns);
+      const std::size_t row = cell(point.camera_px.y() / model.height_px, kRows);
+      seen.at(row * kColumns + column) = true;
     }
   }
-  return static_cast<double>(std::count(seen.begin(), seen.end(), true)) / (kColumns * kRows);
+  return static_cast<double>(std::count(seen.begin(), seen.end(), true)) / seen.size();
 }
 
 /// Outlines of the boards in the camera image.

@@ -65,7 +65,7 @@ bool register_setup(MeasuredSetup& setup,
   if (options.register_views) {
     if (options.indirect_light) {
       indirect_light =
-          correct_before_registration(measured, scan, rays, options.decode, options.fusion, run);
+          correct_before_registration(measured, {scan, rays, options.decode}, options.fusion, run);
     }
     setup.registration = register_views(measured.views,
                                         camera,
@@ -103,6 +103,40 @@ ViewMotions motions_of_views(const MeasuredSetup& joined,
   alone.sigma = sigma_of(*rig.turntable, options.registration, rig.turntable->point_mm.norm());
   run.warn("the views are not registered; " + alone.rig_alone_text());
   return motions_of_rig({*rig.turntable, stations}, alone.sigma);
+}
+
+/// What the registered views of all setups form.
+struct RegisteredViews {
+  MeasuredSetup joined;
+  bool indirect_light = false;  ///< was found before the registration
+};
+
+/// Views -> one surface, with its points and colors.
+Mesh fuse_registered(RegisteredViews& registered,
+                     const Scan& scan,
+                     const Image<Eigen::Vector2f>& rays,
+                     const ReconstructOptions& options,
+                     Reconstruction& out,
+                     const Run& run) {
+  run.stage("surface");
+  MeasuredSetup& joined = registered.joined;
+  const MeasuredViews& all = joined.measured;
+  FusionOptions fusion = options.fusion;
+  fusion.add_systematic = calibration_part(all.views, scan.rig, all.coarsest, rays);
+  const std::vector<CameraViews> cameras = views_of_cameras(all, scan.rig);
+  Mesh fused = fuse_views(cameras, fusion, run);
+  if (options.indirect_light && registered.indirect_light && cameras.size() == 1) {
+    out.indirect_light =
+        correct_indirect_light(fused, joined.measured, {scan, rays, options.decode}, fusion, run);
+  }
+  const ViewMotions motions = motions_of_views(joined, scan.rig, options, run);
+  const bool turntable_counts = add_turntable_part(fused, cameras, motions, run);
+  if (options.keep_raw) {
+    out.raw = collect_points_of_cameras(all, scan.rig, run, fusion.add_systematic);
+    if (turntable_counts) add_turntable_part(out.raw, cameras, motions, run);
+  }
+  color_vertices(fused, cameras, run);
+  return fused;
 }
 
 /// Refines the rig and reconstructs with it from the frames on.
@@ -175,23 +209,8 @@ Reconstruction reconstruct(const Scan& scan, const ReconstructOptions& options, 
     out.setup_points = points_of_setups(joined, scan.rig, options.keep_points_of_setups, run);
 
   // Views -> one surface -> finished mesh.
-  run.stage("surface");
-  const MeasuredViews& all = joined.measured;
-  FusionOptions fusion = options.fusion;
-  fusion.add_systematic = calibration_part(all.views, scan.rig, all.coarsest, rays);
-  const std::vector<CameraViews> cameras = views_of_cameras(all, scan.rig);
-  Mesh fused = fuse_views(cameras, fusion, run);
-  if (options.indirect_light && indirect_light && cameras.size() == 1) {
-    out.indirect_light =
-        correct_indirect_light(fused, joined.measured, scan, rays, options.decode, fusion, run);
-  }
-  const ViewMotions motions = motions_of_views(joined, scan.rig, options, run);
-  const bool turntable_counts = add_turntable_part(fused, cameras, motions, run);
-  if (options.keep_raw) {
-    out.raw = collect_points_of_cameras(all, scan.rig, run, fusion.add_systematic);
-    if (turntable_counts) add_turntable_part(out.raw, cameras, motions, run);
-  }
-  color_vertices(fused, cameras, run);
+  RegisteredViews registered{std::move(joined), indirect_light};
+  Mesh fused = fuse_registered(registered, scan, rays, options, out, run);
   out.mesh = finish_mesh(std::move(fused), options.finish, run);
   if (out.mesh.triangles.empty()) {
     throw Error(ErrorKind::Input,

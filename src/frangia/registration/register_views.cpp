@@ -12,7 +12,7 @@
 #include "frangia/registration/internal/assess_fit.h"
 #include "frangia/registration/internal/assess_observability.h"
 #include "frangia/registration/internal/assess_places.h"
-#include "frangia/registration/internal/find_moved_view.h"
+#include "frangia/registration/internal/leave_out_views.h"
 #include "frangia/registration/internal/make_bundle.h"
 #include "frangia/registration/internal/state_motions.h"
 
@@ -56,57 +56,6 @@ bool has_slid(const Bundle& bundle, const SurfelLists& surfels, double found_con
   return found_contradiction > contradiction_of(sum(as_given, surfels), surfels) + kMore;
 }
 
-/// A registration in progress.
-struct Registration {
-  Bundle bundle;
-  SurfelLists surfels;
-  double reach_mm;
-  ViewStore& views;
-  std::span<const Station> stations;
-  const RegisterOptions& options;
-  const Run& run;
-
-  [[nodiscard]] std::string name_of(std::size_t view) const {
-    return stations[view].name.empty() ? std::to_string(view) : stations[view].name;
-  }
-  void optimize_again() {
-    bundle.state = bundle.given;
-    bundle.gate_mm = reach_mm;
-    optimize_bundle(bundle, surfels, options.max_iterations, run);
-  }
-  void leave_out(std::size_t view) {
-    views.clear(view);
-    surfels[view].clear();
-    for (auto& surfel : bundle.maps[view].surfels.pixels())
-      surfel = {};
-  }
-};
-
-/// Leaves out views of a moved part one by one, as long as the others then agree better.
-void leave_out_moved(RegistrationReport& report, Registration& work) {
-  if (!work.bundle.state.part_poses.empty()) return;  // done for each setup by itself
-  const MovedViewOptions how{.reach_mm = work.reach_mm,
-                             .max_iterations = work.options.max_iterations};
-  while (2 * (report.outliers.size() + 1) < work.views.size()) {
-    const auto moved = find_moved_view(work.bundle, work.surfels, how, work.run);
-    if (!moved) return;
-    const std::string name = work.name_of(moved->view);
-    work.run.warn(
-        moved->alternative
-            ? fmt::format("views {} and {} contradict each other, and the other views fit either: "
-                          "{} is left out; check whether the part moved between the two",
-                          name,
-                          work.name_of(*moved->alternative),
-                          name)
-            : fmt::format("view {} contradicts the others, which agree better without it, and is "
-                          "left out: check whether the part moved before it was taken",
-                          name));
-    report.outliers.push_back(moved->view);
-    work.leave_out(moved->view);
-    work.optimize_again();
-  }
-}
-
 /// Marks a report whose views contradict each other although no single view explains it.
 void assess_contradiction(RegistrationReport& report,
                           const BundleSums& sums,
@@ -146,6 +95,22 @@ void warn_of_uncertain_axis(const RegistrationReport& report,
 void report_fit(RegistrationReport& report, const BundleSums& sums) {
   report.rms_after_mm = rms_of(sums.distances_mm);
   report.closure_after_rad = closure_rad(sums);
+}
+
+/// Reports views that do not overlap, so that the rig alone places them.
+void report_rig_alone(RegistrationReport& report, const BundleSums& sums, Registration& work) {
+  assess_contradiction(report, sums, work);
+  const Eigen::VectorXd none = Eigen::VectorXd::Zero(work.bundle.state.unknowns());
+  assess_places(report, work.bundle, sums, work.options, Overlap::SaysNothing, none);
+  const std::string untrusted = report.untrusted_reason();
+  work.run.warn((untrusted.empty() ? "the views do not overlap" : untrusted) + "; " +
+                report.rig_alone_text());
+}
+
+void report_sums(RegistrationReport& report, const BundleSums& sums, const Registration& work) {
+  assess_contradiction(report, sums, work);
+  report_fit(report, sums);
+  report.overlap = overlap_of(sums, work.surfels);
 }
 
 }  // namespace
@@ -191,33 +156,18 @@ RegistrationReport register_views(ViewStore& views,
   report.closure_before_rad = closure_rad(before);
   report.overlap = overlap_of(before, surfels);
   if (report.overlap < kMinOverlap) {
-    assess_contradiction(report, before, work);
-    const Eigen::VectorXd none = Eigen::VectorXd::Zero(start.unknowns());
-    assess_places(report, bundle, before, options, Overlap::SaysNothing, none);
-    const std::string untrusted = report.untrusted_reason();
-    run.warn((untrusted.empty() ? "the views do not overlap" : untrusted) + "; " +
-             report.rig_alone_text());
+    report_rig_alone(report, before, work);
     return report;
   }
   optimize_bundle(bundle, surfels, options.max_iterations, run);
   run.report(0.7);
-  report.outliers = find_outliers(sum(bundle, surfels), options.outlier_overlap);
-  for (const std::size_t view : report.outliers) {
-    run.warn(
-        fmt::format("view {} fits no other view and is left out: check whether the part moved "
-                    "before it was taken",
-                    work.name_of(view)));
-    work.leave_out(view);
-  }
-  if (!report.outliers.empty()) work.optimize_again();
+  leave_out_outliers(report, work);
   leave_out_moved(report, work);
   surfels = pick_all_surfels(bundle.maps, many_surfels);
   optimize_bundle(bundle, surfels, options.max_iterations, run);
   run.report(0.9);
   const BundleSums after = sum(bundle, surfels);
-  assess_contradiction(report, after, work);
-  report_fit(report, after);
-  report.overlap = overlap_of(after, surfels);
+  report_sums(report, after, work);
   report.iterations = bundle.iterations;
   const bool slid = has_slid(bundle, surfels, report.contradiction);
   report.kept_rig = slid || fits_as_well(bundle, surfels, after, options.as_good_as_given);
@@ -227,9 +177,7 @@ RegistrationReport register_views(ViewStore& views,
     if (!slid) offset = deviation(bundle.state, bundle.given);
     bundle.state = bundle.given;
     final_sums = sum(bundle, surfels);
-    assess_contradiction(report, final_sums, work);
-    report_fit(report, final_sums);
-    report.overlap = overlap_of(final_sums, surfels);
+    report_sums(report, final_sums, work);
   }
   assess_places(report,
                 bundle,

@@ -25,18 +25,32 @@ Mesh patch_of(const Mesh& mesh, std::size_t triangles) {
   return patch;
 }
 
+/// A folder that ends with this object.
+class SampleFolder {
+ public:
+  SampleFolder() {
+    std::string pattern = (std::filesystem::temp_directory_path() / "frangia-size-XXXXXX").string();
+    if (mkdtemp(pattern.data()) == nullptr)
+      throw Error(ErrorKind::File, fmt::format("{}: cannot be created", pattern));
+    path_ = pattern;
+  }
+  SampleFolder(const SampleFolder&) = delete;
+  SampleFolder& operator=(const SampleFolder&) = delete;
+  SampleFolder(SampleFolder&&) = delete;
+  SampleFolder& operator=(SampleFolder&&) = delete;
+  ~SampleFolder() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path_, ignored);
+  }
+  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
 double bytes_of(const Mesh& mesh, const std::string& format, const WriteOptions& options) {
-  std::string pattern = (std::filesystem::temp_directory_path() / "frangia-size-XXXXXX").string();
-  if (mkdtemp(pattern.data()) == nullptr)
-    throw Error(ErrorKind::File, fmt::format("{}: cannot be created", pattern));
-  struct Folder {
-    std::filesystem::path path;
-    ~Folder() {
-      std::error_code ignored;
-      std::filesystem::remove_all(path, ignored);
-    }
-  } const folder{pattern};
-  const auto path = folder.path / ("sample." + format);
+  const SampleFolder folder;
+  const auto path = folder.path() / ("sample." + format);
   write_mesh(path, mesh, options);
   return static_cast<double>(std::filesystem::file_size(path));
 }

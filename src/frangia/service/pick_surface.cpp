@@ -37,7 +37,8 @@ double meet(const PickRay& ray,
   const double v = ray.direction.dot(q) / determinant;
   if (!(v >= 0.0 && u + v <= 1.0)) return kNowhere;
   const double along = ac.dot(q) / determinant;
-  return along > 0.0 ? along : kNowhere;
+  if (!(along > 0.0)) return kNowhere;
+  return along;
 }
 
 }  // namespace

@@ -262,8 +262,8 @@ void Service::add_to_reference(std::size_t offset, const std::string& bytes) {
   implementation_->add_to_reference(offset, bytes);
 }
 
-std::string Service::pick(const std::string& text) const {
-  CommandArguments arguments(text);
+std::string Service::pick(const std::string& ray_json) const {
+  CommandArguments arguments(ray_json);
   const auto vector = [&](const char* key) {
     const auto values = arguments.numbers(key, 3);
     return Eigen::Vector3d(values[0], values[1], values[2]);

@@ -120,7 +120,7 @@ class Service {
   /// a JSON object with "eye", "direction" and, if something is cut away, "section".
   ///
   /// @errors   Error(Input) that names what is missing
-  [[nodiscard]] std::string pick(const std::string& ray) const;
+  [[nodiscard]] std::string pick(const std::string& ray_json) const;
   /// The points of a station as encode_points packs them; empty without any.
   [[nodiscard]] std::string cloud(std::size_t station) const;
   /// The registered points of a joined setup, counted from 0, as encode_points packs them; empty

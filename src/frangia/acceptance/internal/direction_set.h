@@ -48,7 +48,8 @@ class DirectionSet {
         .matrix();
   }
   static std::size_t index(const Eigen::Vector3i& at) {
-    return static_cast<std::size_t>((at.z() * kAcross + at.y()) * kAcross + at.x());
+    const int cell = (at.z() * kAcross + at.y()) * kAcross + at.x();
+    return static_cast<std::size_t>(cell);
   }
   std::vector<std::vector<Eigen::Vector3d>> cells_;
   double least_cosine_;

@@ -49,7 +49,7 @@ class CaptureDevices {
   /// Captures a frame of a camera, 0 for the reference camera, and repeats the exposure while it
   /// arrives incomplete.
   /// @errors   Error(Device), also when all `frame_attempts` frames are incomplete
-  [[nodiscard]] CompleteFrame capture(const FrameLabel& label, std::size_t camera = 0);
+  [[nodiscard]] CompleteFrame capture(const FrameLabel& label, std::size_t number = 0);
 
   /// Switches all lights off after a fault, and motion unless the table is at rest at a known
   /// angle.

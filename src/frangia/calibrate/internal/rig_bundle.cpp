@@ -15,8 +15,11 @@ constexpr double kHuber = 3.0;  // standard deviations
 
 void fix(ceres::Problem& problem, double* block, int size, const RigFreedom& freedom, int first) {
   std::vector<int> constant;
-  for (int i = 0; i < size; ++i)
-    if (!freedom.free[static_cast<std::size_t>(first + i)]) constant.push_back(i);
+  for (int i = 0; i < size; ++i) {
+    if (!freedom.free[static_cast<std::size_t>(first) + static_cast<std::size_t>(i)]) {
+      constant.push_back(i);
+    }
+  }
   if (constant.size() == static_cast<std::size_t>(size)) {
     problem.SetParameterBlockConstant(block);
   } else if (!constant.empty()) {

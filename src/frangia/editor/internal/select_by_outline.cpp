@@ -9,8 +9,8 @@
 
 #include <Eigen/Geometry>
 
-#include "frangia/core/error.h"
 #include "frangia/core/parallel.h"
+#include "frangia/editor/internal/outline_plane.h"
 #include "frangia/geometry/ray_scene.h"
 
 namespace frangia {
@@ -21,71 +21,6 @@ using Eigen::Vector3d;
 using Eigen::Vector3f;
 
 constexpr std::size_t kOutlineChunk = 4096;
-constexpr double kRoundingOfRays =
-    1e-4;  // Embree searches in single precision; share of the outline
-
-/// Projection from the eye to a plane at distance 1.
-class OutlinePlane {
- public:
-  explicit OutlinePlane(const ViewedOutline& outline) : eye_mm_(outline.eye_mm) {
-    require(outline.corners_mm.size() >= 3, "an outline has at least 3 corners; draw a larger one");
-    Vector3d sum = Vector3d::Zero();
-    for (const Vector3d& corner : outline.corners_mm)
-      sum += (corner - eye_mm_).normalized();
-    constexpr double kShortest = 1e-9;  // the directions cancel, or a corner is the eye
-    require(sum.allFinite() && sum.norm() > kShortest,
-            "the corners of the outline lie around the eye; move the eye away from them");
-    axis_ = sum.normalized();
-    across_ = axis_.unitOrthogonal();
-    up_ = axis_.cross(across_);
-    for (const Vector3d& corner : outline.corners_mm) {
-      require((corner - eye_mm_).dot(axis_) > 0.0,
-              "a corner of the outline lies behind the eye; draw a smaller outline");
-      corners_.push_back(project(corner));
-      box_.extend(corners_.back());
-    }
-    const Vector2d margin = Vector2d::Constant(kRoundingOfRays * box_.sizes().maxCoeff());
-    wide_ = {(box_.min() - margin).cast<float>(), (box_.max() + margin).cast<float>()};
-  }
-
-  /// Where a point appears, and its depth, which is not positive behind the eye.
-  [[nodiscard]] Vector3f appearance(const Vector3d& point_mm) const {
-    const double depth = (point_mm - eye_mm_).dot(axis_);
-    if (!(depth > 0.0)) return {0.0F, 0.0F, -1.0F};
-    const Vector2d p = project(point_mm);
-    return Vector3d(p.x(), p.y(), depth).cast<float>();
-  }
-
-  /// The box of the outline, with a margin for rays in single precision.
-  [[nodiscard]] const Eigen::AlignedBox2f& box() const { return wide_; }
-
-  /// Whether a point is in front of the eye and appears within the outline.
-  [[nodiscard]] bool contains(const Vector3d& point_mm) const {
-    if (!((point_mm - eye_mm_).dot(axis_) > 0.0)) return false;
-    const Vector2d p = project(point_mm);
-    if (!box_.contains(p)) return false;
-    bool inside = false;
-    for (std::size_t i = 0, j = corners_.size() - 1; i < corners_.size(); j = i++) {
-      const Vector2d& a = corners_[i];
-      const Vector2d& b = corners_[j];
-      if ((a.y() > p.y()) == (b.y() > p.y())) continue;
-      if (p.x() < a.x() + (b.x() - a.x()) * (p.y() - a.y()) / (b.y() - a.y())) inside = !inside;
-    }
-    return inside;
-  }
-
- private:
-  [[nodiscard]] Vector2d project(const Vector3d& point_mm) const {
-    const Vector3d d = point_mm - eye_mm_;
-    return Vector2d(d.dot(across_), d.dot(up_)) / d.dot(axis_);
-  }
-
-  Vector3d eye_mm_;
-  Vector3d axis_, across_, up_;
-  std::vector<Vector2d> corners_;
-  Eigen::AlignedBox2d box_;
-  Eigen::AlignedBox2f wide_;
-};
 
 /// How a triangle appears.
 struct Appearance {
@@ -177,6 +112,49 @@ Occluders part_of(const Mesh& mesh, const Selection& kept) {
   return part;
 }
 
+constexpr int kCorners = 3;
+
+Vector3d centroid_of(const Mesh& mesh, std::size_t triangle) {
+  const auto& [a, b, c] = mesh.triangles[triangle];
+  return (mesh.vertices_mm[a].cast<double>() + mesh.vertices_mm[b].cast<double>() +
+          mesh.vertices_mm[c].cast<double>()) /
+         3.0;
+}
+
+/// Takes triangles out of the selection that others hide from the eye. `hiding`: triangles that
+/// appear near the outline.
+void keep_visible(const Mesh& mesh,
+                  const OutlinePlane& plane,
+                  const std::vector<Vector3f>& seen,
+                  Selection hiding,
+                  Selection& selection,
+                  const Run& run) {
+  const std::size_t count = mesh.triangles.size();
+  DepthMap depths(plane.box());
+  for (std::size_t i = 0; i < count; ++i) {
+    if (selection[i] != 0) depths.add(plane.appearance(centroid_of(mesh, i)));
+  }
+  parallel_chunks(count, kOutlineChunk, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      if (hiding[i] == 0) continue;
+      const Appearance triangle = appearance_of(mesh.triangles[i], seen);
+      if (triangle.before == kCorners && !depths.may_hide(triangle)) hiding[i] = 0;
+    }
+  });
+  Occluders part = part_of(mesh, hiding);
+  const RayScene scene(std::move(part.mesh), run);
+  parallel_chunks(count, kOutlineChunk, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      if (selection[i] == 0) continue;
+      // The first surface on the way from the eye is the triangle itself, up to rounding.
+      constexpr double kRounding = 1e-5;
+      const auto hit = scene.first_hit(plane.eye_mm(), centroid_of(mesh, i) - plane.eye_mm());
+      selection[i] =
+          hit && part.triangle[hit->triangle] != i && hit->distance < 1.0 - kRounding ? 0 : 1;
+    }
+  });
+}
+
 }  // namespace
 
 Selection select_by_outline(const Mesh& mesh,
@@ -195,7 +173,6 @@ Selection select_by_outline(const Mesh& mesh,
   const std::size_t count = mesh.triangles.size();
   Selection selection(count);
   Selection hiding(count);  // whether a triangle appears within the box of the outline
-  constexpr int kCorners = 3;
   parallel_chunks(count, kOutlineChunk, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const Appearance triangle = appearance_of(mesh.triangles[i], seen);
@@ -204,7 +181,7 @@ Selection select_by_outline(const Mesh& mesh,
       if (!near) continue;
       hiding[i] = 1;
       const auto& [a, b, c] = mesh.triangles[i];
-      const Vector3d centroid = (corner(a) + corner(b) + corner(c)) / 3.0;
+      const Vector3d centroid = centroid_of(mesh, i);
       const bool faces =
           (corner(b) - corner(a)).cross(corner(c) - corner(a)).dot(outline.eye_mm - centroid) > 0.0;
       selection[i] = (faces || !visible_only) && plane.contains(centroid) ? 1 : 0;
@@ -212,33 +189,8 @@ Selection select_by_outline(const Mesh& mesh,
   });
   if (!visible_only || count_selected(selection) == 0) return selection;
   run.check();
-  DepthMap depths(plane.box());
-  for (std::size_t i = 0; i < count; ++i) {
-    if (selection[i] == 0) continue;
-    const auto& [a, b, c] = mesh.triangles[i];
-    depths.add(plane.appearance((corner(a) + corner(b) + corner(c)) / 3.0));
-  }
-  parallel_chunks(count, kOutlineChunk, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      if (hiding[i] == 0) continue;
-      const Appearance triangle = appearance_of(mesh.triangles[i], seen);
-      if (triangle.before == kCorners && !depths.may_hide(triangle)) hiding[i] = 0;
-    }
-  });
-  Occluders part = part_of(mesh, hiding);
-  const RayScene scene(std::move(part.mesh), run);
-  parallel_chunks(count, kOutlineChunk, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      if (selection[i] == 0) continue;
-      const auto& [a, b, c] = mesh.triangles[i];
-      const Vector3d centroid = (corner(a) + corner(b) + corner(c)) / 3.0;
-      // The first surface on the way from the eye is the triangle itself, up to rounding.
-      constexpr double kRounding = 1e-5;
-      const auto hit = scene.first_hit(outline.eye_mm, centroid - outline.eye_mm);
-      selection[i] =
-          hit && part.triangle[hit->triangle] != i && hit->distance < 1.0 - kRounding ? 0 : 1;
-    }
-  });
+  run.check();
+  keep_visible(mesh, plane, seen, std::move(hiding), selection, run);
   return selection;
 }
 

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 #include "frangia/frames/frame_stack.h"
@@ -15,10 +16,10 @@ namespace frangia {
 class CombinedHarmonics {
  public:
   /// Finds the harmonics; there are none for fewer than four frames.
-  CombinedHarmonics(const FrameStack& stack, const std::vector<double>& weights)
+  CombinedHarmonics(const FrameStack& stack, std::vector<double> weights)
       : fit_(least_squares(stack.pattern.shifts_rad)),
         shifts_(stack.pattern.shifts_rad),
-        weights_(weights) {
+        weights_(std::move(weights)) {
     if (shifts_.size() < 4) return;
     // The noise is not known yet; the scatter of the residuals decides.
     constexpr std::size_t kHarmonicSamples = 10'000;

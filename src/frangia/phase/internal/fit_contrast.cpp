@@ -17,15 +17,15 @@
 namespace frangia {
 namespace {
 
-constexpr int kContrastPhases =
-    192;  ///< projected phases per fringe at which the model is computed
+/// Projected phases per fringe at which the model is computed.
+constexpr int kContrastPhases = 192;
 constexpr int kContrastIterations = 6;  ///< the second one changes a harmonic of 20 % by 2 %
 constexpr double kMaxAmplitude = 0.45;  ///< two phases would measure alike above 0.5
 /// Third harmonic of a projector whose response is not a power law: standard deviation, relative to
 /// the fundamental.
 constexpr double kPriorThird = 0.01;
-constexpr double kMinRippleSigmas =
-    5.0;                              ///< least ripple of the mean that is not texture, in sigmas
+/// Least ripple of the mean that is not texture, in sigmas.
+constexpr double kMinRippleSigmas = 5.0;
 constexpr double kMinRipple = 0.008;  ///< least ripple of the mean that is not texture, relative
 constexpr int kMinTiles = 6;          ///< fewer do not give a scatter
 constexpr double kConvergedChange = 1e-5;   ///< far below the sigma of a harmonic
@@ -38,13 +38,13 @@ using Matrix4 = Eigen::Matrix4d;
 class ContrastModel {
  public:
   ContrastModel(const std::vector<double>& shifts_rad,
-                const FringeWaveform& known,
+                FringeWaveform known,
                 int order,
                 double mean_over_modulation,
                 std::optional<std::complex<double>> third)
       : fit_(least_squares(shifts_rad)),
         shifts_(shifts_rad),
-        waveform_(known),
+        waveform_(std::move(known)),
         order_(static_cast<std::size_t>(order)),
         mean_(mean_over_modulation),
         third_(third) {
@@ -85,7 +85,7 @@ class ContrastModel {
         wanted += kTwoPi;
       while (wanted > measured.back())
         wanted -= kTwoPi;
-      const auto above = std::lower_bound(measured.begin() + 1, measured.end() - 1, wanted);
+      const auto* const above = std::lower_bound(measured.begin() + 1, measured.end() - 1, wanted);
       const auto k = static_cast<std::size_t>(above - measured.begin());
       const double width = std::max(measured[k] - measured[k - 1], 1e-9);
       const double within = std::clamp((wanted - measured[k - 1]) / width, 0.0, 1.0);
@@ -150,6 +150,49 @@ double covered_share(const FringeBins& bins) {
   return static_cast<double>((counts > 0.0).count()) / static_cast<double>(kPhaseBins);
 }
 
+/// The third harmonic of three frames, from the ripple of their mean.
+struct ThirdHarmonic {
+  std::optional<std::complex<double>> value;  ///< none where the power law has to do
+  double sigma = 0.0;                         ///< of its error relative to the mean, times the mean
+};
+
+ThirdHarmonic third_of(const FringeBins& bins, double mean) {
+  ThirdHarmonic third;
+  const MeanRipple ripple = fit_mean_ripple(bins, 3);
+  third.sigma = std::min(ripple.sigma * mean, kPriorThird);
+  const double amplitude = std::abs(ripple.amplitude);
+  if (amplitude > kMinRippleSigmas * ripple.sigma && amplitude > kMinRipple)
+    third.value = ripple.amplitude * mean;
+  return third;
+}
+
+TileEquations sum_of(const std::vector<TileEquations>& tiles) {
+  TileEquations all;
+  for (const TileEquations& tile : tiles) {
+    all.normal += tile.normal;
+    all.right += tile.right;
+  }
+  return all;
+}
+
+/// Jackknife: the scatter of the estimates without one tile each.
+Vector4 jackknife_variance(const std::vector<TileEquations>& tiles, const TileEquations& all) {
+  Vector4 variance = Vector4::Zero();
+  for (const TileEquations& tile : tiles) {
+    const Vector4 without =
+        Matrix4(all.normal - tile.normal).ldlt().solve(Vector4(all.right - tile.right));
+    variance += without.cwiseAbs2();
+  }
+  const auto count = static_cast<double>(tiles.size());
+  return variance * (count - 1.0) / count;
+}
+
+/// Shortens two of the unknowns to the largest amplitude.
+void limit(Eigen::Ref<Eigen::Vector2d> unknown) {
+  const double amplitude = unknown.norm();
+  if (amplitude > kMaxAmplitude) unknown *= kMaxAmplitude / amplitude;
+}
+
 }  // namespace
 
 ContrastFit fit_contrast(const FringeBins& bins,
@@ -159,16 +202,9 @@ ContrastFit fit_contrast(const FringeBins& bins,
   ContrastFit out;
   if (bins.weight.sum() == 0.0) return out;
   const double mean = (bins.weight * bins.mean_over_modulation).sum() / bins.weight.sum();
-  std::optional<std::complex<double>> third;
-  double third_sigma = 0.0;
-  if (order == 2) {
-    const MeanRipple ripple = fit_mean_ripple(bins, 3);
-    third_sigma = std::min(ripple.sigma * mean, kPriorThird);
-    const double amplitude = std::abs(ripple.amplitude);
-    if (amplitude > kMinRippleSigmas * ripple.sigma && amplitude > kMinRipple)
-      third = ripple.amplitude * mean;
-  }
-  ContrastModel model(shifts_rad, known, order, mean, third);
+  ThirdHarmonic third;
+  if (order == 2) third = third_of(bins, mean);
+  ContrastModel model(shifts_rad, known, order, mean, third.value);
   constexpr double kProbe = 1e-4;
   Vector4 unknown = Vector4::Zero();
   std::vector<TileEquations> tiles;
@@ -181,11 +217,7 @@ ContrastFit fit_contrast(const FringeBins& bins,
       slope.col(i) = (model.at(unknown + kProbe * Vector4::Unit(i)) - here) / kProbe;
     tiles = tile_equations(bins, here, slope);
     if (tiles.size() < kMinTiles) return out;
-    all = {};
-    for (const TileEquations& tile : tiles) {
-      all.normal += tile.normal;
-      all.right += tile.right;
-    }
+    all = sum_of(tiles);
     const Eigen::LDLT<Matrix4> factors(all.normal);
     const Vector4 pivots = factors.vectorD();
     if (!(pivots.minCoeff() > kMinContrastPivot * pivots.maxCoeff())) return out;
@@ -193,23 +225,13 @@ ContrastFit fit_contrast(const FringeBins& bins,
     const Vector4 change = factors.solve(all.right);
     unknown += change;
     converged = change.norm() < kConvergedChange;
-    const double amplitude = std::hypot(unknown(0), unknown(1));
-    if (amplitude > kMaxAmplitude) unknown.head<2>() *= kMaxAmplitude / amplitude;
-    const double offset = std::hypot(unknown(2), unknown(3));
-    if (offset > kMaxAmplitude) unknown.tail<2>() *= kMaxAmplitude / offset;
+    limit(unknown.head<2>());
+    limit(unknown.tail<2>());
   }
-  // Jackknife: the scatter of the estimates without one tile each.
-  Vector4 variance = Vector4::Zero();
-  for (const TileEquations& tile : tiles) {
-    const Vector4 without =
-        Matrix4(all.normal - tile.normal).ldlt().solve(Vector4(all.right - tile.right));
-    variance += without.cwiseAbs2();
-  }
-  const auto count = static_cast<double>(tiles.size());
-  variance *= (count - 1.0) / count;
+  const Vector4 variance = jackknife_variance(tiles, all);
   out.harmonic = {unknown(0), unknown(1)};
   // An error of the third harmonic of three frames passes for a second one.
-  out.harmonic_sigma = std::hypot(std::sqrt(0.5 * (variance(0) + variance(1))), third_sigma / mean);
+  out.harmonic_sigma = std::hypot(std::sqrt(0.5 * (variance(0) + variance(1))), third.sigma / mean);
   out.offset = {unknown(2), unknown(3)};
   out.offset_sigma = std::sqrt(0.5 * (variance(2) + variance(3)));
   // On part of a fringe, the contrasts of two surfaces pass for an offset.

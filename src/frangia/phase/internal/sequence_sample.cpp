@@ -185,9 +185,10 @@ std::vector<PlacedResiduals> SequenceSample::residuals() const {
     for (std::size_t m = 0; m < phases.size(); ++m)
       pixel[m] = phases[m][i];
     const auto unit = static_cast<double>(curve.nearest(pixel).unit);
+    const std::size_t row = compared_[i] / width;
     PlacedResiduals placed{
         .x = static_cast<double>(compared_[i] % width) / static_cast<double>(width),
-        .y = static_cast<double>(compared_[i] / width) / height,
+        .y = static_cast<double>(row) / height,
         .residuals_rad = {}};
     for (std::size_t m = 0; m < phases.size(); ++m)
       placed.residuals_rad.push_back(wrap_rad(pixel[m] - kTwoPi * per_unit[m] * unit));
@@ -249,16 +250,9 @@ double SequenceSample::fit_residual(const Pattern& pattern, std::size_t frames_o
   return static_cast<double>(median_in_place(std::span(residuals)));
 }
 
-double SequenceSample::frequency_by_slopes(std::size_t map) const {
-  constexpr int kRun = 8;               // pixels over which slopes are averaged
-  constexpr double kMinChange = 0.8;    // rad over a run, of the reference
-  constexpr std::size_t kFewest = 100;  // runs
-  constexpr double kUncertain = 0.04;   // of the ratio of slopes
-  std::size_t reference = map == 0 ? 1 : 0;
-  for (std::size_t m = 0; m < maps_.size(); ++m) {
-    if (m != map && patterns_[m].fringes_per_unit() > patterns_[reference].fringes_per_unit())
-      reference = m;
-  }
+std::vector<double> SequenceSample::slope_ratios(std::size_t map, std::size_t reference) const {
+  constexpr int kRun = 8;             // pixels over which slopes are averaged
+  constexpr double kMinChange = 0.8;  // rad over a run, of the reference
   const auto step = [&](std::size_t m, std::size_t pixel) {
     const auto phases = maps_[m].phase_rad.pixels();
     return wrap_rad(static_cast<double>(phases[pixel + 1] - phases[pixel]));
@@ -280,6 +274,18 @@ double SequenceSample::frequency_by_slopes(std::size_t map) const {
       if (measured && std::abs(of_reference) > kMinChange) ratios.push_back(change / of_reference);
     }
   }
+  return ratios;
+}
+
+double SequenceSample::frequency_by_slopes(std::size_t map) const {
+  constexpr std::size_t kFewest = 100;  // runs
+  constexpr double kUncertain = 0.04;   // of the ratio of slopes
+  std::size_t reference = map == 0 ? 1 : 0;
+  for (std::size_t m = 0; m < maps_.size(); ++m) {
+    if (m != map && patterns_[m].fringes_per_unit() > patterns_[reference].fringes_per_unit())
+      reference = m;
+  }
+  std::vector<double> ratios = slope_ratios(map, reference);
   if (ratios.size() < kFewest) return 0.0;
   const double about = median_in_place(std::span(ratios)) * patterns_[reference].fringes_per_unit();
   if (!(about > 0.0)) return 0.0;
@@ -287,7 +293,9 @@ double SequenceSample::frequency_by_slopes(std::size_t map) const {
   double best = 0.0;
   double least = std::numeric_limits<double>::max();
   const auto look = [&](double from, double to, double step_per_unit) {
-    for (double per_unit = from; per_unit <= to; per_unit += step_per_unit) {
+    const auto steps = static_cast<std::size_t>(std::max((to - from) / step_per_unit, 0.0));
+    for (std::size_t i = 0; i <= steps; ++i) {
+      const double per_unit = from + static_cast<double>(i) * step_per_unit;
       const double found = misfit(period_trial(patterns_, map, per_unit));
       if (found >= least) continue;
       least = found;

@@ -63,6 +63,8 @@ class SequenceSample {
   [[nodiscard]] std::vector<double> frequencies_of(const SequenceTrial& trial) const;
   [[nodiscard]] double median_distance(const std::vector<double>& per_unit,
                                        const Phases& phases) const;
+  /// How many times the phase of a map changes as much as that of another, over runs of pixels.
+  [[nodiscard]] std::vector<double> slope_ratios(std::size_t map, std::size_t reference) const;
   /// The number of fringes per unit by which the phase of a map changes beside that of another one,
   /// refined by the misfit.
   [[nodiscard]] double frequency_by_slopes(std::size_t map) const;

@@ -1,6 +1,7 @@
 #include "frangia/phase/internal/sequence_trials.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 #include <utility>
@@ -14,7 +15,7 @@ namespace frangia {
 namespace {
 
 /// Starts that projectors and captures confuse, degrees.
-constexpr double kStarts[] = {180.0, 90.0, 270.0};
+constexpr std::array<double, 3> kStarts{180.0, 90.0, 270.0};
 
 /// An angle from 0 to below 360 degrees, to a hundredth.
 double rounded_deg(double rad) {

@@ -45,8 +45,11 @@ CheckLimits::CheckLimits(const CheckedCamera& camera,
   check.calibration_sigma_mm = std::max(check.calibration_sigma_mm, calibration_sigma_mm_);
 }
 
-void CheckLimits::add(
-    std::string name, double deviation_mm, double noise_mm, double points, std::string measured) {
+void CheckLimits::add(const std::string& name,
+                      double deviation_mm,
+                      double noise_mm,
+                      double points,
+                      std::string measured) {
   constexpr double kSigmas = 3.0;
   const double calibration_mm = std::sqrt(points) * calibration_sigma_mm_;
   const double sigma_mm = std::hypot(noise_mm, calibration_mm);

@@ -22,8 +22,11 @@ class CheckLimits {
               RigCheck& check);
 
   /// Adds a figure. `points`: how many independent points of the calibration's uncertainty it has.
-  void add(
-      std::string name, double deviation_mm, double noise_mm, double points, std::string measured);
+  void add(const std::string& name,
+           double deviation_mm,
+           double noise_mm,
+           double points,
+           std::string measured);
   /// Adds the robust spread of patches that were measured twice.
   void add_spread(std::string name, const PatchDistances& patches);
 

@@ -77,7 +77,8 @@ void compare_views(const PartView& from,
                         -own.dot(here.normalized()) > kFrontal;
       const double distance = normal.dot(here - other);
       if (!same || !(std::abs(distance) < match_share * other.norm())) continue;
-      Patch& patch = patches[static_cast<std::size_t>(row / kPatch * across + column / kPatch)];
+      const int number = row / kPatch * across + column / kPatch;
+      Patch& patch = patches[static_cast<std::size_t>(number)];
       patch.count += 1.0;
       patch.sum += distance;
       patch.squares += distance * distance;

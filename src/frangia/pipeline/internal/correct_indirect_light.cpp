@@ -34,17 +34,15 @@ Mesh surface_or_none(const Make& make) {
 /// The prediction of a surface, made better by the surface that continues its reliable faces.
 std::optional<IndirectPart> predict(const MeasuredViews& measured,
                                     const Mesh& surface,
-                                    const Scan& scan,
-                                    const Image<Eigen::Vector2f>& rays,
-                                    const DecodeOptions& decode,
+                                    const ScanDecoding& decoding,
                                     const FusionOptions& coarse,
                                     const Run& run) {
-  auto first = indirect_part(scan, measured, surface, rays, decode, run);
+  auto first = indirect_part(decoding, measured, surface, run);
   if (!first) return first;
-  const Mesh continued = surface_or_none([&] {
-    return continued_surface(measured, *first, scan.rig.camera.model, rays, coarse, run);
-  });
-  auto second = indirect_part(scan, measured, continued, rays, decode, run);
+  const CameraModel& camera = decoding.scan.rig.camera.model;
+  const Mesh continued = surface_or_none(
+      [&] { return continued_surface(measured, *first, camera, decoding.rays, coarse, run); });
+  auto second = indirect_part(decoding, measured, continued, run);
   // The frames decide which surface predicts what they show; alike, the one without gaps.
   constexpr double kAlike = 1.1;
   const bool better = second && second->unexplained < kAlike * first->unexplained;
@@ -54,23 +52,22 @@ std::optional<IndirectPart> predict(const MeasuredViews& measured,
 }  // namespace
 
 bool correct_before_registration(MeasuredViews& measured,
-                                 const Scan& scan,
-                                 const Image<Eigen::Vector2f>& rays,
-                                 const DecodeOptions& decode,
+                                 const ScanDecoding& decoding,
                                  FusionOptions coarse,
                                  const Run& run) {
   constexpr int kPasses = 2;
   if (measured.points == 0) return false;
-  coarse = coarse_fusion(measured, rays, std::move(coarse));
+  coarse = coarse_fusion(measured, decoding.rays, std::move(coarse));
+  const CameraModel& camera = decoding.scan.rig.camera.model;
   Run quiet;
   quiet.stop = run.stop;
   for (int pass = 0; pass < kPasses; ++pass) {
     // A coarser surface finds out whether there is anything to correct.
     FusionOptions fusion = coarse;
     if (pass == 0) fusion.voxel_mm *= 4.0;
-    const Mesh surface = surface_or_none(
-        [&] { return fuse_views(measured.views, scan.rig.camera.model, fusion, quiet); });
-    const auto indirect = predict(measured, surface, scan, rays, decode, coarse, quiet);
+    const Mesh surface =
+        surface_or_none([&] { return fuse_views(measured.views, camera, fusion, quiet); });
+    const auto indirect = predict(measured, surface, decoding, coarse, quiet);
     if (!indirect) return pass > 0;
     correct_all(measured, *indirect, run);
   }
@@ -79,17 +76,15 @@ bool correct_before_registration(MeasuredViews& measured,
 
 std::optional<IndirectLightReport> correct_indirect_light(Mesh& fused,
                                                           MeasuredViews& measured,
-                                                          const Scan& scan,
-                                                          const Image<Eigen::Vector2f>& rays,
-                                                          const DecodeOptions& decode,
+                                                          const ScanDecoding& decoding,
                                                           FusionOptions& fusion,
                                                           const Run& run) {
   constexpr int kPasses = 2;
   const auto others = fusion.add_systematic;
   std::optional<IndirectLightReport> report;
   for (int pass = 0; pass < kPasses; ++pass) {
-    const auto indirect =
-        predict(measured, fused, scan, rays, decode, coarse_fusion(measured, rays, fusion), run);
+    const FusionOptions coarse = coarse_fusion(measured, decoding.rays, fusion);
+    const auto indirect = predict(measured, fused, decoding, coarse, run);
     if (!indirect) break;
     correct_all(measured, *indirect, run);
     report = indirect->report;
@@ -97,7 +92,7 @@ std::optional<IndirectLightReport> correct_indirect_light(Mesh& fused,
       if (others) others(view, camera);
       add(view);
     };
-    fused = fuse_views(measured.views, scan.rig.camera.model, fusion, run);
+    fused = fuse_views(measured.views, decoding.scan.rig.camera.model, fusion, run);
   }
   if (!report) return report;
   if (report->is_large()) {

@@ -2,16 +2,12 @@
 
 #include <optional>
 
-#include <Eigen/Core>
-
-#include "frangia/core/image.h"
 #include "frangia/core/run.h"
-#include "frangia/dataset/scan_folder.h"
 #include "frangia/fusion/fuse_views.h"
 #include "frangia/geometry/mesh.h"
-#include "frangia/pipeline/decode_view.h"
 #include "frangia/pipeline/indirect_light_report.h"
 #include "frangia/pipeline/internal/measure_views.h"
+#include "frangia/pipeline/internal/scan_decoding.h"
 
 namespace frangia {
 
@@ -20,9 +16,7 @@ namespace frangia {
 ///
 /// @errors   as fuse_views and indirect_part
 bool correct_before_registration(MeasuredViews& measured,
-                                 const Scan& scan,
-                                 const Image<Eigen::Vector2f>& rays,
-                                 const DecodeOptions& decode,
+                                 const ScanDecoding& decoding,
                                  FusionOptions coarse,
                                  const Run& run);
 
@@ -34,9 +28,7 @@ bool correct_before_registration(MeasuredViews& measured,
 [[nodiscard]] std::optional<IndirectLightReport> correct_indirect_light(
     Mesh& fused,
     MeasuredViews& measured,
-    const Scan& scan,
-    const Image<Eigen::Vector2f>& rays,
-    const DecodeOptions& decode,
+    const ScanDecoding& decoding,
     FusionOptions& fusion,
     const Run& run);
 

@@ -191,15 +191,15 @@ std::size_t index_in_scan(const Scan& scan, const std::string& folder) {
 }
 
 /// Adds what the frames of some views show.
-void add_views(const Scan& scan,
+void add_views(const ScanDecoding& decoding,
                const MeasuredViews& measured,
                std::span<const ViewExposure> exposures,
                const LitSurface& lit,
-               const Image<Eigen::Vector2f>& rays,
-               const DecodeOptions& decode,
                const Run& run,
                std::vector<AlbedoSample>& samples) {
-  DecodeOptions options = decode;
+  const Scan& scan = decoding.scan;
+  const Image<Eigen::Vector2f>& rays = decoding.rays;
+  DecodeOptions options = decoding.options;
   options.keep_maps = true;
   Run quiet = run;
   quiet.on_note = nullptr;
@@ -217,14 +217,14 @@ void add_views(const Scan& scan,
 
 }  // namespace
 
-std::optional<IndirectPart> indirect_part(const Scan& scan,
+std::optional<IndirectPart> indirect_part(const ScanDecoding& decoding,
                                           const MeasuredViews& measured,
                                           const Mesh& surface,
-                                          const Image<Eigen::Vector2f>& rays,
-                                          const DecodeOptions& decode,
                                           const Run& run) {
   constexpr double kMaterial = 0.01;   // share of the points of a view
   constexpr std::size_t kDecoded = 3;  // views whose frames determine the reflectance
+  const Scan& scan = decoding.scan;
+  const Image<Eigen::Vector2f>& rays = decoding.rays;
   const auto patterns = fringes_in(scan.patterns, measured.coarsest.direction);
   if (patterns.empty() || surface.empty()) return std::nullopt;
   Mesh shape;
@@ -251,19 +251,20 @@ std::optional<IndirectPart> indirect_part(const Scan& scan,
   for (const auto& [begin, end] : {std::pair<std::size_t, std::size_t>{0, 1}, {1, most}}) {
     if (begin == end) break;
     const auto views = std::span(exposures).subspan(begin, end - begin);
-    add_views(scan, measured, views, *lit, rays, decode, run, samples);
+    add_views(decoding, measured, views, *lit, run, samples);
     found = estimate_albedo(samples, patterns);
     if (!found.significant) return std::nullopt;
   }
-  const bool one_direction = decode.directions == DirectionChoice::Vertical ||
-                             decode.directions == DirectionChoice::Horizontal ||
+  const DirectionChoice chosen = decoding.options.directions;
+  const bool one_direction = chosen == DirectionChoice::Vertical ||
+                             chosen == DirectionChoice::Horizontal ||
                              fringes_in(scan.patterns,
                                         patterns.back().direction == FringeDirection::Vertical
                                             ? FringeDirection::Horizontal
                                             : FringeDirection::Vertical)
                                  .empty();
   const auto correction = std::make_shared<const IndirectCorrection>(
-      lit, found.albedo, source_of(scan, patterns, decode), one_direction, rays);
+      lit, found.albedo, source_of(scan, patterns, decoding.options), one_direction, rays);
   IndirectPart out;
   out.report = report_of(
       measured.views.load_points(exposures.front().view), *lit, *correction, found.albedo, rays);

@@ -3,15 +3,12 @@
 #include <functional>
 #include <optional>
 
-#include <Eigen/Core>
-
 #include "frangia/core/image.h"
 #include "frangia/core/run.h"
-#include "frangia/dataset/scan_folder.h"
 #include "frangia/geometry/mesh.h"
-#include "frangia/pipeline/decode_view.h"
 #include "frangia/pipeline/indirect_light_report.h"
 #include "frangia/pipeline/internal/measure_views.h"
+#include "frangia/pipeline/internal/scan_decoding.h"
 
 namespace frangia {
 
@@ -37,11 +34,9 @@ struct IndirectPart {
 ///
 /// @shape    `surface` is the fused mesh of these views, object frame
 /// @errors   as read_frames and decode_view; Error(Cancelled)
-[[nodiscard]] std::optional<IndirectPart> indirect_part(const Scan& scan,
+[[nodiscard]] std::optional<IndirectPart> indirect_part(const ScanDecoding& decoding,
                                                         const MeasuredViews& measured,
                                                         const Mesh& surface,
-                                                        const Image<Eigen::Vector2f>& rays,
-                                                        const DecodeOptions& decode,
                                                         const Run& run);
 
 }  // namespace frangia

@@ -113,6 +113,7 @@ ExportRequest export_arguments(CommandArguments& arguments) {
 
 }  // namespace
 
+// NOLINTNEXTLINE(readability-make-member-function-const): one of the table of commands
 nlohmann::ordered_json Service::Implementation::estimate_export(CommandArguments& arguments) {
   const ExportRequest request = export_arguments(arguments);
   require(request.format != "zip", "format: the size of a zip is known when it is written");

@@ -33,7 +33,7 @@ class Service::Implementation {
   [[nodiscard]] ProjectFolder folder() const;
   [[nodiscard]] std::string cloud(std::size_t station) const;
   [[nodiscard]] std::string setup_cloud(std::size_t joined) const;
-  void add_to_reference(std::size_t offset, const std::string& bytes);
+  void add_to_reference(std::size_t offset, const std::string& bytes) const;
   /// The residuals of the project's calibration, as docs/service-api.md describes them.
   /// @errors   Error(Input) without a calibration
   [[nodiscard]] std::string residuals() const;

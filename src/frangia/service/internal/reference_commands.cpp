@@ -37,7 +37,7 @@ ProjectReference reference_of(const ProjectFolder& project) {
   return {};
 }
 
-void Service::Implementation::add_to_reference(std::size_t offset, const std::string& bytes) {
+void Service::Implementation::add_to_reference(std::size_t offset, const std::string& bytes) const {
   const ProjectFolder project = folder();
   require(offset + bytes.size() <= kMostReferenceBytes,
           "a reference has at most 512 MB; choose a smaller file");

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include <Eigen/Geometry>
@@ -13,7 +14,7 @@ namespace frangia {
 struct GatheredLight {
   Eigen::Vector2f at;  ///< projector coordinate of the cell's centre, as in `LightSample`
   /// Extents of the cell along its two sides, in projector coordinates.
-  Eigen::Vector2f side[2];
+  std::array<Eigen::Vector2f, 2> side;
   float diffuse = 0.0F;  ///< the cell's share of the pixel's light when the projector is fully lit
   float line = 0.0F;     ///< share of the laser sheet's peak in the cell
 };

@@ -107,8 +107,8 @@ Rig true_rig(DeviceSettings& settings, const Rig& known) {
 /// What stands before the camera: a board, or the part as it is clamped in each setup.
 class SceneOfSetups {
  public:
-  SceneOfSetups(DeviceSettings& settings, const Rig& rig, SimulatedBench& bench) {
-    tilt_rad_ = rad_from_deg(settings.number_or("setup_tilt_deg", 180.0, -360.0, 360.0));
+  SceneOfSetups(DeviceSettings& settings, const Rig& rig, SimulatedBench& bench)
+      : tilt_rad_(rad_from_deg(settings.number_or("setup_tilt_deg", 180.0, -360.0, 360.0))) {
     if (bench.board) {
       if (!rig.camera.name.empty())
         settings.fail("driver", "shows a simulated board to one camera; remove [[more_cameras]]");
@@ -160,8 +160,8 @@ class SimulatedCamera final : public CameraDevice {
       : bench_(std::move(bench)),
         faults_(read_faults(settings, {"lost", "incomplete", "saturated", "motion", "unplugged"})),
         real_time_(settings.flag_or("real_time", false)),
-        scenes_(settings, true_rig(settings, rig), *bench_) {
-    reference_exposure_ms_ = settings.number_or("reference_exposure_ms", 10.0, 1e-3, 1e5);
+        scenes_(settings, true_rig(settings, rig), *bench_),
+        reference_exposure_ms_(settings.number_or("reference_exposure_ms", 10.0, 1e-3, 1e5)) {
     if (rig.camera.name.empty()) bench_->scene = scenes_.of(0);  // of the reference camera
     info_.width_px = rig.camera.model.width_px;
     info_.height_px = rig.camera.model.height_px;
@@ -222,10 +222,10 @@ class SimulatedCamera final : public CameraDevice {
 
  private:
   BenchPtr bench_;
-  double reference_exposure_ms_ = 10.0;
   FaultScript faults_;
   bool real_time_;  ///< an exposure takes its nominal time
   SceneOfSetups scenes_;
+  double reference_exposure_ms_;
   CameraInfo info_;
   BenchCamera camera_;
   std::uint64_t taken_ = 0;

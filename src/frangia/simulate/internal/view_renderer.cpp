@@ -30,7 +30,7 @@ std::uint64_t hash_of(const std::string& text) {
 /// them in steps of 1 / across². The marks of boards need that; two across would gain two steps
 /// only.
 Eigen::Vector2d sample_offset(int column, int row, int across) {
-  const Eigen::Vector2d cell((column + 0.5) / across - 0.5, (row + 0.5) / across - 0.5);
+  Eigen::Vector2d cell((column + 0.5) / across - 0.5, (row + 0.5) / across - 0.5);
   if (across < 3) return cell;
   return cell + Eigen::Vector2d(cell.y(), -cell.x()) / across;
 }
@@ -56,6 +56,7 @@ std::uint64_t noise_stream(std::uint64_t seed,
                            std::size_t view,
                            const std::string& pattern,
                            std::size_t frame) {
+  // NOLINTNEXTLINE(readability-suspicious-call-argument): the seed begins the stream
   return hash(hash(hash(hash(seed, kFrameStream), view), frame), hash_of(pattern));
 }
 

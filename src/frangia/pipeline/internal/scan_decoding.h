@@ -1,0 +1,18 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "frangia/core/image.h"
+#include "frangia/dataset/scan_folder.h"
+#include "frangia/pipeline/decode_view.h"
+
+namespace frangia {
+
+/// How the frames of a scan are decoded. The references must outlive it.
+struct ScanDecoding {
+  const Scan& scan;
+  const Image<Eigen::Vector2f>& rays;  ///< of the reference camera
+  const DecodeOptions& options;
+};
+
+}  // namespace frangia
