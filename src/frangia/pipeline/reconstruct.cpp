@@ -105,6 +105,31 @@ ViewMotions motions_of_views(const MeasuredSetup& joined,
   return motions_of_rig({*rig.turntable, stations}, alone.sigma);
 }
 
+/// Brings all setups into the frame of the first one and registers them together. `outliers`: views
+/// that the setups by themselves left out.
+MeasuredSetup register_together(std::vector<MeasuredSetup> setups,
+                                const Scan& scan,
+                                const ReconstructOptions& options,
+                                std::set<std::string> outliers,
+                                Reconstruction& out,
+                                const Run& run) {
+  MeasuredSetup joined = join_setups(std::move(setups), scan, options, run);
+  clear_outliers_of_cameras(joined);
+  if (joined.registration && joined.registration->iterations > 0)
+    run.note(joined.registration->text());
+  add_outliers(outliers, joined);
+  mark_left_out(out.view_summaries, joined, outliers);
+  clip_on_registered_turntable(joined, scan.rig, options, run);
+  tie_cameras(joined.measured, scan.rig);
+  out.registration = joined.registration;
+  release_cached_pixels();
+
+  out.setups = joined.joins;
+  if (options.keep_points_of_setups > 0 && !out.setups.empty())
+    out.setup_points = points_of_setups(joined, scan.rig, options.keep_points_of_setups, run);
+  return joined;
+}
+
 /// What the registered views of all setups form.
 struct RegisteredViews {
   MeasuredSetup joined;
@@ -192,24 +217,10 @@ Reconstruction reconstruct(const Scan& scan, const ReconstructOptions& options, 
                 explain_no_surface(scan, rays, options.decode, {0, unresolved}, run));
   }
 
-  // All setups in the frame of the first one.
-  MeasuredSetup joined = join_setups(std::move(setups), scan, options, run);
-  clear_outliers_of_cameras(joined);
-  if (joined.registration && joined.registration->iterations > 0)
-    run.note(joined.registration->text());
-  add_outliers(outliers, joined);
-  mark_left_out(out.view_summaries, joined, outliers);
-  clip_on_registered_turntable(joined, scan.rig, options, run);
-  tie_cameras(joined.measured, scan.rig);
-  out.registration = joined.registration;
-  release_cached_pixels();
-
-  out.setups = joined.joins;
-  if (options.keep_points_of_setups > 0 && !out.setups.empty())
-    out.setup_points = points_of_setups(joined, scan.rig, options.keep_points_of_setups, run);
-
-  // Views -> one surface -> finished mesh.
-  RegisteredViews registered{std::move(joined), indirect_light};
+  // All setups in the frame of the first one, then one surface, then the finished mesh.
+  RegisteredViews registered{
+      register_together(std::move(setups), scan, options, std::move(outliers), out, run),
+      indirect_light};
   Mesh fused = fuse_registered(registered, scan, rays, options, out, run);
   out.mesh = finish_mesh(std::move(fused), options.finish, run);
   if (out.mesh.triangles.empty()) {

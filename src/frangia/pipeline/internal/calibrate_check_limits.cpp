@@ -85,12 +85,12 @@ double wide_spread_of(std::span<const double> heights) {
 
 }  // namespace
 
-void CheckLimits::add_spread(std::string name, const PatchDistances& patches) {
+void CheckLimits::add_spread(const std::string& name, const PatchDistances& patches) {
   // The spread of sound patches is their noise of one standard deviation. Of many patches half of
   // it more is not by chance: the share that three of are allowed.
   constexpr double kNoiseShare = 0.5;
   const double typical = wide_spread_of(patches.mean_mm);
-  add(std::move(name),
+  add(name,
       typical,
       kNoiseShare * median(patches.sigma_mm),
       2.0,

@@ -28,7 +28,7 @@ class CheckLimits {
            double points,
            std::string measured);
   /// Adds the robust spread of patches that were measured twice.
-  void add_spread(std::string name, const PatchDistances& patches);
+  void add_spread(const std::string& name, const PatchDistances& patches);
 
  private:
   const CheckRigOptions& options_;

@@ -76,7 +76,7 @@ ViewExposure exposure_of(std::size_t index,
   constexpr std::size_t kSamples = 150;
   const View view = views.load_points(index);
   const auto pixels = sampled_pixels(view.range.depth_mm, kSamples);
-  const Eigen::Isometry3d pose = views.rig_from_object(index);
+  const Eigen::Isometry3d& pose = views.rig_from_object(index);
   const Eigen::Isometry3d object_from_rig = pose.inverse();
   std::vector<double> shares(pixels.size());
   std::vector<char> matters(pixels.size());
