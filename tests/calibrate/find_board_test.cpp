@@ -93,9 +93,10 @@ TEST(FindBoard, FindsTheCentersOfCirclesWithinAFifthOfAPixel) {
 
 /// The light falls off by 0.4 % a pixel across the board.
 Image<float> lit_from_the_left(Image<float> image) {
-  for (int y = 0; y < image.height(); ++y)
+  for (int y = 0; y < image.height(); ++y) {
     for (int x = 0; x < image.width(); ++x)
       image(x, y) = static_cast<float>(image(x, y) * std::exp(-0.004 * x));
+  }
   return image;
 }
 
@@ -158,9 +159,10 @@ TEST(FindBoard, FindsTheCornersOfACharucoBoardWithinATenthOfAPixel) {
 TEST(FindBoard, FindsTheSeenPartOfACharucoBoardTurnedUpsideDown) {
   const Image<float> whole = picture_of(oblique(), charuco(kCharuco));
   Image<float> part(whole.width(), whole.height(), 30.0F);
-  for (int y = 0; y < whole.height(); ++y)
+  for (int y = 0; y < whole.height(); ++y) {
     for (int x = 300; x < whole.width(); ++x)
       part(whole.width() - 1 - x, whole.height() - 1 - y) = whole(x, y);
+  }
   const auto found = find_board(part, kCharuco);
   EXPECT_GT(found.size(), 30U);
   EXPECT_LT(found.size(), 66U);
@@ -176,9 +178,10 @@ TEST(FindBoard, FindsTheSeenPartOfACharucoBoardTurnedUpsideDown) {
 TEST(FindCharuco, TellsAMirroredBoard) {
   const Image<float> image = picture_of(oblique(), charuco(kCharuco));
   Image<float> mirrored(image.width(), image.height());
-  for (int y = 0; y < image.height(); ++y)
+  for (int y = 0; y < image.height(); ++y) {
     for (int x = 0; x < image.width(); ++x)
       mirrored(image.width() - 1 - x, y) = image(x, y);
+  }
   const CharucoSight sight = find_charuco(mirrored, kCharuco);
   EXPECT_TRUE(sight.points.empty());
   EXPECT_GT(sight.mirrored_markers, 30);
@@ -193,9 +196,10 @@ TEST(FindCharuco, TellsAMirroredBoardWhoseMarkersResembleOthersMirrored) {
                     .dictionary = "DICT_4X4_50"};
   const Image<float> image = picture_of(oblique(), charuco(board));
   Image<float> mirrored(image.width(), image.height());
-  for (int y = 0; y < image.height(); ++y)
+  for (int y = 0; y < image.height(); ++y) {
     for (int x = 0; x < image.width(); ++x)
       mirrored(image.width() - 1 - x, y) = image(x, y);
+  }
   const CharucoSight sight = find_charuco(mirrored, board);
   EXPECT_TRUE(sight.points.empty());
   EXPECT_GT(sight.mirrored_markers, 25);
@@ -288,10 +292,12 @@ TEST(BoardImage, IsFreeOfFringesOfUnevenShifts) {
   stack.pattern.shifts_rad = {0.0, 1.2, 2.9, 4.0};
   for (const double shift : stack.pattern.shifts_rad) {
     Image<std::uint16_t> frame(100, 2);
-    for (int y = 0; y < 2; ++y)
-      for (int x = 0; x < 100; ++x)
+    for (int y = 0; y < 2; ++y) {
+      for (int x = 0; x < 100; ++x) {
         frame(x, y) = static_cast<std::uint16_t>(
             std::lround(20000.0 + 10000.0 * std::cos(kTwoPi * x / 20.0 + shift)));
+      }
+    }
     stack.frames.emplace_back(std::move(frame));
   }
   const std::vector stacks = {stack};

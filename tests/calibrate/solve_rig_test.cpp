@@ -127,10 +127,12 @@ Eigen::Matrix3Xd triangulated(const RigSolution& found,
 TEST(SolveRig, StatesTheUncertaintyOfAShapeThatTheErrorsOfManySeedsHave) {
   const TrueRig rig;
   std::vector<cv::Point3d> points;
-  for (const double x : {-45.0, 0.0, 45.0})
-    for (const double y : {-30.0, 0.0, 30.0})
+  for (const double x : {-45.0, 0.0, 45.0}) {
+    for (const double y : {-30.0, 0.0, 30.0}) {
       for (const double z : {435.0, 480.0, 525.0})
         points.emplace_back(x, y, z);
+    }
+  }
   Eigen::Matrix3Xd truth(3, static_cast<Eigen::Index>(points.size()));
   for (std::size_t i = 0; i < points.size(); ++i)
     truth.col(static_cast<Eigen::Index>(i)) << points[i].x, points[i].y, points[i].z;

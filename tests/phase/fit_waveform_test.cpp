@@ -97,9 +97,10 @@ TEST(FitWaveform, FindsThePhaseErrorOfFlickerInThreeAndFourFrames) {
     EXPECT_TRUE(found.gains.empty());
     // sum of g_k A exp(-i shift_k) 2 / N, over B; A / B lies between 0.95 and 1.15.
     std::complex<double> offset = 0.0;
-    for (int k = 0; k < frames; ++k)
+    for (int k = 0; k < frames; ++k) {
       offset +=
           gains[static_cast<std::size_t>(k)] * 2.0 / frames * std::polar(1.0, -kTwoPi * k / frames);
+    }
     EXPECT_NEAR(found.flicker_error_rad / (std::abs(offset) / std::sqrt(2.0)), 1.05, 0.15);
   }
 }

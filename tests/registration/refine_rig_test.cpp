@@ -64,9 +64,10 @@ ViewStore scaled_views(const Shape& shape, const Rig& unit, int count, double sc
       testing::snapshots(shape, unit.camera.model, poses, {.noise_mm = 0.01, .sigma_mm = 0.01});
   for (std::size_t i = 0; i < views.size(); ++i) {
     View view = views.load(i);
-    for (Image<float>* image : {&view.range.depth_mm, &view.range.sigma_mm})
+    for (Image<float>* image : {&view.range.depth_mm, &view.range.sigma_mm}) {
       for (float& value : image->pixels())
         value *= static_cast<float>(scale);
+    }
     out.add(view);
   }
   return out;

@@ -19,8 +19,9 @@ using testing::error_of;
 /// A brick with three different sides fits itself in four poses.
 class CompareSurface : public ::testing::Test {
  protected:
-  CompareSurface() : file_(folder_.path() / "brick.ply") {
-    brick_ = testing::box({0.0, 0.0, 0.0}, {20.0, 12.0, 7.0});
+  CompareSurface()
+      : file_(folder_.path() / "brick.ply"),
+        brick_(testing::box({0.0, 0.0, 0.0}, {20.0, 12.0, 7.0})) {
     write_mesh(file_, brick_);
   }
 

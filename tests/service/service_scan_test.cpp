@@ -46,9 +46,10 @@ TEST_F(ServiceTest, StopsAndContinuesTheSimulatedScan) {
   const int number = command("start-scan").at("job").get<int>();
   const auto share = [&] {
     const Json jobs = state().at("jobs");
-    for (const Json& job : jobs)
+    for (const Json& job : jobs) {
       if (job.at("number") == number && job.at("stage") == "scan")
         return job.at("progress").get<double>();
+    }
     return 0.0;
   };
   for (int i = 0; i < 20'000 && share() < 0.3; ++i)

@@ -113,6 +113,27 @@ void report_sums(RegistrationReport& report, const BundleSums& sums, const Regis
   report.overlap = overlap_of(sums, work.surfels);
 }
 
+/// Decides between the given state and the refined one, and assesses the places of the views.
+/// Returns whether the refined one slid, so that the rig alone places them.
+bool keep_better_state(RegistrationReport& report, const BundleSums& refined, Registration& work) {
+  Bundle& bundle = work.bundle;
+  const bool slid = has_slid(bundle, work.surfels, report.contradiction);
+  report.kept_rig =
+      slid || fits_as_well(bundle, work.surfels, refined, work.options.as_good_as_given);
+  Eigen::VectorXd offset = Eigen::VectorXd::Zero(bundle.given.unknowns());
+  if (!report.kept_rig) {
+    assess_places(report, bundle, refined, work.options, Overlap::Determines, offset);
+    return slid;
+  }
+  if (!slid) offset = deviation(bundle.state, bundle.given);
+  bundle.state = bundle.given;
+  const BundleSums sums = sum(bundle, work.surfels);
+  report_sums(report, sums, work);
+  const Overlap overlap = slid ? Overlap::SaysNothing : Overlap::Determines;
+  assess_places(report, bundle, sums, work.options, overlap, offset);
+  return slid;
+}
+
 }  // namespace
 
 void RegisterOptions::check() const {
@@ -169,22 +190,7 @@ RegistrationReport register_views(ViewStore& views,
   const BundleSums after = sum(bundle, surfels);
   report_sums(report, after, work);
   report.iterations = bundle.iterations;
-  const bool slid = has_slid(bundle, surfels, report.contradiction);
-  report.kept_rig = slid || fits_as_well(bundle, surfels, after, options.as_good_as_given);
-  BundleSums final_sums = after;
-  Eigen::VectorXd offset = Eigen::VectorXd::Zero(start.unknowns());
-  if (report.kept_rig) {
-    if (!slid) offset = deviation(bundle.state, bundle.given);
-    bundle.state = bundle.given;
-    final_sums = sum(bundle, surfels);
-    report_sums(report, final_sums, work);
-  }
-  assess_places(report,
-                bundle,
-                final_sums,
-                options,
-                slid ? Overlap::SaysNothing : Overlap::Determines,
-                offset);
+  const bool slid = keep_better_state(report, after, work);
   if (!report.untrusted_reason().empty()) run.warn(report.untrusted_reason());
   if (slid) run.warn(report.rig_alone_text());
   const PartScale scale = measure_part_scale(bundle, surfels, camera);
