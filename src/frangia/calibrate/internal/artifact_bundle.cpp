@@ -11,6 +11,7 @@
 #include "frangia/calibrate/internal/artifact_model.h"
 #include "frangia/calibrate/internal/artifact_residuals.h"
 #include "frangia/calibrate/internal/rig_prior.h"
+#include "frangia/calibrate/internal/solve_quietly.h"
 #include "frangia/calibrate/internal/stop_callback.h"
 
 namespace frangia {
@@ -219,10 +220,8 @@ bool adjust_artifacts(const ArtifactProblem& problem,
   options.function_tolerance = 1e-9;
   options.parameter_tolerance = 1e-11;
   options.num_threads = 1;  // the same bytes on any machine
-  options.logging_type = ceres::SILENT;
   options.callbacks.push_back(&stop);
-  ceres::Solver::Summary summary;
-  ceres::Solve(options, &composed, &summary);
+  const ceres::Solver::Summary summary = solve_quietly(std::move(options), composed);
   run.check();
   return summary.IsSolutionUsable();
 }

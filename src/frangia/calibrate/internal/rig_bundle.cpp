@@ -6,6 +6,7 @@
 #include <ceres/ceres.h>
 
 #include "frangia/calibrate/internal/rig_residuals.h"
+#include "frangia/calibrate/internal/solve_quietly.h"
 #include "frangia/calibrate/internal/stop_callback.h"
 
 namespace frangia {
@@ -150,10 +151,8 @@ RigBundleResult adjust_rig(std::span<const RigObservation> observations,
   options.function_tolerance = 1e-12;
   options.parameter_tolerance = 1e-12;
   options.num_threads = 1;  // the same bytes on any machine
-  options.logging_type = ceres::SILENT;
   options.callbacks.push_back(&stop);
-  ceres::Solver::Summary summary;
-  ceres::Solve(options, &problem, &summary);
+  const ceres::Solver::Summary summary = solve_quietly(std::move(options), problem);
   run.check();
   return {static_cast<int>(summary.iterations.size()), summary.IsSolutionUsable()};
 }
