@@ -37,7 +37,7 @@ def rendered(study, kind, poses, *options):
     rig = study.work / "half-rig.toml"
     rig.write_text(HALF_RIG)
     return study.made(f"{kind}-{poses}-exact", "simulate", "--calibration", kind, "--views", poses, "--rig", rig,
-                      "--samples", 4, "--no-noise", "--bits", 16, *options)
+                      "--no-noise", "--bits", 16, *options)
 
 
 class Capture:

@@ -75,6 +75,7 @@ void measure_direction(std::list<MeasuredSurface>& surfaces,
 /// Warns when a further camera does not measure what the refined rig measures.
 void compare_cameras(const Scan& scan, const Rig& refined, const Run& run) {
   if (refined.more_cameras.empty()) return;
+#ifdef FRANGIA_WITH_CALIBRATION
   Scan own = scan;
   own.rig = refined;
   RigCheck check;
@@ -89,6 +90,12 @@ void compare_cameras(const Scan& scan, const Rig& refined, const Run& run) {
         item.deviation_mm,
         item.limit_mm));
   }
+#else
+  static_cast<void>(scan);
+  run.warn(
+      "the further cameras are not compared with the refined rig, because this build of frangia is "
+      "without calibration (FRANGIA_CALIBRATION)");
+#endif
 }
 
 }  // namespace
