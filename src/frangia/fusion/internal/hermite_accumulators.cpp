@@ -1,7 +1,9 @@
 #include "frangia/fusion/internal/hermite_accumulators.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <vector>
 
 #include "frangia/core/parallel.h"
 
@@ -55,49 +57,109 @@ float correlation(float distance_mm, float half_width_mm) {
   return 1.0F - 1.5F * x * x + 0.75F * x * x * x;
 }
 
+namespace {
+
+/// Scatter between the views over a block.
+struct BlockScatter {
+  float excess = 0.0F;  ///< beyond the noise of the views
+  float degrees_of_freedom = 0.0F;
+  float stated = 0.0F;  ///< variance that differs by view
+};
+
+BlockScatter scatter_in(const HermiteAccumulators& hermite, std::size_t first, std::size_t last) {
+  BlockScatter out;
+  for (std::size_t i = first; i < last; ++i) {
+    const HermiteAccumulator::PlaneSum& face = hermite.dominant(i);
+    if (face.views < 2) continue;
+    const float scatter = face.offset_squared - face.offset * face.offset / face.weight;
+    const float expected = face.noise - face.noise_squared / face.weight;
+    out.excess += (scatter - expected) / face.weight;
+    const float freedom = 1.0F - face.weight_squared / (face.weight * face.weight);
+    out.degrees_of_freedom += freedom;
+    out.stated += freedom * hermite.differing_variance(i);
+  }
+  return out;
+}
+
+/// The variance between the views around a place: the scatter of the blocks around it, weighted
+/// linearly by the distances of their centres, so that it has no step from block to block.
+class ScatterAround {
+ public:
+  ScatterAround(const EdgeCrossings& crossings,
+                const std::vector<BlockScatter>& scatters,
+                std::size_t block)
+      : corner_(crossings.block_coords[block]),
+        per_block_(1.0F / (static_cast<float>(crossings.voxel_mm) * kBlockEdge)) {
+    std::size_t next = 0;
+    for (int z = -1; z <= 1; ++z) {
+      for (int y = -1; y <= 1; ++y) {
+        for (int x = -1; x <= 1; ++x) {
+          const std::uint32_t found =
+              crossings.index.find(block_key(corner_ + Eigen::Vector3i(x, y, z)));
+          if (found != BlockIndex::kNone) near_.at(next) = scatters[found];
+          ++next;
+        }
+      }
+    }
+  }
+
+  [[nodiscard]] float variance_at(const Eigen::Vector3f& point_mm) const {
+    // From the block's centre: -0.5 to 0.5.
+    const Eigen::Array3f from = (per_block_ * point_mm - corner_.cast<float>()).array() - 0.5F;
+    const Eigen::Array3f far = from.abs().min(0.5F);
+    float excess = 0.0F;
+    float degrees_of_freedom = 0.0F;
+    for (int corner = 0; corner < 8; ++corner) {
+      float weight = 1.0F;
+      int index = 0;
+      for (int axis = 2; axis >= 0; --axis) {
+        const bool neighbor = ((corner >> axis) & 1) != 0;
+        weight *= neighbor ? far(axis) : 1.0F - far(axis);
+        index = 3 * index + 1 + (neighbor ? (from(axis) < 0.0F ? -1 : 1) : 0);
+      }
+      const BlockScatter& scatter = near_.at(static_cast<std::size_t>(index));
+      excess += weight * scatter.excess;
+      degrees_of_freedom += weight * scatter.degrees_of_freedom;
+    }
+    return excess > 0.0F && degrees_of_freedom > 0.0F ? excess / degrees_of_freedom : 0.0F;
+  }
+
+ private:
+  Eigen::Vector3i corner_;
+  float per_block_;
+  std::array<BlockScatter, 27> near_;  ///< x runs fastest
+};
+
+}  // namespace
+
 void add_between_view_variance(HermiteAccumulators& hermite, const EdgeCrossings& crossings) {
-  struct Share {
-    float found = 0.0F;  // of the stated variance that differs by view, times the weight
-    float weight = 0.0F;
-  };
-  std::vector<Share> shares(hermite.has_systematic() ? crossings.blocks.size() : 0);
-  parallel_chunks(crossings.blocks.size(), 64, [&](std::size_t begin, std::size_t end) {
+  std::vector<BlockScatter> scatters(crossings.blocks.size());
+  parallel_chunks(scatters.size(), 64, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t block = begin; block < end; ++block)
+      scatters[block] =
+          scatter_in(hermite, crossings.first_of(block), crossings.first_of(block + 1));
+  });
+  parallel_chunks(scatters.size(), 64, [&](std::size_t begin, std::size_t end) {
     for (std::size_t block = begin; block < end; ++block) {
-      const std::size_t first = crossings.first_of(block);
-      const std::size_t last = crossings.first_of(block + 1);
-      float excess = 0.0F;  // scatter between the views in excess of their noise
-      float degrees_of_freedom = 0.0F;
-      float stated = 0.0F;  // variance that differs by view
-      for (std::size_t i = first; i < last; ++i) {
-        const HermiteAccumulator::PlaneSum& face = hermite.dominant(i);
-        if (face.views < 2) continue;
-        const float scatter = face.offset_squared - face.offset * face.offset / face.weight;
-        const float expected = face.noise - face.noise_squared / face.weight;
-        excess += (scatter - expected) / face.weight;
-        const float freedom = 1.0F - face.weight_squared / (face.weight * face.weight);
-        degrees_of_freedom += freedom;
-        stated += freedom * hermite.differing_variance(i);
-      }
-      const float between =
-          excess > 0.0F && degrees_of_freedom > 0.0F ? excess / degrees_of_freedom : 0.0F;
-      if (stated > 0.0F) {
-        const float found = std::clamp(excess / stated, 0.0F, 1.0F);
-        shares[block] = {found * degrees_of_freedom, degrees_of_freedom};
-      }
-      for (std::size_t i = first; i < last; ++i) {
+      const ScatterAround around(crossings, scatters, block);
+      for (std::size_t i = crossings.first_of(block); i < crossings.first_of(block + 1); ++i) {
         const HermiteAccumulator::PlaneSum& face = hermite.dominant(i);
         if (face.views == 0) continue;
+        const float between = around.variance_at(crossings.points_mm[i]);
         hermite[i].common_variance = std::max(between * face.weight_squared, face.lateral_squared) /
                                      (face.weight * face.weight);
       }
     }
   });
-  Share all;
-  for (const Share& share : shares) {
-    all.found += share.found;
-    all.weight += share.weight;
+  if (!hermite.has_systematic()) return;
+  float found = 0.0F;  // of the stated variance that differs by view, times the weight
+  float weight = 0.0F;
+  for (const BlockScatter& block : scatters) {
+    if (!(block.stated > 0.0F)) continue;
+    found += std::clamp(block.excess / block.stated, 0.0F, 1.0F) * block.degrees_of_freedom;
+    weight += block.degrees_of_freedom;
   }
-  if (all.weight > 0.0F) hermite.scale_differing(all.found / all.weight);
+  if (weight > 0.0F) hermite.scale_differing(found / weight);
 }
 
 }  // namespace frangia

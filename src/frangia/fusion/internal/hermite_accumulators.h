@@ -117,7 +117,7 @@ class HermiteAccumulators {
 [[nodiscard]] float correlation(float distance_mm, float half_width_mm);
 
 /// Sets the common variance of each crossing to the variance between the views in excess of their
-/// noise, estimated over the crossing's block: a systematic error of a view over a region does not
+/// noise, estimated over the blocks around it: a systematic error of a view over a region does not
 /// average out within it. The variance from lateral pixel error is the lower bound.
 ///
 /// Where systematic parts that differ by view are known, their variance is scaled to what was found
