@@ -86,14 +86,14 @@ nlohmann::ordered_json coverage_json(const PoseCoverage& coverage) {
           {"distance_ratio", coverage.poses > 0 ? coverage.farthest / coverage.nearest : 1.0},
           {"tilts_deg", coverage.tilts_deg},
           {"sufficient", coverage.sufficient()},
-          {"next", coverage.next}};
+          {"next", coverage.next.text()}};
 }
 
 /// What the program asks for before a pose by hand.
 std::string prompt_for(std::size_t number, std::size_t wanted, const PoseCoverage& coverage) {
   const std::string place =
       number == 1 ? "hold the board still in the middle of the light, facing the camera"
-                  : coverage.next;
+                  : coverage.next.text();
   return fmt::format("pose {} of {}: {}. Enter captures, q ends:", number, wanted, place);
 }
 
@@ -119,7 +119,7 @@ void print_captured(const CalibrateCaptureReport& report,
     print_text("the board is not found in {}\n",
                fmt::format("{}", fmt::join(report.without_board, ", ")));
   if (!arguments.table && !report.coverage.sufficient())
-    print_text("next: {}; the same command goes on\n", report.coverage.next);
+    print_text("next: {}; the same command goes on\n", report.coverage.next.text());
   terminal.print_written(arguments.output.string());
 }
 

@@ -59,17 +59,18 @@ TEST(PoseCoverage, AsksForWhatIsMissingMost) {
     views.push_back(seen(camera, {0.0, 0.0, 600.0}, Eigen::Vector3d::UnitY(), turn_deg));
     views.push_back(seen(camera, {0.0, 0.0, 600.0}, Eigen::Vector3d::UnitX(), turn_deg));
   }
-  EXPECT_NE(measure_pose_coverage(views, kSquares, camera).next.find("by a tenth of its distance"),
-            std::string::npos);
+  EXPECT_NE(
+      measure_pose_coverage(views, kSquares, camera).next.text().find("by a tenth of its distance"),
+      std::string::npos);
   for (const double x : {-150.0, 150.0}) {
     for (const double y : {-110.0, 110.0})
       views.push_back(seen(camera, {x, y, 720.0}));
   }
   const PoseCoverage all = measure_pose_coverage(views, kSquares, camera);
-  EXPECT_TRUE(all.sufficient()) << all.next;
-  EXPECT_NE(all.next.find("sufficient"), std::string::npos);
+  EXPECT_TRUE(all.sufficient()) << all.next.text();
+  EXPECT_NE(all.next.text().find("sufficient"), std::string::npos);
   views.push_back({"view", {}});
-  EXPECT_NE(measure_pose_coverage(views, kSquares, camera).next.find("the same place again"),
+  EXPECT_NE(measure_pose_coverage(views, kSquares, camera).next.text().find("the same place again"),
             std::string::npos);
 }
 

@@ -63,7 +63,7 @@ export function footer(app: App): TemplateResult {
     <div class="job" role="status">
       ${job
         ? html`<svg class="bar" aria-hidden="true"><rect width="${100 * job.progress}%" height="4" /></svg>
-            <span>${t(`job.${job.kind}`)}${job.stage ? ` · ${stageName(job.stage)}` : ''}</span>
+            <span>${t(`job.${job.kind}`)}${job.stage && job.kind !== 'live' ? ` · ${stageName(job.stage)}` : ''}</span>
             <button class="btn small" @click=${() => app.command('stop-job', { job: job.number })}>${t('job.stop')}</button>`
         : html`<span>${said}</span>`}
     </div>

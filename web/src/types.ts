@@ -137,7 +137,7 @@ export interface Calibration {
   distance_ratio: number;
   tilts_deg: [number, number, number, number];
   sufficient: boolean;
-  next: string;
+  next: { kind: string; side: string; place: string; text: string };
   findings: string[];
   fault: string;
   poses: { points: number; expected: number }[];

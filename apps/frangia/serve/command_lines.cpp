@@ -42,6 +42,24 @@ std::vector<std::string> inspect_line(const ProgressOfComparison& comparison,
   return words;
 }
 
+std::vector<std::string> calibrate_line(const ProgressOfCalibration& calibration,
+                                        const std::filesystem::path& rig) {
+  if (calibration.solved)
+    return {"frangia", "calibrate", "rig", calibration.poses.string(), "-o", rig.string()};
+  const Board& board = calibration.board;
+  return {"frangia",
+          "calibrate",
+          "capture",
+          rig.string(),
+          "-o",
+          calibration.poses.string(),
+          fmt::format("--corners={},{}", board.columns, board.rows),
+          "--square",
+          fmt::format("{:g}mm", board.square_mm),
+          "--poses",
+          std::to_string(calibration.wanted)};
+}
+
 }  // namespace
 
 CommandLines command_lines(const ProjectProgress& project) {
@@ -58,7 +76,9 @@ CommandLines command_lines(const ProjectProgress& project) {
     if (project.setup > 0)
       lines["scan"].insert(lines["scan"].end(), {"--setup", std::to_string(project.setup)});
     append_capture(project.capture, lines["scan"]);
-    lines["rig"] = {"frangia", "devices", folder.rig().string()};
+    lines["rig"] = project.calibration
+                       ? calibrate_line(*project.calibration, folder.rig())
+                       : std::vector<std::string>{"frangia", "devices", folder.rig().string()};
   }
   if (project.scan_complete) {
     lines["reconstruct"] = {

@@ -76,11 +76,10 @@ std::optional<std::size_t> open_cell(const PoseCoverage& coverage) {
   return std::nullopt;
 }
 
-std::string advice(const PoseCoverage& coverage, bool found_last) {
+PoseAdvice advice(const PoseCoverage& coverage, bool found_last) {
   static constexpr std::array kSides = {"left", "right", "upper", "lower"};
-  if (!found_last) {
-    return "the same place again, with the whole board in the image, sharp and evenly lit";
-  }
+  using Kind = PoseAdvice::Kind;
+  if (!found_last) return {Kind::Repeat, {}, {}};
   const auto flattest = static_cast<std::size_t>(
       std::min_element(coverage.tilts_deg.begin(), coverage.tilts_deg.end()) -
       coverage.tilts_deg.begin());
@@ -89,18 +88,33 @@ std::string advice(const PoseCoverage& coverage, bool found_last) {
   const double tilt = coverage.tilts_deg.at(flattest) / kWantedTilt_deg;
   const double field = cell ? coverage.field() / kWantedField : 1.0;
   const double depth = (coverage.farthest / coverage.nearest - 1.0) / kWantedDepth;
-  const std::string tilted =
-      fmt::format("tilt its {} side away from the camera by 30 degrees", kSides.at(flattest));
-  if (std::min({tilt, field, depth}) >= 1.0)
-    return "coverage is sufficient; any other tilt and place adds accuracy";
-  if (field <= tilt && field <= depth)
-    return fmt::format("move the board to the {} of the image, and {}", place_of(*cell), tilted);
-  if (tilt <= depth) return tilted;
-  return fmt::format("move the board {} by a tenth of its distance",
-                     coverage.poses % 2 == 0 ? "nearer" : "farther away");
+  if (std::min({tilt, field, depth}) >= 1.0) return {Kind::Sufficient, {}, {}};
+  if (field <= tilt && field <= depth) return {Kind::Move, kSides.at(flattest), place_of(*cell)};
+  if (tilt <= depth) return {Kind::Tilt, kSides.at(flattest), {}};
+  return {coverage.poses % 2 == 0 ? Kind::Nearer : Kind::Farther, {}, {}};
 }
 
 }  // namespace
+
+std::string PoseAdvice::text() const {
+  const std::string tilted =
+      fmt::format("tilt its {} side away from the camera by 30 degrees", side);
+  switch (kind) {
+    case Kind::Repeat:
+      return "the same place again, with the whole board in the image, sharp and evenly lit";
+    case Kind::Sufficient:
+      return "coverage is sufficient; any other tilt and place adds accuracy";
+    case Kind::Move:
+      return fmt::format("move the board to the {} of the image, and {}", place, tilted);
+    case Kind::Tilt:
+      return tilted;
+    case Kind::Nearer:
+      return "move the board nearer by a tenth of its distance";
+    case Kind::Farther:
+      return "move the board farther away by a tenth of its distance";
+  }
+  return {};
+}
 
 double PoseCoverage::field() const {
   return static_cast<double>(std::count(cells.begin(), cells.end(), true)) /

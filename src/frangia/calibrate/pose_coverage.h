@@ -10,6 +10,23 @@
 
 namespace frangia {
 
+/// What the next pose of a board should be.
+struct PoseAdvice {
+  enum class Kind {
+    Repeat,      ///< the board was not found
+    Sufficient,  ///< the coverage is; any other pose adds accuracy
+    Move,        ///< to a place, and tilted
+    Tilt,
+    Nearer,
+    Farther
+  };
+  Kind kind = Kind::Repeat;
+  std::string side;   ///< left, right, upper or lower: to tilt away from the camera
+  std::string place;  ///< of the image: "upper left"; of Move only
+
+  [[nodiscard]] std::string text() const;  ///< one clause
+};
+
 /// Which places of the field, distances and tilts the poses of a board cover.
 struct PoseCoverage {
   /// Cells of a grid over the image, row by row, that hold a point of a board.
@@ -21,7 +38,7 @@ struct PoseCoverage {
   /// Largest tilts with the left, right, upper and lower side of the board away from the camera.
   std::array<double, 4> tilts_deg{};
   std::size_t poses = 0;  ///< that show the board
-  std::string next;       ///< what the next pose should be, one clause
+  PoseAdvice next;        ///< what the next pose should be
 
   [[nodiscard]] double field() const;     ///< share of the cells
   [[nodiscard]] double tilt_deg() const;  ///< largest tilt

@@ -134,7 +134,9 @@ void CalibrationWizard::capture(const Board& board,
     });
   };
   run.stage("poses");
-  static_cast<void>(calibrate_capture(plan, devices, lock, options, run));
+  Run guided = run;
+  guided.on_note = nullptr;  // the page shows the poses; the notes count the most that there may be
+  static_cast<void>(calibrate_capture(plan, devices, lock, options, guided));
 }
 
 /// Keeps what the page and a report show of a calibration.
@@ -183,6 +185,7 @@ void CalibrationWizard::run(const Board& board,
   change([&](WizardState& state) {
     state = {};
     state.active = true;
+    state.board = board;
     state.wanted = poses;
   });
   struct AtEnd {

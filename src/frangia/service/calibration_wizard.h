@@ -41,6 +41,7 @@ struct WizardState {
   bool active = false;                ///< it captures, waits or computes
   bool waiting = false;               ///< for the board to stand in its next pose
   std::size_t found = 0;              ///< points of the board in the live picture
+  Board board;                        ///< that is captured
   std::size_t wanted = 0;             ///< poses
   std::vector<WizardPose> poses;      ///< that were captured
   PoseCoverage coverage;              ///< of all poses
@@ -67,6 +68,8 @@ class CalibrationWizard {
     const std::lock_guard lock(mutex_);
     return snapshot_;
   }
+  /// The scan folder of the poses.
+  [[nodiscard]] const std::filesystem::path& folder() const { return folder_; }
   /// Captures the pose in which the board stands.
   ///
   /// @errors   Error(Input) when no pose is waited for

@@ -30,6 +30,11 @@ ProjectProgress progress_of(const OpenProject& project) {
       }));
   progress.scan_complete = project.scan_complete;
   progress.capture = project.capture;
+  if (project.wizard) {
+    const WizardState state = project.wizard->state();
+    progress.calibration = {
+        project.wizard->folder(), state.board, state.wanted, !state.verdict.grade.empty()};
+  }
   progress.has_surface = project.surface != nullptr;
   if (project.surface) {
     const auto& steps = project.surface->steps;

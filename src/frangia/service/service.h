@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "frangia/editor/edit_operation.h"
+#include "frangia/rig/board.h"
 #include "frangia/service/capture_settings.h"
 #include "frangia/service/live_preview.h"
 #include "frangia/service/project_folder.h"
@@ -29,6 +30,14 @@ struct ProgressOfComparison {
 };
 
 /// How far a project has come, for those who describe it in their own words.
+/// Of the last calibration of a project.
+struct ProgressOfCalibration {
+  std::filesystem::path poses;  ///< scan folder
+  Board board;
+  std::size_t wanted = 0;  ///< poses
+  bool solved = false;     ///< the rig is calibrated from them
+};
+
 struct ProjectProgress {
   ProjectFolder folder;                              ///< where its files are
   bool can_scan = false;                             ///< its rig names devices
@@ -39,6 +48,7 @@ struct ProjectProgress {
   std::vector<EditStep> steps;                       ///< applied edits
   CaptureSettings capture;                           ///< of the scan
   std::optional<ProgressOfComparison> comparison{};  ///< of the present surface
+  std::optional<ProgressOfCalibration> calibration{};  ///< since the project was opened
 };
 
 /// Command lines by the name of the step that they stand for, as words.

@@ -2,7 +2,7 @@ import { html, svg, type TemplateResult } from 'lit';
 import type { App } from '../app';
 import type { RigFigure } from '../arrange';
 import { icon } from '../icons';
-import { number, t } from '../messages';
+import { number, t, type MessageKey } from '../messages';
 import { poseTable } from '../residuals';
 import type { Calibration, RigGeometry } from '../types';
 import { nextStep, plain } from '../ui';
@@ -85,6 +85,13 @@ function doctor(state: Calibration): TemplateResult | string {
   </div>`;
 }
 
+/** What the next pose of the board should be, in the language of the page. */
+function nextPose({ next }: Calibration): string {
+  const tilt = next.side ? t(`tilt.${next.side}` as MessageKey) : '';
+  const place = next.place ? t(`place.${next.place}` as MessageKey) : '';
+  return t(`pose.${next.kind}` as MessageKey, { tilt, place });
+}
+
 function calibration(app: App): TemplateResult {
   const { project } = app;
   const state = project.calibration;
@@ -100,7 +107,7 @@ function calibration(app: App): TemplateResult {
   return html`<section class="group">
     <h2>${t('rig.calibration')}${known && !state ? html`<small class="num">± ${number(known.point_sigma_mm, 3)} mm</small>` : ''}</h2>
     ${state?.active
-      ? html`<p class="next">${state.waiting ? (state.poses.length === 0 ? t('rig.first') : state.next) : state.poses.length && state.with_board >= state.wanted ? t('rig.solving') : t('rig.capturing')}</p>
+      ? html`<p class="next">${state.waiting ? (state.poses.length === 0 ? t('rig.first') : nextPose(state)) : state.poses.length && state.with_board >= state.wanted ? t('rig.solving') : t('rig.capturing')}</p>
           <div class="pair">
             <button class="btn primary" id="pose" ?disabled=${!state.waiting} @click=${() => app.command('capture-pose')}>${icon('check')}${t('rig.pose', { number: state.poses.length + 1, wanted: state.wanted })}</button>
             <button class="btn" id="end-poses" ?disabled=${!state.waiting || state.with_board < 3} @click=${() => app.command('end-poses')}>${t('rig.end')}</button>

@@ -1,5 +1,6 @@
 #include "frangia/service/internal/rig_json.h"
 
+#include <array>
 #include <variant>
 
 #include <nlohmann/json.hpp>
@@ -29,6 +30,16 @@ RigJson json_of_optics(const CameraModel& model) {
           {"height_px", model.height_px},
           {"focal_px", {model.focal_px.x(), model.focal_px.y()}},
           {"principal_point_px", {model.principal_point_px.x(), model.principal_point_px.y()}}};
+}
+
+/// An advice for a page to word in its language, and in English.
+RigJson json_of(const PoseAdvice& advice) {
+  static constexpr std::array kKinds = {
+      "repeat", "sufficient", "move", "tilt", "nearer", "farther"};
+  return {{"kind", kKinds.at(static_cast<std::size_t>(advice.kind))},
+          {"side", advice.side},
+          {"place", advice.place},
+          {"text", advice.text()}};
 }
 
 }  // namespace
@@ -112,7 +123,7 @@ RigJson json_of_wizard(const WizardState& state) {
       {"distance_ratio", coverage.nearest > 0.0 ? coverage.farthest / coverage.nearest : 1.0},
       {"tilts_deg", coverage.tilts_deg},
       {"sufficient", state.sufficient},
-      {"next", coverage.next},
+      {"next", json_of(coverage.next)},
       {"findings", state.findings},
       {"fault", state.fault}};
   json["poses"] = RigJson::array();
