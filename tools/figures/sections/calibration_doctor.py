@@ -67,6 +67,16 @@ def opposite_once(frames, seed):
     return swap(frames, chosen(seed), ["columns-2", "rows-2"][seed % 2], 0, 2)
 
 
+def exchanged_views(frames, seed):
+    """The frames of one pattern of two views are exchanged, as by a script that names files."""
+    other = f"{(seed + 1) % POSES:03d}"
+    pattern = ["columns-2", "rows-2", "rows-0"][seed % 3]
+    for path in [path for path in frames if view_of(path) == chosen(seed) and path.name.startswith(pattern)]:
+        partner = path.parent.parent / other / path.name
+        frames[path], frames[partner] = frames[partner], frames[path]
+    return frames
+
+
 def moved(frames, seed):
     """All frames of the rows of one view are shifted by 1.2 px, as a board that slips between the two directions shows them."""
     angle = numpy.random.default_rng(seed).uniform(0, 2 * numpy.pi)
@@ -163,6 +173,7 @@ FAULTS = [
     ("frames of a pattern swapped, all views", swapped, None, "do not follow its shifts", "checkerboard"),
     ("frames swapped in one view", swapped_once, None, r"frames of pattern .* in views/{view} do not follow", "checkerboard"),
     ("frames half a period apart swapped, one view", opposite_once, None, r"views/{view}", "checkerboard"),
+    ("frames of a pattern exchanged between two views", exchanged_views, None, r"views/{view}.*exchanged", "checkerboard"),
     ("board moved within one view by 1.2 px", moved, None, r"moved during the capture of views/{view}", "checkerboard"),
     ("one view out of focus", blurred, None, r"out of focus or moving in views/{view}", "checkerboard"),
 ]
