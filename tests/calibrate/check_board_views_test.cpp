@@ -250,6 +250,17 @@ TEST(CheckBoardViews, WarnsOfGammaAndBlurWithoutLeavingPosesOut) {
   EXPECT_NE(checks.warnings[1].find("out of focus or moving in pose 1"), std::string::npos);
 }
 
+TEST(CheckBoardViews, NamesBlurWhereItLeavesNoFringes) {
+  std::vector<PoseCapture> poses = captures(8);
+  poses[4].blur_px = 4.0;
+  for (BoardPoint& point : poses[4].view.points)
+    point.projector_px.setConstant(std::nan(""));
+  const PoseChecks checks = check_board_views(poses, kBoard, known_rig());
+  EXPECT_EQ(checks.left_out, std::vector<std::string>{"pose 4"});
+  EXPECT_NE(checks.warnings.at(0).find("out of focus or moving in pose 4"), std::string::npos)
+      << checks.warnings.at(0);
+}
+
 TEST(CheckBoardViews, RecognizesAMirroredCharucoBoard) {
   EXPECT_NE(fault_of([](PoseCapture& pose) {
               pose.view.points.clear();

@@ -293,9 +293,10 @@ PoseChecks check_board_views(std::span<const PoseCapture> poses,
     return pose.brightness < options.dim && !is_lit(pose, options);
   });
   leave_out(dark, describe_dark(dark, options));
-  // Coarse blur lets the fringes about the corners look like those of other frames.
+  // Coarse blur lets the fringes about the points look like those of other frames, or vanish.
   const auto blurred = names_of(seen, [&](const PoseCapture& pose) {
-    return pose.misfit > options.wrong_frames && is_blurred(pose, options);
+    const bool unusable = pose.misfit > options.wrong_frames || !is_lit(pose, options);
+    return unusable && is_blurred(pose, options);
   });
   leave_out(blurred, describe_blurred(seen, blurred));
   const auto swapped =

@@ -176,6 +176,9 @@ FAULTS = [
     ("frames of a pattern exchanged between two views", exchanged_views, None, r"views/{view}.*exchanged", "checkerboard"),
     ("board moved within one view by 1.2 px", moved, None, r"moved during the capture of views/{view}", "checkerboard"),
     ("one view out of focus", blurred, None, r"out of focus or moving in views/{view}", "checkerboard"),
+    ("none, circles", None, None, None, "circles"),
+    ("circles moved within one view by 1.2 px", moved, None, r"moved during the capture of views/{view}", "circles"),
+    ("circles out of focus in one view", blurred, None, r"out of focus or moving in views/{view}", "circles"),
 ]
 
 
@@ -203,7 +206,7 @@ def measure_fault(study, captures, fault, seeds):
 
 
 def measure(study, seeds=SEEDS):
-    captures = {kind: Capture(rendered(study, kind, POSES)) for kind in ("checkerboard", "charuco")}
+    captures = {kind: Capture(rendered(study, kind, POSES)) for kind in ("checkerboard", "charuco", "circles")}
     study.add(f"`frangia calibrate rig` on {POSES} simulated poses of 640 × 512 pixels, {seeds} seeds of the noise. A fault is named if the first warning or error names it; without a fault there must be none.\n")
     study.table("fault", "named first", "message")
     for fault in FAULTS:

@@ -35,6 +35,15 @@ int corner_reach_px(const Board& board, const std::vector<BoardPoint>& points) {
   return static_cast<int>(std::clamp(kForeshortened * std::min(free, 0.3) * step, 2.0, 20.0));
 }
 
+/// Half the side of a window about a point that shows edges of the board, and as few of the next
+/// points as may be, px.
+int edge_reach_px(const Board& board, const std::vector<BoardPoint>& points) {
+  if (board.kind != BoardKind::Circles) return corner_reach_px(board, points);
+  const double step = step_px(board, points);
+  constexpr double kHalf = 0.5;  // of a circle and the ground about it
+  return std::isnan(step) ? 2 : std::max(2, static_cast<int>(std::lround(kHalf * step)));
+}
+
 /// Half the side of a window that shows the pattern of the board about a point, px.
 int likeness_reach_px(const Board& board, const std::vector<BoardPoint>& points) {
   const double step = step_px(board, points);
@@ -67,7 +76,7 @@ void calibrate_measure_faults(std::span<const FrameStack> stacks,
                               PoseCapture& pose) {
   const std::vector<BoardPoint>& points = pose.view.points;
   const int reach_px = corner_reach_px(board, points);
-  if (board.kind != BoardKind::Circles) pose.blur_px = measure_blur_px(image, points, reach_px);
+  pose.blur_px = measure_blur_px(image, points, edge_reach_px(board, points));
   for (std::size_t i = 0; i < stacks.size(); ++i) {
     const Pattern& pattern = stacks[i].pattern;
     if (pattern.kind != PatternKind::Fringe || stacks[i].exposure != 0) continue;
