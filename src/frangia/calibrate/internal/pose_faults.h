@@ -35,6 +35,11 @@ template <typename Condition>
 [[nodiscard]] std::string describe_moved(std::span<const PoseCapture> poses,
                                          const std::vector<std::string>& names);
 
+/// Names of the poses whose points are those of an earlier pose, to the last digit: copied files.
+/// Noise tells two captures of one pose apart.
+[[nodiscard]] std::vector<std::string> copies_of_others(std::span<const PoseCapture> poses);
+[[nodiscard]] std::string describe_copies(const std::vector<std::string>& names);
+
 /// The poses without the board whose images are as bright as the others and less sharp.
 [[nodiscard]] std::vector<std::string> blurred_unseen(std::span<const PoseCapture> poses,
                                                       const PoseCheckOptions& options);
