@@ -20,6 +20,10 @@
 #include "frangia/dataset/scan_of_camera.h"
 #include "frangia/frames/float_tiff.h"
 #include "frangia/frames/png.h"
+#include "frangia/rig/paper_rig.h"
+#include "frangia/rig/read_rig.h"
+#include "frangia/rig/rig_covariance.h"
+#include "frangia/rig/write_rig.h"
 
 #include "support/error_of.h"
 #include "support/temporary_folder.h"
@@ -169,6 +173,25 @@ TEST_F(ImportFrames, DemosaicsAWhiteFrame) {
     EXPECT_TRUE(stacks[1].color(x, 4).isApprox(Eigen::Vector3f(0.2F, 0.4F, 0.6F)))
         << stacks[1].color(x, 4).transpose();
   }
+}
+
+TEST_F(ImportFrames, TakesTheCovarianceOfACalibratedRigAlong) {
+  Rig rig = make_paper_rig({});
+  rig.projector.model = PinholeModel{.width_px = 1280,
+                                     .height_px = 800,
+                                     .focal_px = {1900.0, 1900.0},
+                                     .principal_point_px = {640.0, 400.0}};
+  rig.camera.model.width_px = 8;
+  rig.camera.model.height_px = 6;
+  rig.calibration = Calibration{.date = "2026-01-01", .board = "checkerboard", .poses = 12};
+  rig.calibration->covariance_file = "rig-covariance.csv";
+  rig.calibration->covariance.parameters = {"camera.focal_px"};
+  rig.calibration->covariance.covariance = Eigen::MatrixXd::Constant(1, 1, 0.25);
+  options_.rig = images().parent_path() / "rig.toml";
+  write_rig(options_.rig, rig);
+  write_fringes("a");
+  const Scan scan = import();
+  EXPECT_EQ(read_rig(scan.folder / "rig.toml").calibration->covariance.covariance(0, 0), 0.25);
 }
 
 TEST_F(ImportFrames, RecordsEachOriginalWithItsChecksum) {

@@ -12,6 +12,7 @@
 #include "frangia/dataset/internal/import_patterns.h"
 #include "frangia/dataset/name_template.h"
 #include "frangia/rig/read_rig.h"
+#include "frangia/rig/rig_covariance.h"
 #include "frangia/rig/rig_of_camera.h"
 
 namespace frangia {
@@ -34,6 +35,11 @@ void find_rig(ImportPlan& plan, const Run& run) {
   const ImportOptions& options = plan.options;
   if (!options.rig.empty()) {
     plan.rig = read_rig(options.rig, run, RigContent::StartValues);
+    auto& calibration = plan.rig.calibration;
+    if (calibration && !calibration->covariance_file.empty()) {
+      const fs::path file = options.rig.parent_path() / calibration->covariance_file;
+      calibration->covariance = read_rig_covariance(file, plan.rig);
+    }
     plan.rig_has_projector = true;
     return;
   }

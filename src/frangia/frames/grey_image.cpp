@@ -86,18 +86,6 @@ void demosaic(const Image<T>& image, const std::string& mosaic, const Use& use) 
 }
 
 template <typename T>
-Image<Computed<T>> demosaiced_luminance(const Image<T>& image, const std::string& mosaic) {
-  Image<Computed<T>> grey(image.width(), image.height(), Uninitialized{});
-  demosaic(image, mosaic, [&](int x, int y, const std::array<double, 3>& channels) {
-    double value = 0.0;
-    for (std::size_t c = 0; c < channels.size(); ++c)
-      value += kLuminance[c] * channels[c];
-    grey(x, y) = computed<T>(value);
-  });
-  return grey;
-}
-
-template <typename T>
 Image<Computed<T>> demosaiced_color(const Image<T>& image, const std::string& mosaic) {
   Image<Computed<T>> color(3 * image.width(), image.height(), Uninitialized{});
   demosaic(image, mosaic, [&](int x, int y, const std::array<double, 3>& channels) {
@@ -154,14 +142,9 @@ std::optional<RasterImage> color_image(const RasterImage& image, const ColorChoi
 }
 
 Samples grey_image(RasterImage image, const ColorChoice& choice) {
-  if (image.channels == 1) {
-    if (choice.from != GreyFrom::Demosaic) return std::move(image.samples);
-    require(image.width_px() >= 2 && image.height_px() >= 2,
-            "a mosaic has at least 2 x 2 pixels; set another `color`");
-    return std::visit(
-        [&](const auto& samples) { return Samples(demosaiced_luminance(samples, choice.mosaic)); },
-        image.samples);
-  }
+  // The phase of a pixel does not depend on the gain of its channel, while interpolated pixels have
+  // errors that are common to neighbours, and that their noise does not show.
+  if (image.channels == 1) return std::move(image.samples);
   const GreyFrom from = choice.from;
   if (from == GreyFrom::Nothing || from == GreyFrom::Demosaic) {
     require(!has_color(image),

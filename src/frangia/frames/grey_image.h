@@ -14,7 +14,7 @@ enum class GreyFrom {
   Green,      ///< the green channel
   Blue,       ///< the blue channel
   Luminance,  ///< 0.299 red + 0.587 green + 0.114 blue (ITU-R BT.601)
-  Demosaic    ///< luminance of the colours interpolated from a mosaic of colour filters
+  Demosaic    ///< the pixels of a mosaic of colour filters as they are; `color_image` interpolates
 };
 
 /// A choice of colour and, for a mosaic, its filters.
@@ -33,16 +33,15 @@ struct ColorChoice {
 
 /// Converts an image to grey. An image with three equal channels needs no choice.
 ///
-/// Bilinear interpolation gives the colours of a mosaic. A computed value has fractions: 8-bit
-/// samples become 16-bit ones, 257 times as large, so that 255 becomes 65535.
+/// A mosaic stays as it is. A computed value has fractions: 8-bit samples become 16-bit ones, 257
+/// times as large, so that 255 becomes 65535.
 /// @shape    one sample per pixel
-/// @errors   Error(Input) when the image has colour and `choice` is Nothing or a mosaic, or when a
-///          mosaic has fewer than 2 x 2 pixels
+/// @errors   Error(Input) when the image has colour and `choice` is Nothing or a mosaic
 /// @source   ITU-R BT.601 for the weights
 [[nodiscard]] Samples grey_image(RasterImage image, const ColorChoice& choice);
 
-/// Returns the red, green and blue of a coloured image, or of a mosaic as `choice` says, whose
-/// values are scaled as those of `grey_image`.
+/// Returns the red, green and blue of a coloured image, or of a mosaic as `choice` says: bilinear
+/// interpolation, whose values are scaled as computed ones of `grey_image`.
 ///
 /// @shape    three samples per pixel
 /// @missing  empty for a grey image and for floating-point samples
