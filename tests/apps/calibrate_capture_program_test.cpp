@@ -82,8 +82,14 @@ TEST_F(CaptureOfPoses, WithoutAPoseEndsWithOneSentenceAndNoScan) {
 }
 
 TEST_F(CaptureOfPoses, OnTheTurntableNeedsNobody) {
-  const Answer answer = run_shell(capture(maker_rig(), "--table --poses 3") + " </dev/null");
+  const std::string rig = maker_rig();
+  std::ofstream(rig, std::ios::app)
+      << "[calibration]\ndate = \"2026-01-01\"\nboard = \"checkerboard\"\nposes = 12\n"
+         "camera_rms_px = 0.1\nprojector_rms_px = 0.1\ncovariance = \"rig-covariance.csv\"\n";
+  const Answer answer = run_shell(capture(rig, "--table --poses 3") + " </dev/null");
   EXPECT_EQ(answer.exit_code, 0) << answer.output;
+  EXPECT_EQ(testing::text_of(poses() + "/rig.toml").find("covariance"), std::string::npos)
+      << "the poses name a file that is elsewhere";
   const Scan scan = read_scan(poses(), {}, RigContent::StartValues);
   ASSERT_EQ(scan.views.size(), 3U);
   EXPECT_NEAR(scan.views[2].angle_rad - scan.views[0].angle_rad, rad_from_deg(60.0), 1e-9);

@@ -62,6 +62,7 @@ CalibrateCaptureReport calibrate_capture(const Scan& plan,
   if (!plan.board) throw Error(ErrorKind::Input, "the plan of a calibration needs a board");
   check_board(*plan.board);
   Scan real = plan;
+  real.rig.calibration.reset();  // these poses are for another one; its covariance stays behind
   const bool by_hand = options.wait_for_pose != nullptr;
   if (by_hand) {
     require(options.poses >= 1 && options.poses <= kMaxPosesByHand,
