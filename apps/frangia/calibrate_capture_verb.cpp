@@ -115,9 +115,10 @@ void print_captured(const CalibrateCaptureReport& report,
   print_text("{} with the board: {}\n",
              counted(report.coverage.poses, "pose"),
              coverage_text(report.coverage));
-  if (!report.without_board.empty())
+  if (!report.without_board.empty()) {
     print_text("the board is not found in {}\n",
                fmt::format("{}", fmt::join(report.without_board, ", ")));
+  }
   if (!arguments.table && !report.coverage.sufficient())
     print_text("next: {}; the same command goes on\n", report.coverage.next.text());
   terminal.print_written(arguments.output.string());

@@ -54,12 +54,12 @@ bool says(const Answer& answer, const std::string& part) {
 
 TEST_F(CaptureOfPoses, GoesOnWhereAPipeEndedAndCalibratesTheRig) {
   const std::string command = capture(maker_rig(), "--poses 4");
-  const Answer two = run_shell("printf '\\n\\n' | " + command);
+  const Answer two = run_shell(R"(printf '\n\n' | )" + command);
   EXPECT_EQ(two.exit_code, 0) << two.output;
   EXPECT_TRUE(says(two, "pose 1: 70 of 70 points")) << two.output;
   EXPECT_TRUE(says(two, "2 poses with the board")) << two.output;
   EXPECT_TRUE(says(two, "the same command goes on")) << two.output;
-  const Answer four = run_shell("printf '\\n\\n\\n' | " + command);
+  const Answer four = run_shell(R"(printf '\n\n\n' | )" + command);
   EXPECT_EQ(four.exit_code, 0) << four.output;
   EXPECT_TRUE(says(four, "4 poses with the board")) << four.output;
   EXPECT_EQ(read_scan(poses(), {}, RigContent::StartValues).views.size(), 4U);

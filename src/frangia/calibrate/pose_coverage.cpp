@@ -97,8 +97,7 @@ PoseAdvice advice(const PoseCoverage& coverage, bool found_last) {
 }  // namespace
 
 std::string PoseAdvice::text() const {
-  const std::string tilted =
-      fmt::format("tilt its {} side away from the camera by 30 degrees", side);
+  std::string tilted = fmt::format("tilt its {} side away from the camera by 30 degrees", side);
   switch (kind) {
     case Kind::Repeat:
       return "the same place again, with the whole board in the image, sharp and evenly lit";
@@ -149,7 +148,8 @@ PoseCoverage measure_pose_coverage(std::span<const BoardView> views,
       };
       const int column = cell_of(point.camera_px.x(), camera.width_px, PoseCoverage::kColumns);
       const int row = cell_of(point.camera_px.y(), camera.height_px, PoseCoverage::kRows);
-      coverage.cells.at(static_cast<std::size_t>(row * PoseCoverage::kColumns + column)) = true;
+      const int cell = row * PoseCoverage::kColumns + column;
+      coverage.cells.at(static_cast<std::size_t>(cell)) = true;
     }
     // The board faces the side that lies back: with its left side farther away, x < 0.
     const double x_deg = deg_from_rad(std::asin(std::clamp(pose->normal.x(), -1.0, 1.0)));

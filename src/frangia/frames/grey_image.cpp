@@ -54,7 +54,8 @@ template <typename T, typename Use>
 void demosaic(const Image<T>& image, const std::string& mosaic, const Use& use) {
   const auto filter_at = [&](int x, int y) {
     constexpr std::string_view kFilters = "RGB";
-    return kFilters.find(mosaic[static_cast<std::size_t>(2 * (y & 1) + (x & 1))]);
+    const int place = 2 * (y & 1) + (x & 1);
+    return kFilters.find(mosaic[static_cast<std::size_t>(place)]);
   };
   // Mirrored about the outermost pixels, so that the filters continue.
   const auto mirrored = [](int at, int side) {
@@ -114,9 +115,10 @@ ColorChoice parse_color_choice(const std::string& text) {
        {"luminance", GreyFrom::Luminance}}};
   for (const auto& [name, from] : kNames)
     if (text == name) return {from};
-  for (const std::string_view mosaic : {"RGGB", "BGGR", "GRBG", "GBRG"})
+  for (const std::string_view mosaic : {"RGGB", "BGGR", "GRBG", "GBRG"}) {
     if (text == fmt::format("demosaic:{}", mosaic))
       return {GreyFrom::Demosaic, std::string(mosaic)};
+  }
   throw Error(ErrorKind::Input,
               fmt::format("`color` is \"{}\"; it must be red, green, blue, luminance, or demosaic: "
                           "with RGGB, BGGR, GRBG or GBRG",

@@ -103,9 +103,8 @@ void add_rig_blocks(const ArtifactProblem& problem,
 
 template <int kResiduals, int... kBlocks, typename Residual>
 ceres::CostFunction* artifact_cost(const Residual& residual) {
-  return new ceres::
-      AutoDiffCostFunction<Residual, kResiduals, kBlocks...>(  // NOLINT(*-owning-memory)
-          new Residual(residual));                             // NOLINT(*-owning-memory)
+  using Cost = ceres::AutoDiffCostFunction<Residual, kResiduals, kBlocks...>;
+  return new Cost(new Residual(residual));  // NOLINT(*-owning-memory): the problem owns both
 }
 
 /// Declares the angles and surfaces of all captures, with what is known of them.

@@ -135,9 +135,10 @@ class ScatterAround {
 void add_between_view_variance(HermiteAccumulators& hermite, const EdgeCrossings& crossings) {
   std::vector<BlockScatter> scatters(crossings.blocks.size());
   parallel_chunks(scatters.size(), 64, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t block = begin; block < end; ++block)
+    for (std::size_t block = begin; block < end; ++block) {
       scatters[block] =
           scatter_in(hermite, crossings.first_of(block), crossings.first_of(block + 1));
+    }
   });
   parallel_chunks(scatters.size(), 64, [&](std::size_t begin, std::size_t end) {
     for (std::size_t block = begin; block < end; ++block) {
