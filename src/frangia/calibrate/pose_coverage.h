@@ -12,6 +12,7 @@ namespace frangia {
 
 /// What the next pose of a board should be.
 struct PoseAdvice {
+  /// What to do.
   enum class Kind {
     Repeat,      ///< the board was not found
     Sufficient,  ///< the coverage is; any other pose adds accuracy
@@ -20,9 +21,9 @@ struct PoseAdvice {
     Nearer,
     Farther
   };
-  Kind kind = Kind::Repeat;
-  std::string side;   ///< left, right, upper or lower: to tilt away from the camera
-  std::string place;  ///< of the image: "upper left"; of Move only
+  Kind kind = Kind::Repeat;  ///< what to do
+  std::string side;          ///< left, right, upper or lower: to tilt away from the camera
+  std::string place;         ///< of the image: "upper left"; of Move only
 
   [[nodiscard]] std::string text() const;  ///< one clause
 };

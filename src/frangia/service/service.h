@@ -29,15 +29,15 @@ struct ProgressOfComparison {
   double upper_mm = 0.0;            ///< tolerance
 };
 
-/// How far a project has come, for those who describe it in their own words.
 /// Of the last calibration of a project.
 struct ProgressOfCalibration {
   std::filesystem::path poses;  ///< scan folder
-  Board board;
-  std::size_t wanted = 0;  ///< poses
-  bool solved = false;     ///< the rig is calibrated from them
+  Board board;                  ///< in the poses
+  std::size_t wanted = 0;       ///< poses
+  bool solved = false;          ///< the rig is calibrated from them
 };
 
+/// How far a project has come, for those who describe it in their own words.
 struct ProjectProgress {
   ProjectFolder folder;                              ///< where its files are
   bool can_scan = false;                             ///< its rig names devices
