@@ -1,7 +1,10 @@
 #include "frangia/registration/internal/assess_places.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <utility>
+#include <vector>
 
 #include "frangia/core/median.h"
 #include "frangia/registration/internal/state_motions.h"
@@ -23,7 +26,36 @@ void assess_disagreement(RegistrationReport& report,
   report.disagreement_over_sigma = report.disagreement_over_noise / std::sqrt(1.0 + added);
 }
 
+/// The information of the pairs on the unknowns, with the noise that their distances show and the
+/// error that all pairs of two views have in common. That error is the views' own: each of k pairs
+/// of a view repeats it, so that k views that are all compared are worth k pairs, not k^2.
+Eigen::MatrixXd information_of(const Bundle& bundle, const BundleSums& sums) {
+  const auto count = static_cast<double>(std::max<std::size_t>(1, sums.distances_mm.size()));
+  const double excess =
+      std::max(1.0, static_cast<double>(median(sums.over_sigma)) / kMedianOfNormal);
+  const double scatter_mm = static_cast<double>(median(sums.distances_mm)) / kMedianOfNormal;
+  const double shared_mm = shared_error_mm(bundle, sums);
+  const auto errors =
+      static_cast<double>(std::min(bundle.maps.size(), count_pairs(bundle.pairs) / 2));
+  const double independent = errors * std::pow(scatter_mm / shared_mm, 2);
+  return std::min(1.0, independent / count) / (excess * excess) * sums.hessian;
+}
+
 }  // namespace
+
+double shared_error_mm(const Bundle& bundle, const BundleSums& sums) {
+  constexpr std::size_t kFewest = 200;  // pairs of a region: their noise must not count
+  std::vector<float> means_mm;
+  for (const RegionDistance& region : sums.regions) {
+    if (region.count >= kFewest) means_mm.push_back(static_cast<float>(std::abs(region.mean_mm())));
+  }
+  const auto regions = static_cast<double>(means_mm.size());
+  // The unknowns have been fitted to the same distances.
+  const double left = regions - static_cast<double>(bundle.state.unknowns());
+  if (left < 1.0) return bundle.systematic_mm;
+  return static_cast<double>(median(std::move(means_mm))) / kMedianOfNormal *
+         std::sqrt(regions / left);
+}
 
 void assess_places(RegistrationReport& report,
                    const Bundle& bundle,
@@ -38,7 +70,7 @@ void assess_places(RegistrationReport& report,
   state.table = nearest_to(report.given, state.table);
   const Eigen::VectorXd sigma = sigmas_of(state, report.sigma, bundle.prior_sigma);
   Eigen::MatrixXd information;
-  if (overlap == Overlap::Determines) information = effective_weight(bundle, sums) * sums.hessian;
+  if (overlap == Overlap::Determines) information = information_of(bundle, sums);
   report.motions = state_motions(state, sigma, information, offset);
   if (report.rests_on_rig) assess_disagreement(report, sums, sigma);
 }

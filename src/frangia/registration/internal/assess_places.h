@@ -14,6 +14,10 @@ enum class Overlap : std::uint8_t {
   SaysNothing  ///< too few points overlap, or they let the views slide: the rig's places are kept
 };
 
+/// Returns the error that the pairs of two views have in common, as the mean distances of the
+/// regions of the views show it; `systematic_mm` of the bundle where too few regions are compared.
+[[nodiscard]] double shared_error_mm(const Bundle& bundle, const BundleSums& sums);
+
 /// Sets how uncertain the places of the views are: `rests_on_rig`, `sigma`, `motions`, and how far
 /// the views disagree where they overlap although the rig's places are kept.
 ///

@@ -34,7 +34,8 @@ struct ChunkSums {
   std::vector<float> over_sigma;
   std::size_t matched = 0;
   std::size_t observed = 0;
-  std::vector<PairTally> tallies;  ///< by paired view
+  std::vector<PairTally> tallies;        ///< by paired view
+  std::vector<RegionDistance> distance;  ///< by paired view
 };
 
 /// The unknowns that the pairs of a view depend on, in ascending order.
@@ -55,6 +56,18 @@ std::vector<Eigen::Index> unknowns_of(const BundleViews& views, std::size_t from
   return unknowns;
 }
 
+/// The columns that a pair depends on.
+struct Row {
+  std::array<Eigen::Index, 18> indices{};
+  std::array<double, 18> values{};
+  std::size_t count = 0;
+
+  void add(Eigen::Index column, double value) {
+    indices.at(count) = column;
+    values.at(count++) = value;
+  }
+};
+
 /// Sums one chunk of a view's surfels over its paired views.
 struct BundleAccumulator {
   const BundleViews& views;
@@ -71,6 +84,7 @@ struct BundleAccumulator {
     sums.hessian = Eigen::MatrixXd::Zero(count, count);
     sums.gradient = Eigen::VectorXd::Zero(count);
     sums.tallies.resize(all.pairs[view].size());
+    sums.distance.resize(all.pairs[view].size());
     column_of.resize(static_cast<std::size_t>(all.state.unknowns()));
     for (Eigen::Index i = 0; i < count; ++i)
       column_of[static_cast<std::size_t>(sums.unknowns[static_cast<std::size_t>(i)])] = i;
@@ -86,7 +100,7 @@ struct BundleAccumulator {
       bool matched = false;
       for (std::size_t i = 0; i < others.size(); ++i) {
         if (others[i] == options.left_out) continue;
-        const double distance = add_pair(surfel, transfers[i], others[i], sums.tallies[i]);
+        const double distance = add_pair(surfel, transfers[i], i);
         observed = observed || !std::isnan(distance);
         matched = matched || distance < options.gate_mm;
       }
@@ -98,8 +112,9 @@ struct BundleAccumulator {
   /// Returns the absolute distance of a pair; NaN when the other view measured nothing there.
   double add_pair(const SurfelMap::Surfel& surfel,
                   const ViewTransfer& transfer,
-                  std::size_t to,
-                  PairTally& tally) {
+                  std::size_t paired) {
+    const std::size_t to = views.pairs[from][paired];
+    PairTally& tally = sums.tallies[paired];
     const Eigen::Vector3d point = transfer.apply(surfel.point_mm.cast<double>());
     const SurfelMap::Surfel* target = surfel_at(views.maps[to], views.model, point);
     if (target == nullptr) return std::nan("");
@@ -115,6 +130,7 @@ struct BundleAccumulator {
     const double weight = tukey_weight(distance, options.gate_mm) / variance;
     const PairJacobian jacobian = transfer.jacobian(pair.normal, surfel.point_mm.cast<double>());
     add_row(jacobian, weight, distance, to);
+    sums.distance[paired].add({weight, weight * distance, 1});
     if (closing > 1 && std::min(from, to) == 0 && std::max(from, to) == closing) {
       const double by_last = to == closing ? jacobian.angle_to : jacobian.angle_from;
       sums.closing_weight += weight * by_last * by_last;
@@ -124,18 +140,6 @@ struct BundleAccumulator {
     sums.over_sigma.push_back(static_cast<float>(std::abs(distance) / std::sqrt(variance)));
     return std::abs(distance);
   }
-
-  /// The columns that a pair depends on.
-  struct Row {
-    std::array<Eigen::Index, 18> indices{};
-    std::array<double, 18> values{};
-    std::size_t count = 0;
-
-    void add(Eigen::Index column, double value) {
-      indices.at(count) = column;
-      values.at(count++) = value;
-    }
-  };
 
   [[nodiscard]] Row row_of(const PairJacobian& by, std::size_t to) const {
     const TableState& state = views.state;
@@ -169,9 +173,10 @@ struct BundleAccumulator {
   }
 };
 
-/// Adds the sums of a chunk of view `from`, and releases its distances.
+/// Adds the sums of a chunk of view `from`, in one of its regions, and releases its distances.
 void add_chunk(BundleSums& all,
                std::size_t from,
+               std::size_t region,
                const std::vector<std::size_t>& others,
                ChunkSums& part) {
   const auto count = static_cast<Eigen::Index>(part.unknowns.size());
@@ -191,9 +196,11 @@ void add_chunk(BundleSums& all,
   all.matched[from] += part.matched;
   all.observed[from] += part.observed;
   for (std::size_t i = 0; i < others.size(); ++i) {
-    PairTally& pair = all.pairs[from * all.matched.size() + others[i]];
+    const std::size_t index = from * all.matched.size() + others[i];
+    PairTally& pair = all.pairs[index];
     pair.agree += part.tallies[i].agree;
     pair.violations += part.tallies[i].violations;
+    all.regions[kRegionsPerView * index + region].add(part.distance[i]);
   }
 }
 
@@ -230,13 +237,11 @@ BundleSums sum_bundle(std::span<const std::vector<SurfelMap::Surfel>> surfels,
   all.matched.assign(maps.size(), 0);
   all.observed.assign(maps.size(), 0);
   all.pairs.resize(maps.size() * maps.size());
-  std::size_t distances = 0;
-  for (const ChunkSums& part : parts)
-    distances += part.distances_mm.size();
-  all.distances_mm.reserve(distances);
-  all.over_sigma.reserve(distances);
-  for (std::size_t chunk = 0; chunk < chunks.size(); ++chunk)
-    add_chunk(all, chunks[chunk].view, pairs[chunks[chunk].view], parts[chunk]);
+  all.regions.resize(kRegionsPerView * all.pairs.size());
+  for (std::size_t chunk = 0; chunk < chunks.size(); ++chunk) {
+    const auto [view, first] = chunks[chunk];
+    add_chunk(all, view, kRegionsPerView * first / surfels[view].size(), pairs[view], parts[chunk]);
+  }
   return all;
 }
 

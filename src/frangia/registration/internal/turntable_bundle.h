@@ -20,6 +20,23 @@ struct PairTally {
   std::size_t violations = 0;  ///< lie in front of it, where the other view looked through them
 };
 
+/// Mean distance of the surfels of one region of a view from another view.
+struct RegionDistance {
+  double weight = 0.0;       ///< sum of w
+  double weighted_mm = 0.0;  ///< sum of w r
+  std::size_t count = 0;
+
+  void add(const RegionDistance& other) {
+    weight += other.weight;
+    weighted_mm += other.weighted_mm;
+    count += other.count;
+  }
+  [[nodiscard]] double mean_mm() const { return weighted_mm / weight; }
+};
+
+/// Regions of a view: its surfels, row by row, in parts of equal size.
+constexpr std::size_t kRegionsPerView = 4;
+
 /// Normal equations of all point-to-plane distances between views, in one state.
 ///
 /// @shape    unknowns: as `TableState` orders them
@@ -35,6 +52,7 @@ struct BundleSums {
   std::vector<std::size_t> matched;   ///< by view: its surfels on a surface that another view saw
   std::vector<std::size_t> observed;  ///< by view: its surfels that project onto another's surface
   std::vector<PairTally> pairs;       ///< by view and other view, row by row
+  std::vector<RegionDistance> regions;  ///< `kRegionsPerView` for each element of `pairs`
 
   [[nodiscard]] const PairTally& pair(std::size_t from, std::size_t to) const {
     return pairs[from * matched.size() + to];
