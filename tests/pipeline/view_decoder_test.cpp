@@ -98,6 +98,10 @@ TEST_F(DecodesAhead, CallsTheCallbacksOnTheCallersThreadInTheOrderOfViews) {
     static_cast<void>(decoder.next());
   }
   EXPECT_EQ(messages.size(), scan_.views.size() * scan_.patterns.size());
+  for (std::size_t i = 0; i < messages.size(); ++i) {
+    const std::string folder = scan_.views[i / scan_.patterns.size()].folder.string();
+    EXPECT_TRUE(messages[i].starts_with(folder + ": pattern")) << messages[i];
+  }
   for (const std::thread::id thread : threads)
     EXPECT_EQ(thread, std::this_thread::get_id());
 }

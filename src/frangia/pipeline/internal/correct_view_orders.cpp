@@ -33,9 +33,8 @@ void correct_view_orders(std::span<const FrameStack* const> fringes,
   const OrderJumpResult found = correct_order_jumps(coarse, out.phase, options.order_jumps);
   if (found.corrected + found.discarded == 0) return;
   run.note(
-      fmt::format("fringe orders of a view: {} pixels corrected and {} discarded, at whose border "
-                  "the order jumps "
-                  "although all phases are smooth, as indirect light causes it",
+      fmt::format("fringe orders of {} pixels corrected and of {} discarded, at whose border "
+                  "the order jumps although all phases are smooth, as indirect light causes it",
                   found.corrected,
                   found.discarded));
 }

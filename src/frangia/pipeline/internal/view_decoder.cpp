@@ -43,9 +43,14 @@ ViewDecoder::Outcome ViewDecoder::decode(std::size_t view) const {
   run.stop = stop_.get_token();
   run.on_warning = [&](const std::string& sentence) { out.messages.push_back({true, sentence}); };
   run.on_note = [&](const std::string& sentence) { out.messages.push_back({false, sentence}); };
+  // Frames are named by the reader; the decoder does not know which view they are.
+  const std::string prefix = scan_.views[view].folder.string() + ": ";
+  Run decoding = run;
+  decoding.on_warning = [&](const std::string& sentence) { run.warn(prefix + sentence); };
+  decoding.on_note = [&](const std::string& sentence) { run.note(prefix + sentence); };
   try {
     const std::vector<FrameStack> stacks = read_frames(scan_, view, run);
-    out.view = decode_view(stacks, scan_.rig, rays_, options_of_view(options_, view), run);
+    out.view = decode_view(stacks, scan_.rig, rays_, options_of_view(options_, view), decoding);
     out.view.color = view_color(stacks, options_.colors);
   } catch (...) {
     out.error = std::current_exception();
