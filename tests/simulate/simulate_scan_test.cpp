@@ -1,5 +1,6 @@
 #include "frangia/simulate/simulate_scan.h"
 
+#include <cmath>
 #include <stop_token>
 
 #include <gtest/gtest.h>
@@ -50,6 +51,16 @@ TEST_F(SimulateScan, WritesAScanThatReadsBackWithTheTruthBeside) {
   EXPECT_EQ(stacks[0].frames.size(), 4U);
   EXPECT_EQ(width_of(stacks[0].frames[0]), 512);
   EXPECT_EQ(read_ply(folder_ / "truth.ply").vertices_mm, part.vertices_mm);
+}
+
+TEST_F(SimulateScan, StatesTheTurntableAsExactWhereItHasNoFault) {
+  SimulateOptions options;
+  options.axis_offset_mm = 0.1;
+  static_cast<void>(simulate_scan(make_plate(), plan(), options));
+  const Turntable table = *read_scan(folder_).rig.turntable;
+  EXPECT_TRUE(std::isnan(table.point_sigma_mm));
+  EXPECT_EQ(table.axis_sigma_rad, 0.0);
+  EXPECT_EQ(table.angle_sigma_rad, 0.0);
 }
 
 TEST_F(SimulateScan, InterruptedLeavesNoScanAndIsResumedFromTheStart) {

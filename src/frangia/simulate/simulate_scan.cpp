@@ -152,6 +152,16 @@ void render_setup(const SimulatedSetup& setup, const Scan& plan, const Run& run)
   }
 }
 
+/// States the turntable as exact where no fault of it is simulated, as it is.
+void state_turntable(Turntable& table, const SimulateOptions& options) {
+  const auto state = [](double& sigma, double fault) {
+    if (fault == 0.0 && std::isnan(sigma)) sigma = 0.0;
+  };
+  state(table.point_sigma_mm, options.axis_offset_mm);
+  state(table.axis_sigma_rad, options.axis_tilt_rad);
+  state(table.angle_sigma_rad, options.angle_error_rad);
+}
+
 }  // namespace
 
 Eigen::Isometry3d pose_on_table(const Mesh& part, double tilt_rad, double turn_rad) {
@@ -183,6 +193,7 @@ Scan simulate_scan(const Mesh& part,
   }
   Scan scan = plan;
   scan.rig = setups.front().scenes.front().known_rig;
+  if (scan.rig.turntable) state_turntable(*scan.rig.turntable, options);
   scan.part_poses.clear();
   write_scan(scan);
   std::filesystem::remove(mark);

@@ -10,9 +10,10 @@ namespace frangia {
 /// Renders a scan of a part into `plan.folder` and writes the part as truth.ply. Returns the scan
 /// as written. Each camera of the rig records every view, with an exposure of its own.
 ///
-/// rig.toml describes the rig without its faults. scan.toml is written last: a folder without it is
-/// an interrupted simulation. `plan.part_poses` are the true part poses of the setups; they are
-/// written to truth-setups.toml, not to scan.toml.
+/// rig.toml describes the rig without its faults, and states that a turntable without faults is
+/// exact. scan.toml is written last: a folder without it is an interrupted simulation.
+/// `plan.part_poses` are the true part poses of the setups; they are written to truth-setups.toml,
+/// not to scan.toml.
 ///
 /// @units    mm, object frame
 /// @errors   Error(Input) when the folder holds anything but an interrupted simulation, when the
