@@ -187,6 +187,13 @@ TEST(RegisterViews, CountsTheTurntableWhereNothingVerifiesIt) {
   EXPECT_EQ(stated.sigma.point_mm, 0.02);
   EXPECT_EQ(warnings.back().find("does not state"), std::string::npos) << warnings.back();
   EXPECT_EQ(stated.untrusted_reason(), "");
+
+  table.given.point_sigma_mm = table.given.axis_sigma_rad = table.given.angle_sigma_rad = 0.0;
+  ViewStore exact = table.take(kPlate);
+  static_cast<void>(
+      register_views(exact, small_camera_model(), {table.given, table.stations()}, {}, run));
+  EXPECT_NE(warnings.back().find("states that they are exact"), std::string::npos)
+      << warnings.back();
 }
 
 TEST(RegisterViews, LeavesLittleOpenWhereViewsOverlap) {

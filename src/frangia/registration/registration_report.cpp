@@ -61,10 +61,11 @@ std::string RegistrationReport::untrusted_reason() const {
 }
 
 std::string RegistrationReport::rig_alone_text() const {
-  std::string words = fmt::format(
-      "the axis and angles of the rig are kept, and the places of the views rest on them alone: "
-      "sigma counts {} as their standard deviations",
-      text_of(sigma));
+  std::string words =
+      "the axis and angles of the rig are kept, and the places of the views rest on them alone: ";
+  const bool exact = sigma.point_mm == 0.0 && sigma.axis_rad == 0.0 && sigma.angle_rad == 0.0;
+  words += exact ? "[turntable] of rig.toml states that they are exact"
+                 : fmt::format("sigma counts {} as their standard deviations", text_of(sigma));
   if (!sigma.stated) {
     words +=
         ", because rig.toml does not state point_sigma_mm, axis_sigma_deg and angle_sigma_deg of "
