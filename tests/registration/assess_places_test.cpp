@@ -16,7 +16,7 @@ namespace {
 BundleSums sums_of(std::initializer_list<double> means_mm, std::size_t count) {
   BundleSums sums;
   for (const double mean : means_mm)
-    sums.regions.push_back({2.0, 2.0 * mean, count});
+    sums.regions.push_back({count, 0, 2.0, 2.0 * mean});
   return sums;
 }
 

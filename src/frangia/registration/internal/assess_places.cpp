@@ -46,8 +46,8 @@ Eigen::MatrixXd information_of(const Bundle& bundle, const BundleSums& sums) {
 double shared_error_mm(const Bundle& bundle, const BundleSums& sums) {
   constexpr std::size_t kFewest = 200;  // pairs of a region: their noise must not count
   std::vector<float> means_mm;
-  for (const RegionDistance& region : sums.regions) {
-    if (region.count >= kFewest) means_mm.push_back(static_cast<float>(std::abs(region.mean_mm())));
+  for (const PairTally& region : sums.regions) {
+    if (region.agree >= kFewest) means_mm.push_back(static_cast<float>(std::abs(region.mean_mm())));
   }
   const auto regions = static_cast<double>(means_mm.size());
   // The unknowns have been fitted to the same distances.

@@ -11,11 +11,6 @@ double violation_share(const PairTally& tally) {
   return all == 0 ? 0.0 : static_cast<double>(tally.violations) / static_cast<double>(all);
 }
 
-void add(PairTally& sum, const PairTally& tally) {
-  sum.agree += tally.agree;
-  sum.violations += tally.violations;
-}
-
 /// The views to leave out in turn, those with the most violations first; none when no view is
 /// suspicious.
 std::vector<std::size_t> moved_view_candidates(const BundleSums& sums,
@@ -53,16 +48,16 @@ Trial try_without(std::size_t view,
 double free_space_violation(const BundleSums& sums, std::size_t view) {
   PairTally all;
   for (std::size_t other = 0; other < sums.matched.size(); ++other) {
-    add(all, sums.pair(view, other));
-    add(all, sums.pair(other, view));
+    all.add(sums.pair(view, other));
+    all.add(sums.pair(other, view));
   }
   return violation_share(all);
 }
 
 double free_space_violation(const BundleSums& sums) {
   PairTally all;
-  for (const PairTally& pair : sums.pairs)
-    add(all, pair);
+  for (const PairTally& region : sums.regions)
+    all.add(region);
   return violation_share(all);
 }
 

@@ -34,8 +34,7 @@ struct ChunkSums {
   std::vector<float> over_sigma;
   std::size_t matched = 0;
   std::size_t observed = 0;
-  std::vector<PairTally> tallies;        ///< by paired view
-  std::vector<RegionDistance> distance;  ///< by paired view
+  std::vector<PairTally> tallies;  ///< by paired view
 };
 
 /// The unknowns that the pairs of a view depend on, in ascending order.
@@ -84,7 +83,6 @@ struct BundleAccumulator {
     sums.hessian = Eigen::MatrixXd::Zero(count, count);
     sums.gradient = Eigen::VectorXd::Zero(count);
     sums.tallies.resize(all.pairs[view].size());
-    sums.distance.resize(all.pairs[view].size());
     column_of.resize(static_cast<std::size_t>(all.state.unknowns()));
     for (Eigen::Index i = 0; i < count; ++i)
       column_of[static_cast<std::size_t>(sums.unknowns[static_cast<std::size_t>(i)])] = i;
@@ -124,13 +122,12 @@ struct BundleAccumulator {
     if (facing.dot(point) >= 0.0 || !pair.faces_alike()) return std::nan("");
     const double distance = pair.distance_mm();
     if (!(std::abs(distance) < options.gate_mm)) return std::abs(distance);
-    ++tally.agree;
     const double variance = std::pow(static_cast<double>(surfel.sigma_mm), 2) +
                             std::pow(static_cast<double>(target->sigma_mm), 2);
     const double weight = tukey_weight(distance, options.gate_mm) / variance;
     const PairJacobian jacobian = transfer.jacobian(pair.normal, surfel.point_mm.cast<double>());
     add_row(jacobian, weight, distance, to);
-    sums.distance[paired].add({weight, weight * distance, 1});
+    tally.add({1, 0, weight, weight * distance});
     if (closing > 1 && std::min(from, to) == 0 && std::max(from, to) == closing) {
       const double by_last = to == closing ? jacobian.angle_to : jacobian.angle_from;
       sums.closing_weight += weight * by_last * by_last;
@@ -196,11 +193,8 @@ void add_chunk(BundleSums& all,
   all.matched[from] += part.matched;
   all.observed[from] += part.observed;
   for (std::size_t i = 0; i < others.size(); ++i) {
-    const std::size_t index = from * all.matched.size() + others[i];
-    PairTally& pair = all.pairs[index];
-    pair.agree += part.tallies[i].agree;
-    pair.violations += part.tallies[i].violations;
-    all.regions[kRegionsPerView * index + region].add(part.distance[i]);
+    const std::size_t pair = from * all.matched.size() + others[i];
+    all.regions[kRegionsPerView * pair + region].add(part.tallies[i]);
   }
 }
 
@@ -236,8 +230,12 @@ BundleSums sum_bundle(std::span<const std::vector<SurfelMap::Surfel>> surfels,
   all.gradient = Eigen::VectorXd::Zero(state.unknowns());
   all.matched.assign(maps.size(), 0);
   all.observed.assign(maps.size(), 0);
-  all.pairs.resize(maps.size() * maps.size());
-  all.regions.resize(kRegionsPerView * all.pairs.size());
+  all.regions.resize(kRegionsPerView * maps.size() * maps.size());
+  std::size_t distances = 0;
+  for (const ChunkSums& part : parts)
+    distances += part.distances_mm.size();
+  all.distances_mm.reserve(distances);
+  all.over_sigma.reserve(distances);
   for (std::size_t chunk = 0; chunk < chunks.size(); ++chunk) {
     const auto [view, first] = chunks[chunk];
     add_chunk(all, view, kRegionsPerView * first / surfels[view].size(), pairs[view], parts[chunk]);

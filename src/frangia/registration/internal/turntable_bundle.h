@@ -14,23 +14,20 @@
 
 namespace frangia {
 
-/// Surfels of one view compared with another view.
+/// Surfels of one view, or of a region of it, compared with another view.
 struct PairTally {
   std::size_t agree = 0;       ///< lie on the surface that the other view measured
   std::size_t violations = 0;  ///< lie in front of it, where the other view looked through them
-};
+  double weight = 0.0;         ///< sum of w of those that agree
+  double weighted_mm = 0.0;    ///< sum of w r
 
-/// Mean distance of the surfels of one region of a view from another view.
-struct RegionDistance {
-  double weight = 0.0;       ///< sum of w
-  double weighted_mm = 0.0;  ///< sum of w r
-  std::size_t count = 0;
-
-  void add(const RegionDistance& other) {
+  void add(const PairTally& other) {
+    agree += other.agree;
+    violations += other.violations;
     weight += other.weight;
     weighted_mm += other.weighted_mm;
-    count += other.count;
   }
+  /// Mean distance from the other view.
   [[nodiscard]] double mean_mm() const { return weighted_mm / weight; }
 };
 
@@ -51,11 +48,13 @@ struct BundleSums {
   std::vector<float> over_sigma;      ///< the same over the standard deviations of the pairs
   std::vector<std::size_t> matched;   ///< by view: its surfels on a surface that another view saw
   std::vector<std::size_t> observed;  ///< by view: its surfels that project onto another's surface
-  std::vector<PairTally> pairs;       ///< by view and other view, row by row
-  std::vector<RegionDistance> regions;  ///< `kRegionsPerView` for each element of `pairs`
+  std::vector<PairTally> regions;     ///< by view, other view, and region of the view
 
-  [[nodiscard]] const PairTally& pair(std::size_t from, std::size_t to) const {
-    return pairs[from * matched.size() + to];
+  [[nodiscard]] PairTally pair(std::size_t from, std::size_t to) const {
+    PairTally all;
+    for (std::size_t i = 0; i < kRegionsPerView; ++i)
+      all.add(regions[kRegionsPerView * (from * matched.size() + to) + i]);
+    return all;
   }
 };
 
