@@ -236,6 +236,29 @@ TEST_F(ServiceTest, OpensASurfaceWithoutTrianglesAndSaysSoAtExport) {
   EXPECT_NE(job.at("error").get<std::string>().find("triangles"), std::string::npos);
 }
 
+TEST_F(ServiceTest, TellsOfASurfaceFromTheMomentItsProjectIsOpen) {
+  open_box(60);
+  restart();
+  static_cast<void>(command("open-project", {{"name", "box"}}));
+  for (bool busy = true; busy;) {
+    const nlohmann::json now = state();
+    const nlohmann::json& project = now.at("project");
+    busy = project.at("surface_loading").get<bool>();
+    ASSERT_NE(busy, project.at("surface").is_object());
+  }
+  EXPECT_EQ(finish().at("state"), "done");
+}
+
+TEST_F(ServiceTest, DoesNotWaitForASurfaceThatCannotBeRead) {
+  open_box();
+  restart();
+  std::ofstream(folder_.path() / "projects" / "box" / "surface.ply") << "no mesh";
+  static_cast<void>(command("open-project", {{"name", "box"}}));
+  EXPECT_EQ(finish().at("state"), "failed");
+  EXPECT_FALSE(state().at("project").at("surface_loading").get<bool>());
+  EXPECT_TRUE(state().at("project").at("surface").is_null());
+}
+
 TEST_F(ServiceTest, PicksPointsOfTheSurface) {
   open_box();
   const Json hit = Json::parse(service_->pick(R"({"eye": [0, 0, 50], "direction": [0, 0, -1]})"));

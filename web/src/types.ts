@@ -208,6 +208,8 @@ export interface Project {
   calibration: Calibration | null;
   table_angle: { last_deg: number | null } | null;
   stations: Station[];
+  /** The surface exists, and is being read. */
+  surface_loading: boolean;
   surface: Surface | null;
   exports: { name: string; bytes: number }[];
   reference: { name: string; format: string } | null;

@@ -3,6 +3,7 @@ import type { Rows } from './rows';
 /** Texts of the step Surface. */
 export const SURFACE = {
   'surface.build': ['Build again', 'Neu berechnen'],
+  'surface.loading': ['The surface is being read.', 'Die Fläche wird gelesen.'],
   'surface.none': ['There is no surface yet. Scan first, then build it.', 'Es gibt noch keine Fläche. Erst scannen, dann berechnen.'],
   'surface.shading': ['Shading', 'Darstellung'],
   'surface.smooth': ['Smooth', 'Glatt'],

@@ -98,7 +98,7 @@ export function sectionPlane(app: App): TemplateResult {
 
 export function surfaceStep(app: App): TemplateResult {
   const { surface } = app.project;
-  if (!surface) return html`<section class="group"><p class="quiet">${t('surface.none')}</p></section>`;
+  if (!surface) return html`<section class="group"><p class="quiet">${t(app.project.surface_loading ? 'surface.loading' : 'surface.none')}</p></section>`;
   const { look, viewer } = app;
   const size = viewer.size;
   const { summary } = surface;

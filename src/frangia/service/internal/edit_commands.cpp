@@ -160,7 +160,10 @@ nlohmann::ordered_json Service::Implementation::started_edit(
   });
 }
 void Service::Implementation::show_surface(const SurfacePtr& surface, const Run& run) {
-  change([&](OpenProject& opened) { opened.surface = surface; });
+  change([&](OpenProject& opened) {
+    opened.surface = surface;
+    opened.surface_loading = false;
+  });
   const SurfacePtr refined = model_->refine(run);
   if (refined) change([&](OpenProject& opened) { opened.surface = refined; });
 }

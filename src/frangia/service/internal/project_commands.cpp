@@ -139,6 +139,7 @@ void Service::Implementation::open(const ProjectFolder& folder) {
   project.exports = exports_of(folder);
   project.reference = reference_of(folder);
   project.scan_begun = std::filesystem::exists(folder.scan / "capture", ignored);
+  project.surface_loading = std::filesystem::exists(folder.surface(), ignored);
   read_rig_of(folder, project);
   try {
     project.summary = read_text_file(folder.summary());
@@ -152,8 +153,13 @@ void Service::Implementation::open(const ProjectFolder& folder) {
   on_change_();
   static_cast<void>(queue_.start("open", [this, folder](const Run& run) {
     drop_model();
-    std::error_code error;
-    if (std::filesystem::exists(folder.surface(), error)) load_surface(folder, run);
+    try {
+      std::error_code error;
+      if (std::filesystem::exists(folder.surface(), error)) load_surface(folder, run);
+    } catch (const Error&) {
+      change([](OpenProject& opened) { opened.surface_loading = false; });
+      throw;
+    }
   }));
 }
 nlohmann::ordered_json Service::Implementation::create_project(CommandArguments& arguments) {

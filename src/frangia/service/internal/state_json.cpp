@@ -82,6 +82,7 @@ Json json_of_project(const OpenProject& project, const CommandLines& commands) {
                    number_or_null(project.unknown_angle->last_deg().value_or(kMissing))}}
            : Json()},
       {"stations", json_of_stations(project.stations)},
+      {"surface_loading", project.surface_loading},
       {"surface", project.surface ? json_of_surface(*project.surface, project.summary) : Json()}};
   json["exports"] = Json::array();
   for (const ExportEntry& file : project.exports)

@@ -69,8 +69,9 @@ struct OpenProject {
   std::vector<ProjectStation> stations;
   /// Why the scan did not go on: the angle of its turntable is unknown.
   std::optional<UnknownTableAngle> unknown_angle;
-  std::string summary;  ///< JSON of the reconstruction; empty without one
-  SurfacePtr surface;   ///< null without one, or until it is read
+  std::string summary;           ///< JSON of the reconstruction; empty without one
+  SurfacePtr surface;            ///< null without one, or until it is read
+  bool surface_loading = false;  ///< there is one, which is being read
   std::vector<ExportEntry> exports;
   ProjectReference reference;
 };
