@@ -105,5 +105,15 @@ TEST(AssessPlaces, StatesThePlacesAsWellAsTheViewsAgree) {
   EXPECT_LT(ratio, 1.6);
 }
 
+TEST(AssessPlaces, DoNotBelieveATurntableThatTheViewsContradict) {
+  testing::MisalignedTable table(8);
+  table.given.point_sigma_mm = 0.0;
+  table.given.axis_sigma_rad = 0.0;
+  table.given.angle_sigma_rad = 0.0;
+  const double ratio = error_over_stated(table, 0.03);
+  EXPECT_GT(ratio, 0.5);
+  EXPECT_LT(ratio, 1.6);
+}
+
 }  // namespace
 }  // namespace frangia

@@ -41,6 +41,21 @@ Eigen::MatrixXd information_of(const Bundle& bundle, const BundleSums& sums) {
   return std::min(1.0, independent / count) / (excess * excess) * sums.hessian;
 }
 
+/// The standard deviations of the rig's own turntable, at least as large as its values differ from
+/// those that the views fit, which contradict a smaller one.
+TurntableSigma as_found(const TurntableSigma& stated, const Bundle& bundle) {
+  const Eigen::VectorXd moved = deviation(bundle.state, bundle.given);
+  const auto rms = [](const auto& some) {
+    return some.norm() / std::sqrt(static_cast<double>(std::max<Eigen::Index>(1, some.size())));
+  };
+  const auto angles = static_cast<Eigen::Index>(bundle.state.angles_rad.size()) - 1;
+  TurntableSigma found = stated;
+  found.axis_rad = std::max(found.axis_rad, rms(moved.head<2>()));
+  found.point_mm = std::max(found.point_mm, rms(moved.segment<2>(2)));
+  found.angle_rad = std::max(found.angle_rad, rms(moved.segment(4, angles)));
+  return found;
+}
+
 }  // namespace
 
 double shared_error_mm(const Bundle& bundle, const BundleSums& sums) {
@@ -68,7 +83,9 @@ void assess_places(RegistrationReport& report,
   report.rests_on_rig = overlap == Overlap::SaysNothing;
   TableState state = bundle.state;
   state.table = nearest_to(report.given, state.table);
-  const Eigen::VectorXd sigma = sigmas_of(state, report.sigma, bundle.prior_sigma);
+  const bool moved = overlap == Overlap::Determines && !report.kept_rig;
+  const Eigen::VectorXd sigma =
+      sigmas_of(state, moved ? as_found(report.sigma, bundle) : report.sigma, bundle.prior_sigma);
   Eigen::MatrixXd information;
   if (overlap == Overlap::Determines) information = information_of(bundle, sums);
   report.motions = state_motions(state, sigma, information, offset);
