@@ -98,6 +98,7 @@ std::vector<NamedParameter> named_parameters(FusionParameters& p) {
       {"cleanup.diagonal_tolerance", "", &c.diagonal_tolerance},
       {"cleanup.collapse_turn_rad", "rad", &c.collapse_turn_rad},
       {"cleanup.foldover_rad", "rad", &c.foldover_rad},
+      {"cleanup.rim_views_share", "", &c.rim_views_share},
   };
   require(all.size() * sizeof(double) == sizeof(FusionParameters),
           "fusion_sensitivity: the list of parameters is not complete");

@@ -114,7 +114,8 @@ TEST_F(LiveServiceTest, FindsAndTakesDevices) {
   command("set-devices", {{"devices", devices}});
   ASSERT_TRUE(wait([&] { return !busy(); }));
   ASSERT_EQ(project().at("devices").size(), 2U) << service_.state();
-  for (const Json& device : project().at("devices"))
+  const Json tested = project().at("devices");
+  for (const Json& device : tested)
     EXPECT_NE(device.at("answer"), "") << device;
   EXPECT_FALSE(project().at("rig").is_null()) << "its geometry stays";
 

@@ -17,6 +17,7 @@
 #include "frangia/fusion/internal/measure_sampling.h"
 #include "frangia/fusion/internal/mesh_quads.h"
 #include "frangia/fusion/internal/place_vertices.h"
+#include "frangia/fusion/internal/remove_weak_rim.h"
 #include "frangia/fusion/internal/voxel_budget.h"
 #include "frangia/geometry/clean_mesh.h"
 #include "frangia/geometry/vertex_data.h"
@@ -227,6 +228,7 @@ Mesh fuse_views(std::span<const CameraViews> cameras,
   Mesh mesh =
       mesh_quads(place_vertices(crossings, hermite, parameters), crossings, hermite, parameters);
   run.report(0.95);
+  remove_weak_rim(mesh, parameters.cleanup);
   clean_mesh(mesh, options.min_component_triangles);
   combine_parts(mesh);
   run.report(1.0);

@@ -9,33 +9,11 @@
 #include "frangia/core/disjoint_sets.h"
 #include "frangia/core/parallel.h"
 #include "frangia/core/pixel_allocator.h"
+#include "frangia/geometry/boundary_vertices.h"
 #include "frangia/geometry/vertex_data.h"
 
 namespace frangia {
 namespace {
-
-/// Hashes a vertex number (splitmix64), so that sums over different edges differ.
-std::uint64_t hashed(std::uint32_t i) {
-  std::uint64_t x = i + 0x9e3779b97f4a7c15ULL;
-  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9ULL;
-  x = (x ^ (x >> 27)) * 0x94d049bb133111ebULL;
-  return x ^ (x >> 31);
-}
-
-/// Returns the vertices at the mesh's boundary. Around an inner vertex, each neighbour follows and
-/// precedes the vertex equally often, so the sum of the signed hashes is zero.
-std::vector<bool> boundary_of(const Mesh& mesh) {
-  LargeVector<std::uint64_t> balance(mesh.vertices_mm.size(), 0);
-  for (const auto& t : mesh.triangles) {
-    const std::array<std::uint64_t, 3> number{hashed(t[0]), hashed(t[1]), hashed(t[2])};
-    for (std::size_t i = 0; i < 3; ++i)
-      balance[t[i]] += number[(i + 1) % 3] - number[(i + 2) % 3];
-  }
-  std::vector<bool> boundary(balance.size());
-  for (std::size_t i = 0; i < boundary.size(); ++i)
-    boundary[i] = balance[i] != 0;
-  return boundary;
-}
 
 struct Corner {
   std::uint32_t vertex;
@@ -141,7 +119,7 @@ void remove_small_components(Mesh& mesh, std::size_t min_triangles) {
 }
 
 void split_nonmanifold_vertices(Mesh& mesh) {
-  split_at(boundary_of(mesh), mesh);
+  split_at(boundary_vertices(mesh), mesh);
 }
 
 void clean_mesh(Mesh& mesh, std::size_t min_triangles) {
@@ -153,7 +131,7 @@ void clean_mesh(Mesh& mesh, std::size_t min_triangles) {
     if (which == 0) {
       small.emplace(mesh, min_triangles);
     } else {
-      boundary = boundary_of(mesh);
+      boundary = boundary_vertices(mesh);
     }
   });
   small->remove_from(mesh);
