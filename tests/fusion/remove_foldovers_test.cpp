@@ -5,25 +5,16 @@
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
+#include "support/test_meshes.h"
+
 namespace frangia {
 namespace {
 
 constexpr std::uint32_t kSide = 5;
 
-/// A level grid of vertices one apart.
+/// A level grid of vertices one apart, with normals.
 Mesh level_grid() {
-  Mesh mesh;
-  for (std::uint32_t y = 0; y < kSide; ++y) {
-    for (std::uint32_t x = 0; x < kSide; ++x)
-      mesh.vertices_mm.emplace_back(static_cast<float>(x), static_cast<float>(y), 0.0F);
-  }
-  for (std::uint32_t y = 0; y + 1 < kSide; ++y) {
-    for (std::uint32_t x = 0; x + 1 < kSide; ++x) {
-      const std::uint32_t a = y * kSide + x;
-      mesh.triangles.push_back({a, a + 1, a + kSide + 1});
-      mesh.triangles.push_back({a, a + kSide + 1, a + kSide});
-    }
-  }
+  Mesh mesh = testing::level_grid(kSide, kSide);
   mesh.normals.assign(mesh.vertices_mm.size(), Eigen::Vector3f::UnitZ());
   return mesh;
 }

@@ -1,31 +1,17 @@
 #include "frangia/fusion/internal/remove_weak_rim.h"
 
-#include <algorithm>
 #include <cstdint>
 
 #include <gtest/gtest.h>
 
-#include "frangia/geometry/boundary_vertices.h"
+#include "support/test_meshes.h"
 
 namespace frangia {
 namespace {
 
-/// A flat sheet of 6 x 4 vertices, 1 mm apart, which many views observed.
+/// A flat sheet that many views observed.
 Mesh sheet(std::uint16_t views) {
-  constexpr std::uint32_t kWidth = 6;
-  constexpr std::uint32_t kHeight = 4;
-  Mesh mesh;
-  for (std::uint32_t y = 0; y < kHeight; ++y) {
-    for (std::uint32_t x = 0; x < kWidth; ++x)
-      mesh.vertices_mm.emplace_back(static_cast<float>(x), static_cast<float>(y), 0.0F);
-  }
-  for (std::uint32_t y = 0; y + 1 < kHeight; ++y) {
-    for (std::uint32_t x = 0; x + 1 < kWidth; ++x) {
-      const std::uint32_t i = y * kWidth + x;
-      mesh.triangles.push_back({i, i + 1, i + kWidth + 1});
-      mesh.triangles.push_back({i, i + kWidth + 1, i + kWidth});
-    }
-  }
+  Mesh mesh = testing::level_grid(6, 4);
   mesh.views.assign(mesh.vertices_mm.size(), views);
   return mesh;
 }
@@ -38,14 +24,6 @@ Mesh sheet_with_tooth(std::uint16_t views, std::uint16_t views_of_tooth) {
   mesh.views.push_back(views_of_tooth);
   mesh.triangles.push_back({2, tooth, 3});
   return mesh;
-}
-
-TEST(BoundaryVertices, AreThoseThatTrianglesDoNotSurround) {
-  const Mesh mesh = sheet(1);
-  const auto boundary = boundary_vertices(mesh);
-  EXPECT_EQ(std::count(boundary.begin(), boundary.end(), true), 16);
-  EXPECT_FALSE(boundary[7]);
-  EXPECT_TRUE(boundary[0]);
 }
 
 TEST(RemoveWeakRim, TakesAToothThatOneOfManyViewsObserved) {

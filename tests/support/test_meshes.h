@@ -38,19 +38,25 @@ inline std::size_t open_edges(const Mesh& mesh) {
   return open;
 }
 
+/// A level sheet of vertices 1 mm apart, seen from +z.
+inline Mesh level_grid(std::uint32_t width, std::uint32_t height) {
+  Mesh mesh;
+  for (std::uint32_t i = 0; i < width * height; ++i) {
+    const std::uint32_t row = i / width;
+    mesh.vertices_mm.emplace_back(static_cast<float>(i % width), static_cast<float>(row), 0.0F);
+    if (i % width == width - 1 || row == height - 1) continue;
+    mesh.triangles.push_back({i, i + 1, i + width + 1});
+    mesh.triangles.push_back({i, i + width + 1, i + width});
+  }
+  return mesh;
+}
+
 /// An open relief of 49 x 49 mm with waves of 8 mm, seen from +z; one vertex a millimetre.
 inline Mesh relief() {
   constexpr std::uint32_t kSide = 50;
-  Mesh mesh;
-  for (std::uint32_t i = 0; i < kSide * kSide; ++i) {
-    const auto x = static_cast<float>(i % kSide);
-    const std::uint32_t row = i / kSide;
-    const auto y = static_cast<float>(row);
-    mesh.vertices_mm.emplace_back(x, y, 8.0F * std::sin(0.1F * x) * std::cos(0.08F * y));
-    if (i % kSide == kSide - 1 || row == kSide - 1) continue;
-    mesh.triangles.push_back({i, i + 1, i + kSide + 1});
-    mesh.triangles.push_back({i, i + kSide + 1, i + kSide});
-  }
+  Mesh mesh = level_grid(kSide, kSide);
+  for (Eigen::Vector3f& vertex : mesh.vertices_mm)
+    vertex.z() = 8.0F * std::sin(0.1F * vertex.x()) * std::cos(0.08F * vertex.y());
   return mesh;
 }
 

@@ -1,5 +1,7 @@
 #include "frangia/pipeline/internal/correct_indirect_light.h"
 
+#include <algorithm>
+#include <cmath>
 #include <functional>
 #include <utility>
 
@@ -10,8 +12,6 @@
 
 namespace frangia {
 namespace {
-
-constexpr double kFirstVoxels = 4.0;  // of a coarse fusion
 
 void correct_all(MeasuredViews& measured, const IndirectPart& indirect, const Run& run) {
   for (std::size_t i = 0; i < measured.views.size(); ++i) {
@@ -34,19 +34,27 @@ Mesh surface_or_none(const Make& make) {
   }
 }
 
+/// Every how many pixels a surface still shows whether there is indirect light.
+int thinning_px(const MeasuredViews& measured) {
+  constexpr double kPoints = 100'000.0;  // of a view: with fewer, narrow grooves would be lost
+  constexpr int kMost_px = 4;            // 1.5 pixels to a voxel of the first pass, as in others
+  const auto views = static_cast<double>(std::max<std::size_t>(1, measured.views.size()));
+  const double points = static_cast<double>(measured.points) / views;
+  return std::clamp(static_cast<int>(std::sqrt(points / kPoints)), 1, kMost_px);
+}
+
 /// Whether the views show indirect light, as a surface of every few pixels predicts it. Most scans
-/// show none, which this finds out at a fraction of the cost of a correction.
-bool is_lit_indirectly(const MeasuredViews& measured,
-                       const ScanDecoding& decoding,
-                       FusionOptions fusion,
-                       const Run& run) {
-  constexpr int kStep_px = 3;
-  fusion.voxel_mm *= kFirstVoxels;
-  const CameraModel camera = subsample(decoding.scan.rig.camera.model, kStep_px);
+/// show none, which this finds out at a fraction of the cost of a first pass.
+bool shows_indirect_light(const MeasuredViews& measured,
+                          int step_px,
+                          const ScanDecoding& decoding,
+                          const FusionOptions& fusion,
+                          const Run& run) {
+  const CameraModel camera = subsample(decoding.scan.rig.camera.model, step_px);
   ViewStore thinned;
   for (std::size_t i = 0; i < measured.views.size(); ++i) {
     run.check();
-    thinned.add(subsample(measured.views.load_points(i), kStep_px));
+    thinned.add(subsample(measured.views.load_points(i), step_px));
   }
   const Mesh surface = surface_or_none([&] { return fuse_views(thinned, camera, fusion, run); });
   return indirect_part(decoding, measured, surface, run).has_value();
@@ -82,11 +90,13 @@ bool correct_before_registration(MeasuredViews& measured,
   const CameraModel& camera = decoding.scan.rig.camera.model;
   Run quiet;
   quiet.stop = run.stop;
-  if (!is_lit_indirectly(measured, decoding, coarse, quiet)) return false;
+  // A coarser surface is smoother where indirect light has torn the points apart.
+  FusionOptions first = coarse;
+  first.voxel_mm *= 4.0;
+  const int step_px = thinning_px(measured);
+  if (step_px > 1 && !shows_indirect_light(measured, step_px, decoding, first, quiet)) return false;
   for (int pass = 0; pass < kPasses; ++pass) {
-    // A coarser surface is smoother where indirect light has torn the points apart.
-    FusionOptions fusion = coarse;
-    if (pass == 0) fusion.voxel_mm *= kFirstVoxels;
+    const FusionOptions& fusion = pass == 0 ? first : coarse;
     const Mesh surface =
         surface_or_none([&] { return fuse_views(measured.views, camera, fusion, quiet); });
     const auto indirect = predict(measured, surface, decoding, coarse, quiet);

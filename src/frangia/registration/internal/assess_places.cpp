@@ -46,7 +46,7 @@ Eigen::MatrixXd information_of(const Bundle& bundle, const BundleSums& sums) {
 TurntableSigma as_found(const TurntableSigma& stated, const Bundle& bundle) {
   const Eigen::VectorXd moved = deviation(bundle.state, bundle.given);
   const auto rms = [](const auto& some) {
-    return some.norm() / std::sqrt(static_cast<double>(std::max<Eigen::Index>(1, some.size())));
+    return some.norm() / std::sqrt(static_cast<double>(some.size()));
   };
   const auto angles = static_cast<Eigen::Index>(bundle.state.angles_rad.size()) - 1;
   TurntableSigma found = stated;

@@ -139,7 +139,8 @@ void Service::Implementation::open(const ProjectFolder& folder) {
   project.exports = exports_of(folder);
   project.reference = reference_of(folder);
   project.scan_begun = std::filesystem::exists(folder.scan / "capture", ignored);
-  project.surface_loading = std::filesystem::exists(folder.surface(), ignored);
+  const bool loads = std::filesystem::exists(folder.surface(), ignored);
+  project.surface_loading = loads;
   read_rig_of(folder, project);
   try {
     project.summary = read_text_file(folder.summary());
@@ -151,12 +152,12 @@ void Service::Implementation::open(const ProjectFolder& folder) {
     project_ = std::move(project);
   }
   on_change_();
-  static_cast<void>(queue_.start("open", [this, folder](const Run& run) {
+  static_cast<void>(queue_.start("open", [this, folder, loads](const Run& run) {
     drop_model();
+    if (!loads) return;
     try {
-      std::error_code error;
-      if (std::filesystem::exists(folder.surface(), error)) load_surface(folder, run);
-    } catch (const Error&) {
+      load_surface(folder, run);
+    } catch (...) {
       change([](OpenProject& opened) { opened.surface_loading = false; });
       throw;
     }
