@@ -29,10 +29,21 @@ import { surfaceStep } from './steps/surface';
 import type { Job, Project, State } from './types';
 import { type Hit, type Ray, type SectionAxis, type Shading, type Tool, Viewer } from './viewer';
 
-interface Look { shading: Shading; coloring: Coloring; axis: SectionAxis; share: number; flipped: boolean }
+interface Look {
+  shading: Shading;
+  coloring: Coloring;
+  axis: SectionAxis;
+  share: number;
+  flipped: boolean;
+}
 
 const PANELS: Record<Exclude<StepName, 'project'>, (app: App) => TemplateResult> = {
-  rig: rigStep, live: liveStep, scan: scanStep, surface: surfaceStep, edit: editStep, export: exportStep,
+  rig: rigStep,
+  live: liveStep,
+  scan: scanStep,
+  surface: surfaceStep,
+  edit: editStep,
+  export: exportStep,
 };
 
 /** The window: steps, picture, panel, and the line at the bottom. What each step does is in a part of its own. */
@@ -40,7 +51,10 @@ const PANELS: Record<Exclude<StepName, 'project'>, (app: App) => TemplateResult>
 export class App extends LitElement {
   step: StepName = 'project';
   look: Look = { shading: 'smooth', coloring: 'plain', axis: 'off', share: 0.5, flipped: false };
-  readonly session = new Session(() => this.onState(), (picture) => this.live.draw(picture));
+  readonly session = new Session(
+    () => this.onState(),
+    (picture) => this.live.draw(picture),
+  );
   readonly projects = new Projects(this);
   readonly arranging = new Arranging(this);
   readonly live = new LiveStage(this);
@@ -76,12 +90,23 @@ export class App extends LitElement {
         this.measurement = result;
         this.requestUpdate();
       },
-      outlined: (outline, through) => void this.editing.selectBy(through ? 'select-outline-through' : 'select-outline', outline),
+      outlined: (outline, through) =>
+        void this.editing.selectBy(through ? 'select-outline-through' : 'select-outline', outline),
       partPicked: (triangle) => void this.editing.selectPart(triangle),
       picked: (tool, points) => void this.editing.picked(tool, points),
     });
-    this.clouds = new StationClouds(this.session, this.viewer, () => this.chooseClouds(), (error) => this.say(error));
-    this.meshes = new MeshSource(this.session, this.viewer, () => this.requestUpdate(), (error) => this.say(error));
+    this.clouds = new StationClouds(
+      this.session,
+      this.viewer,
+      () => this.chooseClouds(),
+      (error) => this.say(error),
+    );
+    this.meshes = new MeshSource(
+      this.session,
+      this.viewer,
+      () => this.requestUpdate(),
+      (error) => this.say(error),
+    );
     addEventListener('keydown', (event) => onKey(this, event));
     void this.session.begin();
   }
@@ -109,7 +134,11 @@ export class App extends LitElement {
     return this.step === 'live' && this.live.layer !== 'points';
   }
   get showsResiduals(): boolean {
-    return this.step === 'rig' && !this.project.calibration?.active && Boolean(this.arranging.residuals?.maps[this.arranging.residualMap]);
+    return (
+      this.step === 'rig' &&
+      !this.project.calibration?.active &&
+      Boolean(this.arranging.residuals?.maps[this.arranging.residualMap])
+    );
   }
 
   private onState(): void {
@@ -236,9 +265,15 @@ export class App extends LitElement {
     if (this.session.link === 'refused' || !this.session.state) return blankPage(this);
     return html`${header(this)}
       <div class="work">
-        ${this.step === 'project' || !this.state.project
-          ? projectStep(this)
-          : html`${picture(this)}<main class="panel" tabindex="-1"><h1 class="sr">${t(`step.${this.step}`)}</h1>${PANELS[this.step](this)}</main>`}
+        ${
+          this.step === 'project' || !this.state.project
+            ? projectStep(this)
+            : html`${picture(this)}
+                <main class="panel" tabindex="-1">
+                  <h1 class="sr">${t(`step.${this.step}`)}</h1>
+                  ${PANELS[this.step](this)}
+                </main>`
+        }
         ${notices(this)}
       </div>
       ${footer(this)}${dialogs(this)}`;

@@ -25,8 +25,13 @@ export function arranged(rig: RigGeometry, draft: RigDraft): RigGeometry {
   const pose = new THREE.Matrix4().set(...(rig.rig_from_projector as Sixteen));
   const place = new THREE.Vector3().setFromMatrixPosition(pose);
   const moved = place.clone().setLength(draft.baseline_mm ?? rig.baseline_mm);
-  const turn = new THREE.Quaternion().setFromUnitVectors(before.clone().sub(place).normalize(), target.clone().sub(moved).normalize());
-  const rotation = new THREE.Matrix4().extractRotation(pose).premultiply(new THREE.Matrix4().makeRotationFromQuaternion(turn));
+  const turn = new THREE.Quaternion().setFromUnitVectors(
+    before.clone().sub(place).normalize(),
+    target.clone().sub(moved).normalize(),
+  );
+  const rotation = new THREE.Matrix4()
+    .extractRotation(pose)
+    .premultiply(new THREE.Matrix4().makeRotationFromQuaternion(turn));
   next.rig_from_projector = rows(rotation.setPosition(moved));
   next.baseline_mm = moved.length();
   rigFromObject.setPosition(target);

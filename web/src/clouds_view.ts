@@ -37,7 +37,8 @@ export class CloudsView {
     const visible = () => [this.group, ...this.group.children].map((one) => one.visible).join();
     const before = visible();
     this.group.visible = shown;
-    for (const cloud of this.group.children) cloud.visible = live ? cloud.name === '-1' : cloud.name !== '-1' && isShown(Number(cloud.name));
+    for (const cloud of this.group.children)
+      cloud.visible = live ? cloud.name === '-1' : cloud.name !== '-1' && isShown(Number(cloud.name));
     return visible() !== before;
   }
 }

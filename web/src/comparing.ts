@@ -36,7 +36,8 @@ export class Comparing {
   }
   async compare(lower: number, upper: number, start = 1): Promise<void> {
     const before = this.revision;
-    if (await this.app.command('compare', { align: this.align, start, lower_mm: lower, upper_mm: upper })) this.wantedAfter = before;
+    if (await this.app.command('compare', { align: this.align, start, lower_mm: lower, upper_mm: upper }))
+      this.wantedAfter = before;
     this.follow();
   }
   private get revision(): number {

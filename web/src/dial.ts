@@ -3,7 +3,8 @@ import { number, t } from './messages';
 import type { Station } from './types';
 
 const arc = (from: number, to: number, inner: number, outer: number): string => {
-  const at = (angle: number, radius: number) => `${(100 + radius * Math.sin(angle)).toFixed(2)} ${(100 - radius * Math.cos(angle)).toFixed(2)}`;
+  const at = (angle: number, radius: number) =>
+    `${(100 + radius * Math.sin(angle)).toFixed(2)} ${(100 - radius * Math.cos(angle)).toFixed(2)}`;
   const large = to - from > Math.PI ? 1 : 0;
   return `M${at(from, outer)}A${outer} ${outer} 0 ${large} 1 ${at(to, outer)}L${at(to, inner)}A${inner} ${inner} 0 ${large} 0 ${at(from, inner)}Z`;
 };
@@ -29,8 +30,14 @@ export function dial(stations: Station[], progress: number, note: string): Templ
       return svg`<path class="dial-station ${quality}" d=${arc(from, from + turn - gap, 66, 86)}>
         <title>${number(station.angle_deg, 1)}°  ${station.verdict}</title></path>`;
     })}
-    <path class="dial-progress" d=${progress > 0.002 ? arc(0, Math.min(progress, 0.9999) * 2 * Math.PI, 59.5, 61) : ''} />
-    <text class="dial-count" x="100" y="104">${done}<tspan class="dial-of"> / ${stations.length}</tspan></text>
+    <path
+      class="dial-progress"
+      d=${progress > 0.002 ? arc(0, Math.min(progress, 0.9999) * 2 * Math.PI, 59.5, 61) : ''}
+    />
+    <text class="dial-count" x="100" y="104">
+      ${done}
+      <tspan class="dial-of">/ ${stations.length}</tspan>
+    </text>
     <text class="dial-note" x="100" y="122">${note}</text>
   </svg>`;
 }

@@ -76,8 +76,11 @@ export class Editing {
     const [at] = points;
     const holes = this.app.project.surface?.holes ?? [];
     if (!at || holes.length === 0) return;
-    const far = ([x, y, z]: readonly number[]) => Math.hypot((x as number) - at[0], (y as number) - at[1], (z as number) - at[2]);
-    const nearest = holes.reduce((best, hole) => (far(hole.center_mm) - hole.size_mm / 2 < far(best.center_mm) - best.size_mm / 2 ? hole : best));
+    const far = ([x, y, z]: readonly number[]) =>
+      Math.hypot((x as number) - at[0], (y as number) - at[1], (z as number) - at[2]);
+    const nearest = holes.reduce((best, hole) =>
+      far(hole.center_mm) - hole.size_mm / 2 < far(best.center_mm) - best.size_mm / 2 ? hole : best,
+    );
     this.chooseHole(nearest.number, true);
     await this.selectBy('select-loop', String(nearest.number));
   }

@@ -18,22 +18,31 @@ export function header(app: App): TemplateResult {
   const tool = (name: IconName, key: MessageKey, act: () => void) =>
     html`<button class="icon-btn" title=${t(key)} aria-label=${t(key)} @click=${act}>${icon(name)}</button>`;
   return html`<header class="top">
-    <div class="brand">${logo}<b>Frangia</b>${app.state.project ? html`<span class="project">${app.project.name}</span>` : ''}</div>
+    <div class="brand">
+      ${logo}<b>Frangia</b>${app.state.project ? html`<span class="project">${app.project.name}</span>` : ''}
+    </div>
     <nav class="steps" aria-label=${t('steps')}>
       ${STEPS.map(
-        (step, i) => html`<button
-          class=${finished(app.state.project, step) ? 'done' : ''}
-          ?disabled=${!reachable(app.state.project, step)}
-          aria-current=${step === app.step ? 'step' : nothing}
-          data-step=${step}
-          @click=${() => app.go(step)}
-        >
-          <i>${i + 1}</i>${t(`step.${step}`)}
-        </button>`,
+        (step, i) =>
+          html`<button
+            class=${finished(app.state.project, step) ? 'done' : ''}
+            ?disabled=${!reachable(app.state.project, step)}
+            aria-current=${step === app.step ? 'step' : nothing}
+            data-step=${step}
+            @click=${() => app.go(step)}
+          >
+            <i>${i + 1}</i>${t(`step.${step}`)}
+          </button>`,
       )}
     </nav>
     <div class="tools">
-      <button class="icon-btn text" lang=${currentLanguage() === 'en' ? 'de' : 'en'} @click=${() => app.changeLanguage()}>${t('app.language')}</button>
+      <button
+        class="icon-btn text"
+        lang=${currentLanguage() === 'en' ? 'de' : 'en'}
+        @click=${() => app.changeLanguage()}
+      >
+        ${t('app.language')}
+      </button>
       ${tool('theme', 'app.theme', toggleTheme)} ${tool('link', 'app.link', () => void share(app))}
       ${tool('keys', 'app.keys', () => app.dialog('keys').showModal())}
     </div>
@@ -44,7 +53,16 @@ export function header(app: App): TemplateResult {
 export function footer(app: App): TemplateResult {
   const job = app.state.jobs.find((one) => one.state === 'running');
   const commands = app.state.project?.commands ?? {};
-  const words = app.step === 'scan' || app.step === 'live' ? commands.scan : app.step === 'rig' ? commands.rig : app.step === 'surface' ? (app.look.coloring === 'deviation' && commands.inspect) || commands.reconstruct : app.step === 'project' ? undefined : commands.edit;
+  const words =
+    app.step === 'scan' || app.step === 'live'
+      ? commands.scan
+      : app.step === 'rig'
+        ? commands.rig
+        : app.step === 'surface'
+          ? (app.look.coloring === 'deviation' && commands.inspect) || commands.reconstruct
+          : app.step === 'project'
+            ? undefined
+            : commands.edit;
   const line = words?.map(quoted).join(' ') ?? '';
   const last = app.state.jobs.at(-1);
   // What the library says is English: in another language only what a person must know.
@@ -61,56 +79,90 @@ export function footer(app: App): TemplateResult {
   };
   return html`<footer class="foot">
     <div class="job" role="status">
-      ${job
-        ? html`<svg class="bar" aria-hidden="true"><rect width="${100 * job.progress}%" height="4" /></svg>
-            <span>${t(`job.${job.kind}`)}${job.stage && job.kind !== 'live' ? ` · ${stageName(job.stage)}` : ''}</span>
-            <button class="btn small" @click=${() => app.command('stop-job', { job: job.number })}>${t('job.stop')}</button>`
-        : html`<span>${said}</span>`}
+      ${
+        job
+          ? html`<svg class="bar" aria-hidden="true"><rect width="${100 * job.progress}%" height="4" /></svg>
+              <span
+                >${t(`job.${job.kind}`)}${job.stage && job.kind !== 'live' ? ` · ${stageName(job.stage)}` : ''}</span
+              >
+              <button class="btn small" @click=${() => app.command('stop-job', { job: job.number })}>
+                ${t('job.stop')}
+              </button>`
+          : html`<span>${said}</span>`
+      }
     </div>
-    ${line
-      ? html`<div class="command" title=${t('command.same')}>
-          <code><b>$</b> ${line}</code>
-          <button class="icon-btn" aria-label="${t('command.copy')}: ${t('command.same')}" title=${app.copied ? t('command.copied') : t('command.copy')} @click=${copy}>
-            ${icon(app.copied ? 'check' : 'copy')}
-          </button>
-        </div>`
-      : ''}
+    ${
+      line
+        ? html`<div class="command" title=${t('command.same')}>
+            <code><b>$</b> ${line}</code>
+            <button
+              class="icon-btn"
+              aria-label="${t('command.copy')}: ${t('command.same')}"
+              title=${app.copied ? t('command.copied') : t('command.copy')}
+              @click=${copy}
+            >
+              ${icon(app.copied ? 'check' : 'copy')}
+            </button>
+          </div>`
+        : ''
+    }
   </footer>`;
 }
 
 /** The scene or the camera, and what floats on it. */
 export function picture(app: App): TemplateResult {
   const { viewer, measurement } = app;
-  return html`<div class="stage ${app.showsCamera || app.showsResiduals ? 'with-camera' : ''}" role="region" aria-label=${t('app.view')}>
+  return html`<div
+    class="stage ${app.showsCamera || app.showsResiduals ? 'with-camera' : ''}"
+    role="region"
+    aria-label=${t('app.view')}
+  >
     ${viewer.supported ? app.host : app.showsCamera || app.showsResiduals ? '' : html`<div class="blank"><p>${t('app.noWebGL')}</p></div>`}
-    ${app.showsCamera ? html`<div class="camera">${app.live.view.canvas}</div>` : ''} ${app.step === 'live' ? liveOverlay(app) : ''}
-    ${app.step === 'rig' ? residualStage(app) : ''}
+    ${app.showsCamera ? html`<div class="camera">${app.live.view.canvas}</div>` : ''}
+    ${app.step === 'live' ? liveOverlay(app) : ''} ${app.step === 'rig' ? residualStage(app) : ''}
     <div class="floating">
       ${previewBar(app)}
       ${viewer.tool === 'measure' && !measurement ? html`<div class="chip">${t('surface.measureHint')}</div>` : ''}
       ${viewer.tool === 'angle' && !measurement ? html`<div class="chip">${t('surface.angleHint')}</div>` : ''}
       ${viewer.tool === 'align' && !app.project.surface?.preview ? html`<div class="chip">${t('edit.alignHint')}</div>` : ''}
       ${viewer.tool === 'loop' ? html`<div class="chip">${t('edit.loopHint')}</div>` : ''}
-      ${measurement
-        ? html`<div class="chip"><div class="big">${measurement.angle_deg === null ? html`${number(measurement.distance_mm ?? 0, 3)} mm` : html`${number(measurement.angle_deg, 2)}°`}</div>
-            ${measurement.u95_mm === null ? '' : html`<div class="num quiet">± ${number(1000 * measurement.u95_mm, 1)} µm (k = 2)</div>`}
-            ${measurement.u95_deg === null ? '' : html`<div class="num quiet">± ${number(measurement.u95_deg, 3)}° (k = 2)</div>`}</div>`
-        : ''}
+      ${
+        measurement
+          ? html`<div class="chip">
+              <div class="big">
+                ${measurement.angle_deg === null ? html`${number(measurement.distance_mm ?? 0, 3)} mm` : html`${number(measurement.angle_deg, 2)}°`}
+              </div>
+              ${measurement.u95_mm === null ? '' : html`<div class="num quiet">± ${number(1000 * measurement.u95_mm, 1)} µm (k = 2)</div>`}
+              ${measurement.u95_deg === null ? '' : html`<div class="num quiet">± ${number(measurement.u95_deg, 3)}° (k = 2)</div>`}
+            </div>`
+          : ''
+      }
     </div>
-    ${viewer.supported && !app.showsCamera && !app.showsResiduals
-      ? html`<div class="view-tools">
-          <button class="icon-btn text" @click=${() => viewer.frame([0, -1, 0.18])}>${t('app.front')}</button>
-          <button class="icon-btn text" @click=${() => viewer.frame([0, -0.02, 1])}>${t('app.top')}</button>
-          <button class="icon-btn" title=${t('app.frame')} aria-label=${t('app.frame')} @click=${() => viewer.frame()}>${icon('fit')}</button>
-        </div>`
-      : ''}
+    ${
+      viewer.supported && !app.showsCamera && !app.showsResiduals
+        ? html`<div class="view-tools">
+            <button class="icon-btn text" @click=${() => viewer.frame([0, -1, 0.18])}>${t('app.front')}</button>
+            <button class="icon-btn text" @click=${() => viewer.frame([0, -0.02, 1])}>${t('app.top')}</button>
+            <button
+              class="icon-btn"
+              title=${t('app.frame')}
+              aria-label=${t('app.frame')}
+              @click=${() => viewer.frame()}
+            >
+              ${icon('fit')}
+            </button>
+          </div>`
+        : ''
+    }
   </div>`;
 }
 
 /** The sheet of shortcuts and the link for another browser. */
 export function dialogs(app: App): TemplateResult {
   const close = (id: string) =>
-    html`<button class="icon-btn close" aria-label=${t('app.close')} @click=${() => app.dialog(id).close()}>${icon('close')}</button>`;
+    html`<button class="icon-btn close" aria-label=${t('app.close')} @click=${() => app.dialog(id).close()}>
+      ${icon('close')}
+    </button>`;
   return html`<dialog id="keys" aria-label=${t('app.keys')}>
       <h2>${t('app.keys')}</h2>
       <div class="keys">

@@ -9,7 +9,8 @@ export function fringePaths(width: number, height: number): { d: string; strengt
       bump(x, y, 0.5, 0.33, 0.13, 0.25),
       0.72 * bump(x, y, 0.5, 0.62, 0.07, 0.2),
       0.86 * bump(x, y, 0.5, 1.02, 0.31, 0.36),
-    ) + 0.2 * bump(x, y, 0.52, 0.37, 0.028, 0.07);
+    ) +
+    0.2 * bump(x, y, 0.52, 0.37, 0.028, 0.07);
   const paths: { d: string; strength: number }[] = [];
   const count = 64;
   for (let i = 0; i <= count; i++) {

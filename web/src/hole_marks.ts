@@ -10,7 +10,10 @@ function ring(): THREE.Texture {
   const canvas = document.createElement('canvas');
   canvas.width = canvas.height = 128;
   const pen = canvas.getContext('2d') as CanvasRenderingContext2D;
-  for (const [color, width] of [['#ffffff', 13], ['#8a5cf0', 8]] as const) {
+  for (const [color, width] of [
+    ['#ffffff', 13],
+    ['#8a5cf0', 8],
+  ] as const) {
     pen.strokeStyle = color;
     pen.lineWidth = width;
     pen.beginPath();

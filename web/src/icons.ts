@@ -3,8 +3,10 @@ import { html } from 'lit';
 
 const PATHS = {
   orbit: 'M12 3a9 9 0 1 0 9 9M21 5v5h-5M8.5 12a3.500 3.500 0 1 0 7 0 3.500 3.500 0 0 0-7 0',
-  lasso: 'M12 4c5 0 9 2.200 9 5.500S17 15 12 15s-9-2.200-9-5.500S7 4 12 4ZM7 14.500c-1.500 1.800-1 4 1.500 4.500 2 .4 2.500 2 1.500 3',
-  rectangle: 'M4 6.500h2M9 6.500h2M13 6.500h2M18 6.500h2v2M20 11v2M20 15.500v2h-2M15 17.500h-2M11 17.500H9M6 17.500H4v-2M4 13v-2',
+  lasso:
+    'M12 4c5 0 9 2.200 9 5.500S17 15 12 15s-9-2.200-9-5.500S7 4 12 4ZM7 14.500c-1.500 1.800-1 4 1.500 4.500 2 .4 2.500 2 1.500 3',
+  rectangle:
+    'M4 6.500h2M9 6.500h2M13 6.500h2M18 6.500h2v2M20 11v2M20 15.500v2h-2M15 17.500h-2M11 17.500H9M6 17.500H4v-2M4 13v-2',
   part: 'm12 3 8 4.500v9L12 21l-8-4.500v-9L12 3ZM12 12l8-4.500M12 12v9M12 12 4 7.500',
   measure: 'm3 17 14-14 4 4L7 21l-4-4ZM7 13l2 2M10 10l2.500 2.500M13 7l2 2',
   angle: 'M5 19 18 5M5 19h15M11.500 12.200a8 8 0 0 1 3 6.800',
@@ -32,12 +34,13 @@ const PATHS = {
 } as const;
 export type IconName = keyof typeof PATHS;
 
-export const icon = (name: IconName): TemplateResult => html`<svg class="icon" viewBox="0 0 24 24" aria-hidden="true">
-  ${svg`<path d=${PATHS[name]} />`}
-</svg>`;
+export const icon = (name: IconName): TemplateResult =>
+  html`<svg class="icon" viewBox="0 0 24 24" aria-hidden="true">${svg`<path d=${PATHS[name]} />`}</svg>`;
 
 export const logo = html`<svg class="logo" viewBox="0 0 32 32" aria-hidden="true">
-  <path d="M6 12v8" stroke-width="1.2" /><path d="M10.500 8v4c2.200 1.500 2.200 6.500 0 8v4" stroke-width="1.800" />
+  <path d="M6 12v8" stroke-width="1.2" />
+  <path d="M10.500 8v4c2.200 1.500 2.200 6.500 0 8v4" stroke-width="1.800" />
   <path d="M15.500 5.500V11c3.600 2.200 3.600 7.800 0 10v5.500" stroke-width="2.400" />
-  <path d="M20.500 8v4c3 1.500 3 6.500 0 8v4" stroke-width="1.800" /><path d="M25.500 12v8" stroke-width="1.200" />
+  <path d="M20.500 8v4c3 1.500 3 6.500 0 8v4" stroke-width="1.800" />
+  <path d="M25.500 12v8" stroke-width="1.200" />
 </svg>`;

@@ -44,9 +44,21 @@ export function onKey(app: App, event: KeyboardEvent): void {
   else if (key === 'd') toggleTheme();
   else if (key === 'f') app.viewer.frame();
   else if (key === 'escape' && app.step === 'edit' && surface?.preview) void app.command('drop-preview');
-  else if (key === 'enter' && app.step === 'edit' && document.querySelector('#apply:not([disabled])') && !target.matches('button, summary')) app.editing.applyPreview();
+  else if (
+    key === 'enter' &&
+    app.step === 'edit' &&
+    document.querySelector('#apply:not([disabled])') &&
+    !target.matches('button, summary')
+  )
+    app.editing.applyPreview();
   else if (key === 'escape') app.setTool('orbit');
-  else if (key === 'enter' && app.step === 'rig' && app.state.project?.calibration?.waiting && !target.matches('button, summary')) void app.command('capture-pose');
+  else if (
+    key === 'enter' &&
+    app.step === 'rig' &&
+    app.state.project?.calibration?.waiting &&
+    !target.matches('button, summary')
+  )
+    void app.command('capture-pose');
   else if (!surface) return;
   else if (key === 'm') app.setTool('measure');
   else if (key === 'a') app.setTool('angle');

@@ -8,7 +8,13 @@ function code(text: string): TemplateResult {
   const { data, size } = encode(text, { ecc: 'M', border: 3 });
   let path = '';
   data.forEach((row, y) => row.forEach((dark, x) => (path += dark ? `M${x} ${y}h1v1h-1z` : '')));
-  return html`<svg class="qr" viewBox="0 0 ${size} ${size}" role="img" aria-label=${t('app.qr')} shape-rendering="crispEdges">
+  return html`<svg
+    class="qr"
+    viewBox="0 0 ${size} ${size}"
+    role="img"
+    aria-label=${t('app.qr')}
+    shape-rendering="crispEdges"
+  >
     ${svg`<rect width=${size} height=${size} fill="#fff" /><path d=${path} fill="#000" />`}
   </svg>`;
 }

@@ -34,7 +34,8 @@ export class LiveStage {
   stepped(before: string, step: string): void {
     const { app } = this;
     const project = app.session.state?.project ?? null;
-    if (step === 'live' && project?.can_scan && !project.live && !app.busy && !app.session.watches) void app.command('start-live');
+    if (step === 'live' && project?.can_scan && !project.live && !app.busy && !app.session.watches)
+      void app.command('start-live');
     const live = app.session.state ? app.job('live') : undefined;
     if (before === 'live' && step !== 'live' && live && !app.session.watches) {
       void app.command('stop-job', { job: live.number });

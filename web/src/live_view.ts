@@ -22,7 +22,15 @@ export interface LiveFigures {
 
 /** Colours of PixelStatus, as the program's pictures have them. */
 export const STATUS_COLORS: readonly Rgb[] = [
-  [230, 230, 225], [110, 200, 120], [26, 31, 33], [220, 60, 50], [160, 80, 200], [240, 170, 40], [70, 130, 220], [240, 220, 90], [120, 100, 90],
+  [230, 230, 225],
+  [110, 200, 120],
+  [26, 31, 33],
+  [220, 60, 50],
+  [160, 80, 200],
+  [240, 170, 40],
+  [70, 130, 220],
+  [240, 220, 90],
+  [120, 100, 90],
 ];
 
 /** Light below a hundredth of white is dark: bytes of the sRGB curve below this one. */
@@ -32,8 +40,16 @@ const STRIPE_PX = 4;
 
 /** Camera pixels as the screen shows them, and the same with marks: dark ones are tinted, saturated ones striped. */
 const GRAY = table((value) => [value, value, value]);
-const TINTED = table((value) => (value < DARK ? [value * 0.9 + 4, value * 0.95 + 9, value + 30] : [value, value, value]));
-const STRIPED = table((value) => (value === WHITE ? [255, 66, 58] : value < DARK ? [value * 0.9 + 4, value * 0.95 + 9, value + 30] : [value, value, value]));
+const TINTED = table((value) =>
+  value < DARK ? [value * 0.9 + 4, value * 0.95 + 9, value + 30] : [value, value, value],
+);
+const STRIPED = table((value) =>
+  value === WHITE
+    ? [255, 66, 58]
+    : value < DARK
+      ? [value * 0.9 + 4, value * 0.95 + 9, value + 30]
+      : [value, value, value],
+);
 
 /** A cyclic scale: -pi and pi look alike. */
 function cyclic(share: number): Rgb {

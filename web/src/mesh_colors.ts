@@ -47,11 +47,14 @@ export function scaleOf(arrays: MeshArrays, coloring: Coloring, band: [number, n
   return { low, high, counts, beyond: beyond / values.length, band: deviates ? band : null };
 }
 
-const linear = (color: Rgb): THREE.Color => new THREE.Color().setRGB(color[0] / 255, color[1] / 255, color[2] / 255, THREE.SRGBColorSpace);
+const linear = (color: Rgb): THREE.Color =>
+  new THREE.Color().setRGB(color[0] / 255, color[1] / 255, color[2] / 255, THREE.SRGBColorSpace);
 
 /** The colour at a share of a scale. */
 export function shade(scale: Legend, share: number): Rgb {
-  return scale.band ? deviationColor(scale.low + share * (scale.high - scale.low), scale.band, scale.high) : viridis(share);
+  return scale.band
+    ? deviationColor(scale.low + share * (scale.high - scale.low), scale.band, scale.high)
+    : viridis(share);
 }
 
 /** Colours of the vertices, as bytes of linear light; null for the plain one. */
@@ -74,7 +77,11 @@ export function vertexColors(arrays: MeshArrays, coloring: Coloring, scale: Lege
     return colors;
   }
   if (coloring === 'setup' && arrays.setups) {
-    const palette = Array.from({ length: 256 }, (_, bits) => linear(bits === 0 ? UNKNOWN : (bits & (bits - 1)) === 0 ? setupColor(Math.log2(bits)) : (SEVERAL_SETUPS[0] as Rgb)));
+    const palette = Array.from({ length: 256 }, (_, bits) =>
+      linear(
+        bits === 0 ? UNKNOWN : (bits & (bits - 1)) === 0 ? setupColor(Math.log2(bits)) : (SEVERAL_SETUPS[0] as Rgb),
+      ),
+    );
     const colors = new Uint8Array(3 * vertices);
     for (let v = 0; v < vertices; v++) {
       const color = palette[arrays.setups[v] as number] as THREE.Color;
@@ -92,7 +99,9 @@ export function vertexColors(arrays: MeshArrays, coloring: Coloring, scale: Lege
   const factor = (SHADES - 1) / (scale.high - scale.low || 1);
   for (let v = 0; v < vertices; v++) {
     const value = values[v] as number;
-    const i = Number.isFinite(value) ? Math.min(SHADES - 1, Math.max(0, Math.round((value - scale.low) * factor))) : SHADES;
+    const i = Number.isFinite(value)
+      ? Math.min(SHADES - 1, Math.max(0, Math.round((value - scale.low) * factor)))
+      : SHADES;
     colors[3 * v] = shades[3 * i] as number;
     colors[3 * v + 1] = shades[3 * i + 1] as number;
     colors[3 * v + 2] = shades[3 * i + 2] as number;

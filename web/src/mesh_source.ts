@@ -3,7 +3,8 @@ import type { Session } from './session';
 import type { Surface } from './types';
 import type { Viewer } from './viewer';
 
-const drawn = (): Promise<void> => new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(() => resolve())));
+const drawn = (): Promise<void> =>
+  new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(() => resolve())));
 
 /**
  * Brings the levels of detail of the surface and what is selected of them into the picture, as the state names them: the
@@ -31,7 +32,11 @@ export class MeshSource {
   get fine(): boolean {
     const { surface, viewer } = this;
     const levels = surface?.levels ?? [];
-    return levels.length > 0 && viewer.levelsShown === levels.length && (levels.length > 1 || levels[0]?.triangles === surface?.triangles);
+    return (
+      levels.length > 0 &&
+      viewer.levelsShown === levels.length &&
+      (levels.length > 1 || levels[0]?.triangles === surface?.triangles)
+    );
   }
 
   forget(): void {
@@ -49,7 +54,8 @@ export class MeshSource {
     const joined = (this.surface?.summary?.setups ?? []).filter((setup) => setup.joined);
     try {
       const clouds: Float32Array[] = [];
-      for (let i = 0; i < joined.length; i++) clouds.push(unpack(await this.session.bytes(`/api/setups/${i}`)).get('positions') as Float32Array);
+      for (let i = 0; i < joined.length; i++)
+        clouds.push(unpack(await this.session.bytes(`/api/setups/${i}`)).get('positions') as Float32Array);
       this.viewer.setSetups(clouds);
     } catch (error) {
       this.setupsShown = '';
@@ -65,7 +71,10 @@ export class MeshSource {
     try {
       while (this.again) {
         const { surface, viewer } = this;
-        viewer.setIncomplete(surface !== null && (viewer.meshShown !== surface.mesh_revision || this.selectionShown !== surface.selection_revision));
+        viewer.setIncomplete(
+          surface !== null &&
+            (viewer.meshShown !== surface.mesh_revision || this.selectionShown !== surface.selection_revision),
+        );
         this.again = false;
         await this.step();
       }
@@ -85,7 +94,8 @@ export class MeshSource {
     }
     if (viewer.meshShown !== surface.mesh_revision) {
       this.deviationShown = -1;
-      if (!viewer.recallMesh(surface.mesh_revision, surface.selection_revision) && !(await this.addLevel(surface, 0))) return;
+      if (!viewer.recallMesh(surface.mesh_revision, surface.selection_revision) && !(await this.addLevel(surface, 0)))
+        return;
     }
     await this.select(surface);
     await this.preview(surface);
@@ -115,8 +125,12 @@ export class MeshSource {
     const { revision, levels } = viewer.selected;
     for (let level = revision === surface.selection_revision ? levels : 0; level < viewer.levelsShown; level++) {
       let flags: Uint8Array | null = null;
-      if (surface.selected) flags = (unpack(await this.session.bytes(`/api/selection/${level}`)).get('selected') as Uint8Array | undefined) ?? null;
-      if (viewer.meshShown !== surface.mesh_revision || this.surface?.selection_revision !== surface.selection_revision) return;
+      if (surface.selected)
+        flags =
+          (unpack(await this.session.bytes(`/api/selection/${level}`)).get('selected') as Uint8Array | undefined) ??
+          null;
+      if (viewer.meshShown !== surface.mesh_revision || this.surface?.selection_revision !== surface.selection_revision)
+        return;
       viewer.setSelection(level, flags, surface.selection_revision);
     }
   }
@@ -135,7 +149,10 @@ export class MeshSource {
     const values: (Float32Array | null)[] = [];
     if (surface.comparison) {
       for (let level = 0; level < viewer.levelsShown; level++)
-        values.push((unpack(await this.session.bytes(`/api/deviations/${level}`)).get('deviation_mm') as Float32Array | undefined) ?? null);
+        values.push(
+          (unpack(await this.session.bytes(`/api/deviations/${level}`)).get('deviation_mm') as
+            Float32Array | undefined) ?? null,
+        );
     }
     viewer.setDeviations(values, surface.comparison?.tolerance_mm ?? null);
     this.deviationShown = revision;

@@ -32,10 +32,12 @@ export function t(key: MessageKey, values: Record<string, string | number> = {})
 }
 
 /** The name of a stage of a job; one that the catalogue lacks stays as the server names it. */
-export const stageName = (stage: string): string => (`stage.${stage}` in CATALOGUE ? t(`stage.${stage}` as MessageKey) : stage);
+export const stageName = (stage: string): string =>
+  `stage.${stage}` in CATALOGUE ? t(`stage.${stage}` as MessageKey) : stage;
 
 /** A number as the language writes it; one that rounds to zero has no sign. */
 export const number = (value: number, digits = 0): string =>
   (Math.abs(value) < 0.5 * 10 ** -digits ? 0 : value).toLocaleString(language === 'de' ? 'de-DE' : 'en-GB', {
-    minimumFractionDigits: digits, maximumFractionDigits: digits,
+    minimumFractionDigits: digits,
+    maximumFractionDigits: digits,
   });

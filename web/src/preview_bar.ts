@@ -13,10 +13,24 @@ export function previewBar(app: App): TemplateResult {
   return html`<div class="chip preview" role="group" aria-label=${t('preview.title')}>
     <div class="quiet">${t('preview.title')}</div>
     <div class="words">${stepWords(preview)}</div>
-    ${nothing ? '' : html`<div class="row quiet"><span><i class="key added"></i>${t('preview.added')}</span><span><i class="key removed"></i>${t('preview.removed')}</span></div>`}
+    ${
+      nothing
+        ? ''
+        : html`<div class="row quiet">
+            <span><i class="key added"></i>${t('preview.added')}</span
+            ><span><i class="key removed"></i>${t('preview.removed')}</span>
+          </div>`
+    }
     <div class="row">
       ${nothing ? '' : html`<button class="btn primary grow" id="apply" ?disabled=${app.occupied} @click=${() => app.editing.applyPreview()}>${t('preview.apply')}</button>`}
-      <button class="btn grow" id="cancel-preview" ?disabled=${app.occupied} @click=${() => app.command('drop-preview')}>${t(nothing ? 'app.close' : 'preview.cancel')}</button>
+      <button
+        class="btn grow"
+        id="cancel-preview"
+        ?disabled=${app.occupied}
+        @click=${() => app.command('drop-preview')}
+      >
+        ${t(nothing ? 'app.close' : 'preview.cancel')}
+      </button>
     </div>
   </div>`;
 }

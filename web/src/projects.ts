@@ -37,7 +37,8 @@ export class Projects {
   }
   async open(name: string): Promise<void> {
     const { app } = this;
-    if (app.state.project?.name === name) app.go(app.project.surface || app.project.surface_loading ? 'surface' : 'scan');
+    if (app.state.project?.name === name)
+      app.go(app.project.surface || app.project.surface_loading ? 'surface' : 'scan');
     else await app.command('open-project', { name });
   }
 }

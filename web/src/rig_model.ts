@@ -8,7 +8,10 @@ const PROJECTOR = 0xffc15e;
 const SHEET = 0xff5f57;
 const SHARED = 0x52e3aa;
 
-interface Cone { at: THREE.Vector3; corners: THREE.Vector3[] }
+interface Cone {
+  at: THREE.Vector3;
+  corners: THREE.Vector3[];
+}
 
 /** Camera, projector, laser sheet and the volume that both see, in the frame of the turntable. */
 export class RigModel {
@@ -27,9 +30,16 @@ export class RigModel {
     const camera = cone(rig.camera, new THREE.Matrix4(), reach);
     const pose = new THREE.Matrix4().set(...(rig.rig_from_projector as Sixteen));
     const way = new THREE.Vector3().setFromMatrixPosition(pose).distanceTo(new THREE.Vector3(0, 0, distance));
-    const projector = rig.projector ? cone(rig.projector, pose, 1.22 * way) : angularCone(rig.field_deg ?? [-10, 10], pose, 1.22 * way);
+    const projector = rig.projector
+      ? cone(rig.projector, pose, 1.22 * way)
+      : angularCone(rig.field_deg ?? [-10, 10], pose, 1.22 * way);
     const inRig = new THREE.Group();
-    inRig.add(...drawCone(camera, CAMERA), ...drawCone(projector, PROJECTOR), body(new THREE.Matrix4(), CAMERA, distance), body(pose, PROJECTOR, distance));
+    inRig.add(
+      ...drawCone(camera, CAMERA),
+      ...drawCone(projector, PROJECTOR),
+      body(new THREE.Matrix4(), CAMERA, distance),
+      body(pose, PROJECTOR, distance),
+    );
     if (rig.laser_sheet) inRig.add(sheet(rig.laser_sheet, distance));
     const shared = intersection(camera, projector);
     if (shared) inRig.add(shared);
@@ -43,10 +53,34 @@ export class RigModel {
   }
 }
 
-type Sixteen = [number, number, number, number, number, number, number, number, number, number, number, number, number, number, number, number];
+type Sixteen = [
+  number,
+  number,
+  number,
+  number,
+  number,
+  number,
+  number,
+  number,
+  number,
+  number,
+  number,
+  number,
+  number,
+  number,
+  number,
+  number,
+];
 
 function cone(optics: Optics, pose: THREE.Matrix4, reach: number): Cone {
-  const corners = ([[0, 0], [1, 0], [1, 1], [0, 1]] as const).map(([u, v]) => {
+  const corners = (
+    [
+      [0, 0],
+      [1, 0],
+      [1, 1],
+      [0, 1],
+    ] as const
+  ).map(([u, v]) => {
     const x = (u * optics.width_px - 0.5 - optics.principal_point_px[0]) / optics.focal_px[0];
     const y = (v * optics.height_px - 0.5 - optics.principal_point_px[1]) / optics.focal_px[1];
     return new THREE.Vector3(x * reach, y * reach, reach).applyMatrix4(pose);
@@ -58,7 +92,14 @@ function cone(optics: Optics, pose: THREE.Matrix4, reach: number): Cone {
 function angularCone([low, high]: [number, number], pose: THREE.Matrix4, reach: number): Cone {
   const [a, b] = [Math.tan((low * Math.PI) / 180), Math.tan((high * Math.PI) / 180)];
   const h = (b - a) / 2;
-  const corners = ([[a, -h], [b, -h], [b, h], [a, h]] as const).map(([x, y]) => new THREE.Vector3(x * reach, y * reach, reach).applyMatrix4(pose));
+  const corners = (
+    [
+      [a, -h],
+      [b, -h],
+      [b, h],
+      [a, h],
+    ] as const
+  ).map(([x, y]) => new THREE.Vector3(x * reach, y * reach, reach).applyMatrix4(pose));
   return { at: new THREE.Vector3().setFromMatrixPosition(pose), corners };
 }
 
@@ -70,10 +111,19 @@ function drawCone({ at, corners }: Cone, color: number): THREE.Object3D[] {
     lines.push(at, corner, corner, next);
     faces.push(at, corner, next);
   });
-  const edge = new THREE.LineSegments(new THREE.BufferGeometry().setFromPoints(lines), new THREE.LineBasicMaterial({ color, transparent: true, opacity: 0.8 }));
+  const edge = new THREE.LineSegments(
+    new THREE.BufferGeometry().setFromPoints(lines),
+    new THREE.LineBasicMaterial({ color, transparent: true, opacity: 0.8 }),
+  );
   const side = new THREE.Mesh(
     new THREE.BufferGeometry().setFromPoints(faces),
-    new THREE.MeshBasicMaterial({ color, transparent: true, opacity: 0.055, side: THREE.DoubleSide, depthWrite: false }),
+    new THREE.MeshBasicMaterial({
+      color,
+      transparent: true,
+      opacity: 0.055,
+      side: THREE.DoubleSide,
+      depthWrite: false,
+    }),
   );
   return [edge, side];
 }
@@ -85,17 +135,29 @@ function body(pose: THREE.Matrix4, color: number, distance: number): THREE.Objec
   const dark = new THREE.MeshStandardMaterial({ color: 0x3a4447, roughness: 0.55 });
   const box = new THREE.Mesh(new THREE.BoxGeometry(size, size * 0.8, size * 1.2), dark);
   box.position.z = -size * 0.75;
-  const lens = new THREE.Mesh(new THREE.CylinderGeometry(size * 0.3, size * 0.3, size * 0.35, 40), new THREE.MeshStandardMaterial({ color, roughness: 0.35 }));
+  const lens = new THREE.Mesh(
+    new THREE.CylinderGeometry(size * 0.3, size * 0.3, size * 0.35, 40),
+    new THREE.MeshStandardMaterial({ color, roughness: 0.35 }),
+  );
   lens.rotation.x = Math.PI / 2;
   group.add(box, lens);
   group.applyMatrix4(pose);
   return group;
 }
 
-function sheet({ normal, offset_mm }: { normal: [number, number, number]; offset_mm: number }, distance: number): THREE.Object3D {
+function sheet(
+  { normal, offset_mm }: { normal: [number, number, number]; offset_mm: number },
+  distance: number,
+): THREE.Object3D {
   const plane = new THREE.Mesh(
     new THREE.PlaneGeometry(0.5 * distance, 0.5 * distance),
-    new THREE.MeshBasicMaterial({ color: SHEET, transparent: true, opacity: 0.2, side: THREE.DoubleSide, depthWrite: false }),
+    new THREE.MeshBasicMaterial({
+      color: SHEET,
+      transparent: true,
+      opacity: 0.2,
+      side: THREE.DoubleSide,
+      depthWrite: false,
+    }),
   );
   const n = new THREE.Vector3(...normal);
   plane.quaternion.setFromUnitVectors(new THREE.Vector3(0, 0, 1), n);
@@ -112,13 +174,23 @@ function intersection(a: Cone, b: Cone): THREE.Object3D | null {
     for (let j = i + 1; j < planes.length; j++)
       for (let k = j + 1; k < planes.length; k++) {
         const point = meeting(planes[i] as THREE.Plane, planes[j] as THREE.Plane, planes[k] as THREE.Plane);
-        if (point && planes.every((plane) => plane.distanceToPoint(point) > -1e-6 * (1 + point.length()))) corners.push(point);
+        if (point && planes.every((plane) => plane.distanceToPoint(point) > -1e-6 * (1 + point.length())))
+          corners.push(point);
       }
   if (corners.length < 4) return null;
   const geometry = new ConvexGeometry(corners);
   const group = new THREE.Group();
   group.add(
-    new THREE.Mesh(geometry, new THREE.MeshBasicMaterial({ color: SHARED, transparent: true, opacity: 0.16, side: THREE.DoubleSide, depthWrite: false })),
+    new THREE.Mesh(
+      geometry,
+      new THREE.MeshBasicMaterial({
+        color: SHARED,
+        transparent: true,
+        opacity: 0.16,
+        side: THREE.DoubleSide,
+        depthWrite: false,
+      }),
+    ),
     new THREE.LineSegments(new THREE.EdgesGeometry(geometry, 5), new THREE.LineBasicMaterial({ color: SHARED })),
   );
   return group;
@@ -127,8 +199,12 @@ function intersection(a: Cone, b: Cone): THREE.Object3D | null {
 function planesOf({ at, corners }: Cone): THREE.Plane[] {
   const middle = corners.reduce((sum, corner) => sum.add(corner), new THREE.Vector3()).divideScalar(4);
   const inside = at.clone().lerp(middle, 0.5);
-  const planes = corners.map((corner, i) => new THREE.Plane().setFromCoplanarPoints(at, corner, corners[(i + 1) % 4] as THREE.Vector3));
-  planes.push(new THREE.Plane().setFromCoplanarPoints(...(corners.slice(0, 3) as [THREE.Vector3, THREE.Vector3, THREE.Vector3])));
+  const planes = corners.map((corner, i) =>
+    new THREE.Plane().setFromCoplanarPoints(at, corner, corners[(i + 1) % 4] as THREE.Vector3),
+  );
+  planes.push(
+    new THREE.Plane().setFromCoplanarPoints(...(corners.slice(0, 3) as [THREE.Vector3, THREE.Vector3, THREE.Vector3])),
+  );
   // In front of the parts, not at them.
   const near = corners.map((corner) => at.clone().lerp(corner, 0.62)) as [THREE.Vector3, THREE.Vector3, THREE.Vector3];
   planes.push(new THREE.Plane().setFromCoplanarPoints(near[0], near[1], near[2]));
@@ -142,5 +218,9 @@ function meeting(a: THREE.Plane, b: THREE.Plane, c: THREE.Plane): THREE.Vector3 
   if (Math.abs(volume) < 1e-9) return null;
   const ca = c.normal.clone().cross(a.normal);
   const ab = a.normal.clone().cross(b.normal);
-  return bc.multiplyScalar(-a.constant).addScaledVector(ca, -b.constant).addScaledVector(ab, -c.constant).divideScalar(volume);
+  return bc
+    .multiplyScalar(-a.constant)
+    .addScaledVector(ca, -b.constant)
+    .addScaledVector(ab, -c.constant)
+    .divideScalar(volume);
 }

@@ -30,7 +30,10 @@ export class Ruler {
     if (this.ends.length === wanted) this.clear();
     this.ends.push(point.clone());
     this.sigmas.push(sigma);
-    const ball = new THREE.Mesh(new THREE.SphereGeometry(size, 20, 14), new THREE.MeshBasicMaterial({ color: COLOR, depthTest: false }));
+    const ball = new THREE.Mesh(
+      new THREE.SphereGeometry(size, 20, 14),
+      new THREE.MeshBasicMaterial({ color: COLOR, depthTest: false }),
+    );
     ball.position.copy(point);
     ball.renderOrder = 3;
     this.group.add(ball);
@@ -53,7 +56,12 @@ export class Ruler {
       const gc = axis.clone().cross(v).divideScalar(v.lengthSq());
       const sigma = Math.hypot(sa * ga.length(), (sc as number) * gc.length(), sb * ga.add(gc).length());
       const u95 = known(sigma);
-      return { distance_mm: null, u95_mm: null, angle_deg: (angle * 180) / Math.PI, u95_deg: u95 === null ? null : (u95 * 180) / Math.PI };
+      return {
+        distance_mm: null,
+        u95_mm: null,
+        angle_deg: (angle * 180) / Math.PI,
+        u95_deg: u95 === null ? null : (u95 * 180) / Math.PI,
+      };
     }
     return { distance_mm: a.distanceTo(b), u95_mm: known(Math.hypot(sa, sb)), angle_deg: null, u95_deg: null };
   }

@@ -8,7 +8,10 @@ export type Layer = 'none' | 'camera' | 'phase' | 'modulation' | 'status' | 'dep
 
 /** A refusal of the server, in its words. */
 export class Refusal extends Error {
-  constructor(readonly status: number, sentence: string) {
+  constructor(
+    readonly status: number,
+    sentence: string,
+  ) {
     super(sentence);
   }
 }
@@ -59,7 +62,8 @@ export class Session {
   show(layer: Layer): void {
     if (layer === this.layer) return;
     this.layer = layer;
-    if (this.socket?.readyState === WebSocket.OPEN && this.link === 'open') this.socket.send(JSON.stringify({ type: 'show', layer }));
+    if (this.socket?.readyState === WebSocket.OPEN && this.link === 'open')
+      this.socket.send(JSON.stringify({ type: 'show', layer }));
   }
 
   async enter(password: string): Promise<void> {
@@ -69,7 +73,11 @@ export class Session {
 
   private async exchange(proof: { token: string } | { password: string }): Promise<void> {
     const response = await answerOf(
-      await fetch('/api/session', { method: 'POST', headers: { 'Content-Type': 'application/json' }, body: JSON.stringify(proof) }),
+      await fetch('/api/session', {
+        method: 'POST',
+        headers: { 'Content-Type': 'application/json' },
+        body: JSON.stringify(proof),
+      }),
     );
     const { key, id } = (await response.json()) as { key: string; id: string };
     this.key = key;
@@ -79,7 +87,11 @@ export class Session {
   }
 
   private async post(path: string, body: object): Promise<Response> {
-    return this.request(path, { method: 'POST', headers: { 'Content-Type': 'application/json' }, body: JSON.stringify(body) });
+    return this.request(path, {
+      method: 'POST',
+      headers: { 'Content-Type': 'application/json' },
+      body: JSON.stringify(body),
+    });
   }
 
   async begin(): Promise<void> {
@@ -162,7 +174,8 @@ export class Session {
       this.patience = 500;
       this.state = message.state;
       this.operator = message.operator;
-      if (this.link !== 'open' && this.layer !== 'none') socket.send(JSON.stringify({ type: 'show', layer: this.layer }));
+      if (this.link !== 'open' && this.layer !== 'none')
+        socket.send(JSON.stringify({ type: 'show', layer: this.layer }));
       this.set('open');
     };
     socket.onclose = (event) => {

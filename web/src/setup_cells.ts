@@ -2,7 +2,10 @@
 class Cells {
   private readonly cells = new Map<number, number[]>();
 
-  constructor(private readonly positions: Float32Array, private readonly side: number) {
+  constructor(
+    private readonly positions: Float32Array,
+    private readonly side: number,
+  ) {
     for (let i = 0; i < positions.length; i += 3) {
       const key = this.key(positions[i] as number, positions[i + 1] as number, positions[i + 2] as number, 0, 0, 0);
       const cell = this.cells.get(key);
@@ -23,7 +26,11 @@ class Cells {
       for (let dy = -1; dy <= 1; dy++)
         for (let dz = -1; dz <= 1; dz++)
           for (const i of this.cells.get(this.key(x, y, z, dx, dy, dz)) ?? []) {
-            const [ex, ey, ez] = [(this.positions[i] as number) - x, (this.positions[i + 1] as number) - y, (this.positions[i + 2] as number) - z];
+            const [ex, ey, ez] = [
+              (this.positions[i] as number) - x,
+              (this.positions[i + 1] as number) - y,
+              (this.positions[i + 2] as number) - z,
+            ];
             if (ex * ex + ey * ey + ez * ez <= reach2) return true;
           }
     return false;
@@ -38,8 +45,16 @@ export function setupsAt(positions: Float32Array, triangles: Uint32Array, clouds
   let doubled = 0;
   for (let t = 0; t < triangles.length; t += 3) {
     const [a, b, c] = [0, 1, 2].map((k) => 3 * (triangles[t + k] as number)) as [number, number, number];
-    const [ux, uy, uz] = [0, 1, 2].map((k) => (positions[b + k] as number) - (positions[a + k] as number)) as [number, number, number];
-    const [vx, vy, vz] = [0, 1, 2].map((k) => (positions[c + k] as number) - (positions[a + k] as number)) as [number, number, number];
+    const [ux, uy, uz] = [0, 1, 2].map((k) => (positions[b + k] as number) - (positions[a + k] as number)) as [
+      number,
+      number,
+      number,
+    ];
+    const [vx, vy, vz] = [0, 1, 2].map((k) => (positions[c + k] as number) - (positions[a + k] as number)) as [
+      number,
+      number,
+      number,
+    ];
     doubled += Math.hypot(uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx);
   }
   const flags = new Uint8Array(positions.length / 3);
@@ -47,7 +62,8 @@ export function setupsAt(positions: Float32Array, triangles: Uint32Array, clouds
     const spacing = Math.sqrt(doubled / 2 / Math.max(1, cloud.length / 3));
     const cells = new Cells(cloud, REACH * spacing || 1);
     for (let v = 0; v < flags.length; v++)
-      if (cells.near(positions[3 * v] as number, positions[3 * v + 1] as number, positions[3 * v + 2] as number)) flags[v] = (flags[v] as number) | (1 << setup);
+      if (cells.near(positions[3 * v] as number, positions[3 * v + 1] as number, positions[3 * v + 2] as number))
+        flags[v] = (flags[v] as number) | (1 << setup);
   });
   return flags;
 }

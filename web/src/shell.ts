@@ -17,26 +17,51 @@ async function enter(app: App, event: SubmitEvent): Promise<void> {
 
 /** The page before there is a state: while it connects, and for who has no key. */
 export function blankPage(app: App): TemplateResult {
-  if (app.session.link !== 'refused') return html`<main class="blank">${logo}<p class="quiet">${t('app.connecting')}</p></main>`;
-  return html`<main class="blank">${logo}<h1>${t('app.refused')}</h1><p class="quiet">${t('app.refusedHint')}</p><code>frangia serve --new-link</code>
+  if (app.session.link !== 'refused')
+    return html`<main class="blank">
+      ${logo}
+      <p class="quiet">${t('app.connecting')}</p>
+    </main>`;
+  return html`<main class="blank">
+    ${logo}
+    <h1>${t('app.refused')}</h1>
+    <p class="quiet">${t('app.refusedHint')}</p>
+    <code>frangia serve --new-link</code>
     <form class="row" @submit=${(event: SubmitEvent) => void enter(app, event)}>
-      <label class="field grow"><span>${t('app.password')}</span><input name="password" type="password" autocomplete="current-password" required /></label>
+      <label class="field grow"
+        ><span>${t('app.password')}</span
+        ><input name="password" type="password" autocomplete="current-password" required
+      /></label>
       <button class="btn">${t('app.enter')}</button>
     </form>
-    ${app.problem ? html`<p class="bad" role="alert">${app.problem}</p>` : ''}</main>`;
+    ${app.problem ? html`<p class="bad" role="alert">${app.problem}</p>` : ''}
+  </main>`;
 }
 
 /** Who operates, a lost connection, and what went wrong. */
 export function notices(app: App): TemplateResult {
   const lost = app.session.link === 'lost';
   return html`<div class="messages" role="region" aria-label=${t('app.messages')}>
-    ${app.session.watches && !lost
-      ? html`<div class="notice warn" role="status"><span>${t('app.watching')}</span><button class="btn small" id="take-over" @click=${() => void app.session.takeOver()}>${t('app.takeOver')}</button></div>`
-      : ''}
+    ${
+      app.session.watches && !lost
+        ? html`<div class="notice warn" role="status">
+            <span>${t('app.watching')}</span
+            ><button class="btn small" id="take-over" @click=${() => void app.session.takeOver()}>
+              ${t('app.takeOver')}
+            </button>
+          </div>`
+        : ''
+    }
     ${lost ? html`<div class="notice warn" role="alert"><span>${t('app.lost')}</span></div>` : ''}
-    ${app.problem && !lost
-      ? html`<div class="notice" role="alert"><span>${plain(app.problem)}</span>
-          <button class="icon-btn" aria-label=${t('app.dismiss')} @click=${() => app.dismiss()}>${icon('close')}</button></div>`
-      : ''}
+    ${
+      app.problem && !lost
+        ? html`<div class="notice" role="alert">
+            <span>${plain(app.problem)}</span>
+            <button class="icon-btn" aria-label=${t('app.dismiss')} @click=${() => app.dismiss()}>
+              ${icon('close')}
+            </button>
+          </div>`
+        : ''
+    }
   </div>`;
 }

@@ -50,7 +50,12 @@ export class Smoothing {
     [this.width, this.height] = [width, height];
     gl.bindFramebuffer(gl.FRAMEBUFFER, this.buffer);
     const samples = Math.min(SAMPLES, gl.getParameter(gl.MAX_SAMPLES) as number);
-    this.stores = ([[gl.RGBA8, gl.COLOR_ATTACHMENT0], [gl.DEPTH_COMPONENT24, gl.DEPTH_ATTACHMENT]] as const).map(([format, place]) => {
+    this.stores = (
+      [
+        [gl.RGBA8, gl.COLOR_ATTACHMENT0],
+        [gl.DEPTH_COMPONENT24, gl.DEPTH_ATTACHMENT],
+      ] as const
+    ).map(([format, place]) => {
       const store = gl.createRenderbuffer() as WebGLRenderbuffer;
       gl.bindRenderbuffer(gl.RENDERBUFFER, store);
       gl.renderbufferStorageMultisample(gl.RENDERBUFFER, samples, format, width, height);

@@ -17,7 +17,13 @@ export function addLights(lights: THREE.Group): void {
 export function addTable(table: THREE.Group): void {
   const disc = new THREE.Mesh(
     new THREE.CircleGeometry(110, 128),
-    new THREE.MeshBasicMaterial({ color: 0x808c88, transparent: true, opacity: 0.07, depthWrite: false, side: THREE.DoubleSide }),
+    new THREE.MeshBasicMaterial({
+      color: 0x808c88,
+      transparent: true,
+      opacity: 0.07,
+      depthWrite: false,
+      side: THREE.DoubleSide,
+    }),
   );
   const points: number[] = [];
   for (let degree = 0; degree < 360; degree += 3) {
@@ -26,9 +32,15 @@ export function addTable(table: THREE.Group): void {
     points.push(Math.cos(angle) * inner, Math.sin(angle) * inner, 0, Math.cos(angle) * 110, Math.sin(angle) * 110, 0);
   }
   const ticks = new THREE.BufferGeometry().setAttribute('position', new THREE.Float32BufferAttribute(points, 3));
-  table.add(disc, new THREE.LineSegments(ticks, new THREE.LineBasicMaterial({ color: 0x808c88, transparent: true, opacity: 0.55 })));
+  table.add(
+    disc,
+    new THREE.LineSegments(ticks, new THREE.LineBasicMaterial({ color: 0x808c88, transparent: true, opacity: 0.55 })),
+  );
   const ring = new THREE.BufferGeometry().setFromPoints(
-    Array.from({ length: 129 }, (_, i) => new THREE.Vector3(Math.cos((i * Math.PI) / 64) * 110, Math.sin((i * Math.PI) / 64) * 110, 0)),
+    Array.from(
+      { length: 129 },
+      (_, i) => new THREE.Vector3(Math.cos((i * Math.PI) / 64) * 110, Math.sin((i * Math.PI) / 64) * 110, 0),
+    ),
   );
   table.add(new THREE.Line(ring, new THREE.LineBasicMaterial({ color: 0x808c88, transparent: true, opacity: 0.55 })));
 }

@@ -23,7 +23,11 @@ export class StationClouds {
   /** Each setup stands in its own pose on the table: clouds of two would mix. */
   choose(step: StepName, setup: number): void {
     const stations = this.session.state?.project?.stations ?? [];
-    this.viewer.showClouds(step === 'scan' || step === 'live', step === 'live', (station) => (stations[station]?.setup ?? 0) === setup);
+    this.viewer.showClouds(
+      step === 'scan' || step === 'live',
+      step === 'live',
+      (station) => (stations[station]?.setup ?? 0) === setup,
+    );
   }
 
   /** Follows the state. */

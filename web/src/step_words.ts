@@ -30,7 +30,8 @@ export function stepWords({ operation, value, change }: Step): string {
   if (operation === 'delete') return count('did.delete');
   if (operation === 'smooth') return count('did.smooth');
   if (operation === 'remove-spikes') return count(change.triangles || change.moved ? 'did.spikes' : 'did.spikesNone');
-  if (operation === 'keep-largest' || operation === 'remove-islands') return count(change.components === 0 ? 'did.islandsNone' : change.components === -1 ? 'did.island' : 'did.islands');
+  if (operation === 'keep-largest' || operation === 'remove-islands')
+    return count(change.components === 0 ? 'did.islandsNone' : change.components === -1 ? 'did.island' : 'did.islands');
   if (operation.startsWith('decimate')) return count(operation === 'decimate' ? 'did.decimate' : 'did.decimateTo');
   if (operation === 'cut') return count('did.cut');
   if (operation === 'mirror') return count('did.mirror');

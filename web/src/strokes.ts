@@ -1,7 +1,16 @@
 export type Point = [number, number];
 
 const CELL = 3;
-const AROUND: readonly Point[] = [[1, 0], [1, 1], [0, 1], [-1, 1], [-1, 0], [-1, -1], [0, -1], [1, -1]];
+const AROUND: readonly Point[] = [
+  [1, 0],
+  [1, 1],
+  [0, 1],
+  [-1, 1],
+  [-1, 0],
+  [-1, -1],
+  [0, -1],
+  [1, -1],
+];
 
 /** The outer outline of what a round brush covers along a stroke, pixels. */
 export function brushOutline(stroke: readonly Point[], radius: number): Point[] {
@@ -19,7 +28,8 @@ export function brushOutline(stroke: readonly Point[], radius: number): Point[] 
     const cy = y / CELL - top;
     const r = radius / CELL;
     for (let j = Math.floor(cy - r); j <= cy + r; j++)
-      for (let i = Math.floor(cx - r); i <= cx + r; i++) if ((i - cx) ** 2 + (j - cy) ** 2 <= r * r) covered[j * width + i] = 1;
+      for (let i = Math.floor(cx - r); i <= cx + r; i++)
+        if ((i - cx) ** 2 + (j - cy) ** 2 <= r * r) covered[j * width + i] = 1;
   };
   dab(stroke[0] as Point);
   for (let k = 1; k < stroke.length; k++) {

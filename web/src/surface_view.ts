@@ -109,7 +109,8 @@ export class SurfaceView {
     for (const level of picture.levels) this.group.add(level.group);
     this.box.makeEmpty();
     const coarsest = picture.levels[0];
-    if (coarsest) this.box.setFromBufferAttribute(coarsest.mesh.geometry.getAttribute('position') as THREE.BufferAttribute);
+    if (coarsest)
+      this.box.setFromBufferAttribute(coarsest.mesh.geometry.getAttribute('position') as THREE.BufferAttribute);
     this.colorAll();
     this.shadeAll();
     this.cut();
@@ -168,7 +169,8 @@ export class SurfaceView {
   }
   private shadeAll(): void {
     this.showLevel();
-    for (const level of this.levels) level.shade(this.shading === 'flat', this.shading === 'wire' && level === this.shown);
+    for (const level of this.levels)
+      level.shade(this.shading === 'flat', this.shading === 'wire' && level === this.shown);
   }
 
   /** Points of each joined setup, by which the mesh is coloured. */
@@ -186,7 +188,8 @@ export class SurfaceView {
     const finest = this.levels.at(-1);
     this.legend = finest ? scaleOf(finest.arrays, this.coloring, this.band) : null;
     for (const { arrays } of this.levels)
-      if (this.coloring === 'setup' && this.setups.length > 0) arrays.setups ??= setupsAt(arrays.positions, arrays.triangles, this.setups);
+      if (this.coloring === 'setup' && this.setups.length > 0)
+        arrays.setups ??= setupsAt(arrays.positions, arrays.triangles, this.setups);
     for (const level of this.levels) level.color(this.coloring, this.legend);
   }
 }

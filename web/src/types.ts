@@ -1,9 +1,24 @@
 /** The state that the server sends; docs/service-schema.json describes it. */
 export type JobState = 'waiting' | 'running' | 'done' | 'failed' | 'stopped';
-export interface LogLine { warning: boolean; sentence: string }
+export interface LogLine {
+  warning: boolean;
+  sentence: string;
+}
 export interface Job {
   number: number;
-  kind: 'open' | 'live' | 'find' | 'devices' | 'exposure' | 'calibrate' | 'scan' | 'reconstruct' | 'edit' | 'preview' | 'compare' | 'export';
+  kind:
+    | 'open'
+    | 'live'
+    | 'find'
+    | 'devices'
+    | 'exposure'
+    | 'calibrate'
+    | 'scan'
+    | 'reconstruct'
+    | 'edit'
+    | 'preview'
+    | 'compare'
+    | 'export';
   state: JobState;
   progress: number;
   stage: string;
@@ -30,8 +45,18 @@ export interface Hole {
   center_mm: [number, number, number];
 }
 /** What a step did; counts are those after it less those before. */
-export interface Change { triangles: number; holes: number; components: number; moved: number; selected: number }
-export interface Step { operation: string; value: string; change: Change }
+export interface Change {
+  triangles: number;
+  holes: number;
+  components: number;
+  moved: number;
+  selected: number;
+}
+export interface Step {
+  operation: string;
+  value: string;
+  change: Change;
+}
 export interface Summary {
   points: number;
   views: number;
@@ -39,7 +64,15 @@ export interface Summary {
   rms_before_mm?: number;
   rms_after_mm?: number;
   /** What became of the turntable; `plain` where these figures say all that `registration` does. */
-  turntable?: { plain: boolean; kept: boolean; overlap: number; moved_mm: number; turned_deg: number; angles_deg: number; closure_deg: number | null };
+  turntable?: {
+    plain: boolean;
+    kept: boolean;
+    overlap: number;
+    moved_mm: number;
+    turned_deg: number;
+    angles_deg: number;
+    closure_deg: number | null;
+  };
   untrusted_reason: string;
   /** How the setups join; missing or empty for a scan of one. */
   setups?: SetupJoin[];
@@ -103,8 +136,23 @@ export interface DeviceSearch {
 }
 /** The residuals of a calibration; arrows are x, y and the residual in x and y, px. */
 export interface Residuals {
-  poses: { name: string; camera_rms_px: number; projector_rms_px: number; distance_mm: number; tilt_deg: number; change_mm: number; outlier: boolean }[];
-  maps: { title: string; width: number; height: number; rms_px: number; points: number; arrows: [number, number, number, number][] }[];
+  poses: {
+    name: string;
+    camera_rms_px: number;
+    projector_rms_px: number;
+    distance_mm: number;
+    tilt_deg: number;
+    change_mm: number;
+    outlier: boolean;
+  }[];
+  maps: {
+    title: string;
+    width: number;
+    height: number;
+    rms_px: number;
+    points: number;
+    arrows: [number, number, number, number][];
+  }[];
 }
 export interface CaptureSettings {
   exposure_ms: number;
@@ -173,7 +221,9 @@ export interface Comparison {
   left_out: number;
   free_directions: string[];
 }
-export interface Preview extends Step { revision: number }
+export interface Preview extends Step {
+  revision: number;
+}
 export interface Surface {
   /** Levels of detail, the coarsest first. */
   levels: { triangles: number; error_mm: number }[];

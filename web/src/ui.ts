@@ -11,29 +11,55 @@ export function choice<T extends string>(
   options: readonly (readonly [T, TemplateResult | string])[],
   choose: (value: T) => void,
 ): TemplateResult {
-  return html`<div class="seg ${options.length > 4 && options.every(([, text]) => typeof text === 'string') ? 'many' : ''}" role="radiogroup" aria-label=${label}>
+  return html`<div
+    class="seg ${options.length > 4 && options.every(([, text]) => typeof text === 'string') ? 'many' : ''}"
+    role="radiogroup"
+    aria-label=${label}
+  >
     ${options.map(
-      ([key, text]) => html`<label
-        ><input type="radio" name=${label} .checked=${key === value} @change=${() => choose(key)} />${text}</label
-      >`,
+      ([key, text]) =>
+        html`<label
+          ><input type="radio" name=${label} .checked=${key === value} @change=${() => choose(key)} />${text}</label
+        >`,
     )}
   </div>`;
 }
 
 /** The button that leads to the next step. */
 export const nextStep = (app: App, step: StepName, ready = true): TemplateResult =>
-  html`<section class="group next-step"><button class="btn ${ready ? 'primary' : ''} wide" data-next=${step} @click=${() => app.go(step)}>${t('app.next', { step: t(`step.${step}`) })}${icon('arrow')}</button></section>`;
+  html`<section class="group next-step">
+    <button class="btn ${ready ? 'primary' : ''} wide" data-next=${step} @click=${() => app.go(step)}>
+      ${t('app.next', { step: t(`step.${step}`) })}${icon('arrow')}
+    </button>
+  </section>`;
 
 export const bytes = (count: number, format: (value: number, digits: number) => string): string =>
-  count < 1000 ? `${format(count, 0)} B` : count < 1e6 ? `${format(count / 1e3, 0)} kB` : `${format(count / 1e6, 1)} MB`;
+  count < 1000
+    ? `${format(count, 0)} B`
+    : count < 1e6
+      ? `${format(count / 1e3, 0)} kB`
+      : `${format(count / 1e6, 1)} MB`;
 
 /** A field with a number and the button that uses it. */
-export const numberForm = (id: string, label: string, value: number, button: string, disabled: boolean, use: (value: number) => void): TemplateResult =>
-  html`<form class="row" @submit=${(event: SubmitEvent) => {
-    event.preventDefault();
-    use(Number(new FormData(event.target as HTMLFormElement).get('value')));
-  }}>
-    <label class="field grow"><span>${label}</span><input id=${id} class="num" name="value" type="number" step="any" required .defaultValue=${String(value)} /></label>
+export const numberForm = (
+  id: string,
+  label: string,
+  value: number,
+  button: string,
+  disabled: boolean,
+  use: (value: number) => void,
+): TemplateResult =>
+  html`<form
+    class="row"
+    @submit=${(event: SubmitEvent) => {
+      event.preventDefault();
+      use(Number(new FormData(event.target as HTMLFormElement).get('value')));
+    }}
+  >
+    <label class="field grow"
+      ><span>${label}</span
+      ><input id=${id} class="num" name="value" type="number" step="any" required .defaultValue=${String(value)}
+    /></label>
     <button class="btn" ?disabled=${disabled}>${button}</button>
   </form>`;
 

@@ -55,7 +55,10 @@ export class ViewCamera {
   /** The ray through a pixel. */
   rayAt([x, y]: [number, number]): THREE.Ray {
     const ray = new THREE.Raycaster();
-    ray.setFromCamera(new THREE.Vector2((2 * x) / this.canvas.clientWidth - 1, 1 - (2 * y) / this.canvas.clientHeight), this.camera);
+    ray.setFromCamera(
+      new THREE.Vector2((2 * x) / this.canvas.clientWidth - 1, 1 - (2 * y) / this.canvas.clientHeight),
+      this.camera,
+    );
     return ray.ray;
   }
 

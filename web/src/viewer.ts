@@ -19,9 +19,17 @@ export type { Tool } from './pointer_strokes';
 export type { SectionAxis, Shading } from './surface_view';
 
 /** A ray through the picture, and the half-space that a section leaves. */
-export interface Ray { eye: number[]; direction: number[]; section?: number[] }
+export interface Ray {
+  eye: number[];
+  direction: number[];
+  section?: number[];
+}
 /** A point of the exact mesh. */
-export interface Hit { point_mm: [number, number, number]; triangle: number; sigma_mm: number | null }
+export interface Hit {
+  point_mm: [number, number, number];
+  triangle: number;
+  sigma_mm: number | null;
+}
 
 interface Events {
   /** Asks for the point of the exact mesh on a ray. */
@@ -91,11 +99,24 @@ export class Viewer {
     this.renderer.setPixelRatio(Math.min(2, devicePixelRatio));
     this.renderer.localClippingEnabled = true;
     this.smoothing = new Smoothing(this.renderer);
-    this.view = new ViewCamera(this.canvas, () => this.draw(), (held) => {
-      this.held = held;
-      this.move();
-    });
-    this.scene.add(this.lights, this.clouds.group, this.table, this.surface.group, this.preview.group, this.holes.group, this.ruler.group, this.rig.group);
+    this.view = new ViewCamera(
+      this.canvas,
+      () => this.draw(),
+      (held) => {
+        this.held = held;
+        this.move();
+      },
+    );
+    this.scene.add(
+      this.lights,
+      this.clouds.group,
+      this.table,
+      this.surface.group,
+      this.preview.group,
+      this.holes.group,
+      this.ruler.group,
+      this.rig.group,
+    );
     addLights(this.lights);
     addTable(this.table);
     new ResizeObserver(() => this.resize()).observe(host);
@@ -150,10 +171,13 @@ export class Viewer {
     this.setMoving(true);
     clearTimeout(this.resting);
     if (this.held || this.incomplete) return;
-    this.resting = window.setTimeout(() => {
-      this.setMoving(false);
-      this.draw();
-    }, this.smoothing?.software ? REST_IN_SOFTWARE_MS : REST_MS);
+    this.resting = window.setTimeout(
+      () => {
+        this.setMoving(false);
+        this.draw();
+      },
+      this.smoothing?.software ? REST_IN_SOFTWARE_MS : REST_MS,
+    );
   }
   private setMoving(moving: boolean): void {
     this.moving = moving;
@@ -292,7 +316,10 @@ export class Viewer {
     if (this.tool === 'align') {
       this.picks.push(point);
       if (this.picks.length === 3) {
-        this.events.picked('align', this.picks.map((one) => one.toArray()));
+        this.events.picked(
+          'align',
+          this.picks.map((one) => one.toArray()),
+        );
         this.clearMeasurement();
       }
     }

@@ -18,7 +18,10 @@ export const EXPORT = {
   'export.files': ['Files', 'Dateien'],
   'export.none': ['Exported files appear here.', 'Hier erscheinen exportierte Dateien.'],
   'export.download': ['Download', 'Herunterladen'],
-  'export.dxf': ['CAD programs; triangles on a layer, synthesized ones on another', 'CAD-Programme; Dreiecke auf einer Ebene, ergänzte auf einer anderen'],
+  'export.dxf': [
+    'CAD programs; triangles on a layer, synthesized ones on another',
+    'CAD-Programme; Dreiecke auf einer Ebene, ergänzte auf einer anderen',
+  ],
   'export.stl': ['3D printing; triangles alone', '3D-Druck; nur Dreiecke'],
   'export.ply': ['Everything measured: sigma, views, marks', 'Alles Gemessene: Sigma, Ansichten, Herkunft'],
   'export.obj': ['Modelling programs', 'Modellierprogramme'],

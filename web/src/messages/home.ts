@@ -26,7 +26,10 @@ export const HOME = {
     'Der Schritt Aufbau sucht, was am Rechner des Servers angeschlossen ist; Größen melden die Geräte, den Rest ergibt die Kalibrierung.',
   ],
   'home.chooseFile': ['Choose the files', 'Dateien wählen'],
-  'home.file': ['rig.toml, with the CSV file of its covariance if it names one', 'rig.toml, mit der CSV-Datei seiner Kovarianz, falls es eine nennt'],
+  'home.file': [
+    'rig.toml, with the CSV file of its covariance if it names one',
+    'rig.toml, mit der CSV-Datei seiner Kovarianz, falls es eine nennt',
+  ],
   'home.example': ['Example', 'Beispiel'],
   'home.create': ['Create', 'Anlegen'],
   'home.recent': ['Recent', 'Zuletzt'],

@@ -22,14 +22,26 @@ export const LIVE = {
   'live.fixed': ['fixed: the scan has begun', 'fest: der Scan hat begonnen'],
   'live.time': ['Exposure time', 'Belichtungszeit'],
   'live.auto': ['Find exposure', 'Belichtung finden'],
-  'live.autoHint': ['The longest exposure that saturates next to nothing of the part', 'Die längste Belichtung, die fast nichts am Teil übersteuert'],
+  'live.autoHint': [
+    'The longest exposure that saturates next to nothing of the part',
+    'Die längste Belichtung, die fast nichts am Teil übersteuert',
+  ],
   'live.bracket': ['Find several', 'Mehrere finden'],
-  'live.bracketHint': ['Several exposures, for glossy parts and parts with bright and dark faces', 'Mehrere Belichtungen, für glänzende Teile und Teile mit hellen und dunklen Flächen'],
+  'live.bracketHint': [
+    'Several exposures, for glossy parts and parts with bright and dark faces',
+    'Mehrere Belichtungen, für glänzende Teile und Teile mit hellen und dunklen Flächen',
+  ],
   'live.exposures': ['Exposures merged by the scan, ms', 'Belichtungen, die der Scan vereint, ms'],
   'live.exposuresHint': ['one, as above', 'eine, wie oben'],
   'live.marks': ['Mark dark and saturated pixels', 'Dunkle und übersteuerte Pixel markieren'],
-  'live.noDevices': ['This project has no devices yet. Choose them in the step Rig.', 'Dieses Projekt hat noch keine Geräte. Sie werden im Schritt Aufbau gewählt.'],
-  'live.leadUncalibrated': ['The rig is not calibrated: the frames are shown and not decoded. Set focus, aperture and exposure.', 'Der Aufbau ist nicht kalibriert: die Bilder werden gezeigt, nicht ausgewertet. Schärfe, Blende und Belichtung einstellen.'],
+  'live.noDevices': [
+    'This project has no devices yet. Choose them in the step Rig.',
+    'Dieses Projekt hat noch keine Geräte. Sie werden im Schritt Aufbau gewählt.',
+  ],
+  'live.leadUncalibrated': [
+    'The rig is not calibrated: the frames are shown and not decoded. Set focus, aperture and exposure.',
+    'Der Aufbau ist nicht kalibriert: die Bilder werden gezeigt, nicht ausgewertet. Schärfe, Blende und Belichtung einstellen.',
+  ],
   'live.gain': ['Gain', 'Verstärkung'],
   'live.black': ['Black level', 'Schwarzwert'],
   'live.fringes': ['Fringes', 'Streifen'],
@@ -42,5 +54,8 @@ export const LIVE = {
   'live.table': ['Turntable', 'Drehtisch'],
   'live.start': ['Start the preview', 'Vorschau starten'],
   'live.stop': ['Stop the preview', 'Vorschau anhalten'],
-  'live.lead': ['Every frame is decoded as it comes. What is set here is what the scan uses.', 'Jedes Bild wird sofort ausgewertet. Was hier eingestellt ist, nutzt der Scan.'],
+  'live.lead': [
+    'Every frame is decoded as it comes. What is set here is what the scan uses.',
+    'Jedes Bild wird sofort ausgewertet. Was hier eingestellt ist, nutzt der Scan.',
+  ],
 } as const satisfies Rows;

@@ -4,7 +4,10 @@ import type { Rows } from './rows';
 export const SURFACE = {
   'surface.build': ['Build again', 'Neu berechnen'],
   'surface.loading': ['The surface is being read.', 'Die Fläche wird gelesen.'],
-  'surface.none': ['There is no surface yet. Scan first, then build it.', 'Es gibt noch keine Fläche. Erst scannen, dann berechnen.'],
+  'surface.none': [
+    'There is no surface yet. Scan first, then build it.',
+    'Es gibt noch keine Fläche. Erst scannen, dann berechnen.',
+  ],
   'surface.shading': ['Shading', 'Darstellung'],
   'surface.smooth': ['Smooth', 'Glatt'],
   'surface.flat': ['Flat', 'Facetten'],
@@ -38,8 +41,14 @@ export const SURFACE = {
     'Setup {number} fits the others nowhere and is left out: too little of the surface is seen by both. Turn the part less far and scan one more setup between the two.',
     'Aufspannung {number} passt nirgends zu den anderen und fehlt: Zu wenig Fläche ist in beiden zu sehen. Das Teil weniger weit kippen und eine Aufspannung dazwischen scannen.',
   ],
-  'surface.agree': ['The views agree to {rms} µm RMS; {overlap} % of their points overlap.', 'Die Ansichten stimmen auf {rms} µm RMS überein; {overlap} % ihrer Punkte überlappen.'],
-  'surface.axisKept': ['Axis and angles of the turntable are those of the rig: no others fit better.', 'Achse und Winkel des Drehtischs sind die des Aufbaus: Andere passen nicht besser.'],
+  'surface.agree': [
+    'The views agree to {rms} µm RMS; {overlap} % of their points overlap.',
+    'Die Ansichten stimmen auf {rms} µm RMS überein; {overlap} % ihrer Punkte überlappen.',
+  ],
+  'surface.axisKept': [
+    'Axis and angles of the turntable are those of the rig: no others fit better.',
+    'Achse und Winkel des Drehtischs sind die des Aufbaus: Andere passen nicht besser.',
+  ],
   'surface.closes': ['The full turn closes to {angle}°.', 'Die volle Umdrehung schließt auf {angle}°.'],
   'surface.axisMoved': [
     'The axis was moved by {moved} mm and turned by {turned}°, the angles corrected by up to {angles}°.',
@@ -57,7 +66,10 @@ export const SURFACE = {
   'surface.measure': ['Measure a distance', 'Abstand messen'],
   'surface.measureHint': ['Click two points of the surface.', 'Zwei Punkte der Fläche anklicken.'],
   'surface.measureAngle': ['Measure an angle', 'Winkel messen'],
-  'surface.angleHint': ['Click three points; the angle is at the second.', 'Drei Punkte anklicken; der Winkel liegt am zweiten.'],
+  'surface.angleHint': [
+    'Click three points; the angle is at the second.',
+    'Drei Punkte anklicken; der Winkel liegt am zweiten.',
+  ],
   'surface.figures': ['Figures', 'Kennzahlen'],
   'surface.triangles': ['Triangles', 'Dreiecke'],
   'surface.size': ['Size', 'Größe'],

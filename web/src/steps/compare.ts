@@ -19,26 +19,44 @@ function poses(app: App, found: Comparison): TemplateResult | string {
   if (found.poses.length < 2) return '';
   const [lower, upper] = found.tolerance_mm;
   return html`<p><span class="dot poor"></span>${t('compare.poses', { count: found.poses.length })}</p>
-    <label class="field"><span>${t('compare.pose')}</span>
-      <select id="start" ?disabled=${app.occupied || app.session.watches} @change=${(event: Event) => void app.comparing.compare(lower, upper, Number((event.target as HTMLSelectElement).value))}>
+    <label class="field"
+      ><span>${t('compare.pose')}</span>
+      <select
+        id="start"
+        ?disabled=${app.occupied || app.session.watches}
+        @change=${(event: Event) => void app.comparing.compare(lower, upper, Number((event.target as HTMLSelectElement).value))}
+      >
         ${found.poses.map((pose, i) => html`<option value=${i + 1} ?selected=${i + 1 === found.start}>${i + 1}: ${number(pose.turned_deg, 1)}°, ${number(pose.moved_mm, 1)} mm, RMS ${pose.rms_mm === null ? '·' : number(pose.rms_mm, 4)} mm</option>`)}
-      </select></label>`;
+      </select></label
+    >`;
 }
 
 function result(app: App, found: Comparison): TemplateResult {
-  const row = (key: Parameters<typeof t>[0], value: string, unit: string) => html`<dt>${t(key)}</dt><dd class="num">${value}<span>${unit}</span></dd>`;
-  return html`<p class="verdict-line ${found.verdict}"><span class="dot ${found.verdict === 'in' ? 'done' : found.verdict === 'out' ? 'bad' : 'poor'}"></span><b>${t(`compare.${found.verdict}`)}</b></p>
+  const row = (key: Parameters<typeof t>[0], value: string, unit: string) =>
+    html`<dt>${t(key)}</dt>
+      <dd class="num">${value}<span>${unit}</span></dd>`;
+  return html`<p class="verdict-line ${found.verdict}">
+      <span class="dot ${found.verdict === 'in' ? 'done' : found.verdict === 'out' ? 'bad' : 'poor'}"></span
+      ><b>${t(`compare.${found.verdict}`)}</b>
+    </p>
     <dl class="figures">
       ${row('compare.inShare', percent(found.in_share), '%')} ${row('compare.outShare', percent(found.out_share), '%')}
       ${row('compare.openShare', percent(found.undecided_share), '%')}
       ${row('compare.range', `${signed(found.min_mm)} … ${signed(found.max_mm)}`, 'mm')}
-      ${row('compare.mean', signed(found.mean_mm), 'mm')} ${row('compare.rms', found.rms_mm === null ? '·' : number(found.rms_mm, 3), 'mm')}
+      ${row('compare.mean', signed(found.mean_mm), 'mm')}
+      ${row('compare.rms', found.rms_mm === null ? '·' : number(found.rms_mm, 3), 'mm')}
       ${found.median_u_mm === null ? '' : row('compare.u', number(1000 * found.median_u_mm, 1), 'µm')}
     </dl>
     <p class="quiet">
-      ${found.best_fit
-        ? t('compare.fitted', { turned: number(found.turned_deg, 2), moved: number(found.moved_mm, 2), overlap: percent(found.overlap) })
-        : t('compare.stands', { overlap: percent(found.overlap) })}
+      ${
+        found.best_fit
+          ? t('compare.fitted', {
+              turned: number(found.turned_deg, 2),
+              moved: number(found.moved_mm, 2),
+              overlap: percent(found.overlap),
+            })
+          : t('compare.stands', { overlap: percent(found.overlap) })
+      }
       ${found.left_out ? t('compare.leftOut', { count: number(found.left_out) }) : ''}
     </p>
     ${poses(app, found)}
@@ -66,16 +84,39 @@ export function comparing(app: App): TemplateResult {
     ${reference ? html`<div class="file"><b>${reference.name}</b></div>` : html`<p class="quiet">${t('compare.lead')}</p>`}
     <label class="btn wide choose">
       ${icon('folder')}${app.comparing.sent === null ? t(reference ? 'compare.other' : 'compare.choose') : t('compare.sending', { share: number(100 * app.comparing.sent) })}
-      <input id="reference" class="sr" type="file" accept=".stl,.ply,.obj,.3mf,.step,.stp" ?disabled=${off || app.comparing.sent !== null} @change=${choose} />
+      <input
+        id="reference"
+        class="sr"
+        type="file"
+        accept=".stl,.ply,.obj,.3mf,.step,.stp"
+        ?disabled=${off || app.comparing.sent !== null}
+        @change=${choose}
+      />
     </label>
-    ${reference
-      ? html`${choice(t('compare.align'), app.comparing.align, [['best-fit', t('compare.bestFit')], ['none', t('compare.none')]] as const, (align) => app.comparing.setAlign(align))}
-          <form class="row" @submit=${run}>
-            <label class="field grow"><span>${t('compare.lower')}</span><input class="num" name="lower" type="number" step="any" required .defaultValue=${String(lower)} /></label>
-            <label class="field grow"><span>${t('compare.upper')}</span><input class="num" name="upper" type="number" step="any" required .defaultValue=${String(upper)} /></label>
-            <button class="btn" id="compare" ?disabled=${off}>${t('compare.run')}</button>
-          </form>`
-      : ''}
+    ${
+      reference
+        ? html`${choice(
+              t('compare.align'),
+              app.comparing.align,
+              [
+                ['best-fit', t('compare.bestFit')],
+                ['none', t('compare.none')],
+              ] as const,
+              (align) => app.comparing.setAlign(align),
+            )}
+            <form class="row" @submit=${run}>
+              <label class="field grow"
+                ><span>${t('compare.lower')}</span
+                ><input class="num" name="lower" type="number" step="any" required .defaultValue=${String(lower)}
+              /></label>
+              <label class="field grow"
+                ><span>${t('compare.upper')}</span
+                ><input class="num" name="upper" type="number" step="any" required .defaultValue=${String(upper)}
+              /></label>
+              <button class="btn" id="compare" ?disabled=${off}>${t('compare.run')}</button>
+            </form>`
+        : ''
+    }
     ${surface?.comparison ? result(app, surface.comparison) : ''}
   </section>`;
 }

@@ -13,7 +13,9 @@ export function selectingByValue(app: App): TemplateResult {
     <h2>${t('edit.more.select')}</h2>
     ${numberForm('select-sigma', t('edit.sigmaAbove'), Number(sigma.toPrecision(2)), t('edit.apply'), app.busy, (value) => void app.editing.selectBy('select-sigma', `${value / 1000}mm`))}
     ${numberForm('select-below', t('edit.below'), 5, t('edit.apply'), app.busy, (value) => void app.editing.selectBy('select-plane', `0,0,-1,${-value}`))}
-    <button class="btn wide" ?disabled=${app.busy} @click=${() => app.editing.selectBy('select-mark', 'synthesized')}>${t('edit.byMark')}</button>
+    <button class="btn wide" ?disabled=${app.busy} @click=${() => app.editing.selectBy('select-mark', 'synthesized')}>
+      ${t('edit.byMark')}
+    </button>
   </section>`;
 }
 
@@ -21,10 +23,16 @@ function found(fit: Fit): TemplateResult {
   const size = fit.diameter_mm;
   const axis = fit.axis.map((value) => number(value, 3)).join('  ');
   return html`<div class="fit num">
-    <div><b>${t(`edit.${fit.kind}`)}</b>
-      <span>${size === null ? '' : html`⌀ ${number(size, 3)} mm`}${fit.u95_mm === null ? '' : ` ± ${number(1000 * fit.u95_mm, 1)} µm`}</span></div>
-    <div class="quiet"><span>${fit.kind === 'sphere' ? fit.center_mm.map((value) => number(value, 2)).join('  ') : axis}</span>
-      <span>${t('edit.form')} ${number(1000 * fit.form_mm, 1)} µm</span></div>
+    <div>
+      <b>${t(`edit.${fit.kind}`)}</b>
+      <span
+        >${size === null ? '' : html`⌀ ${number(size, 3)} mm`}${fit.u95_mm === null ? '' : ` ± ${number(1000 * fit.u95_mm, 1)} µm`}</span
+      >
+    </div>
+    <div class="quiet">
+      <span>${fit.kind === 'sphere' ? fit.center_mm.map((value) => number(value, 2)).join('  ') : axis}</span>
+      <span>${t('edit.form')} ${number(1000 * fit.form_mm, 1)} µm</span>
+    </div>
   </div>`;
 }
 
@@ -36,7 +44,15 @@ export function fitting(app: App): TemplateResult {
     <h2>${t('edit.fit')}</h2>
     <div class="row">
       ${(['plane', 'cylinder', 'sphere'] as const).map(
-        (kind) => html`<button class="btn small grow" data-fit=${kind} ?disabled=${!selected || app.busy} @click=${() => app.command('fit', { kind })}>${t(`edit.${kind}`)}</button>`,
+        (kind) =>
+          html`<button
+            class="btn small grow"
+            data-fit=${kind}
+            ?disabled=${!selected || app.busy}
+            @click=${() => app.command('fit', { kind })}
+          >
+            ${t(`edit.${kind}`)}
+          </button>`,
       )}
     </div>
     ${surface?.fits.length ? html`<div>${[...surface.fits].reverse().map(found)}</div>` : html`<p class="quiet">${t('edit.fitHint')}</p>`}
@@ -56,12 +72,29 @@ export function shaping(app: App): TemplateResult {
     <h2>${t('edit.shape')}</h2>
     ${sectionPlane(app)}
     <div class="pair">
-      <button class="btn" id="cut" ?disabled=${off} title=${t('edit.cut')} @click=${() => app.editing.preview('cut', plane())}>${t('edit.cutShort')}</button>
-      <button class="btn" id="mirror" ?disabled=${off} @click=${() => app.editing.preview('mirror', plane())}>${t('edit.mirrorAt')}</button>
+      <button
+        class="btn"
+        id="cut"
+        ?disabled=${off}
+        title=${t('edit.cut')}
+        @click=${() => app.editing.preview('cut', plane())}
+      >
+        ${t('edit.cutShort')}
+      </button>
+      <button class="btn" id="mirror" ?disabled=${off} @click=${() => app.editing.preview('mirror', plane())}>
+        ${t('edit.mirrorAt')}
+      </button>
     </div>
     ${look.axis === 'off' ? html`<p class="quiet">${t('edit.needsSection')}</p>` : ''}
     ${numberForm('offset', t('edit.offsetBy'), 0.5, t('edit.offset'), app.busy, (value) => app.editing.preview('offset', `${value}`))}
     ${numberForm('islands', t('edit.islandsUpTo'), 5, t('edit.delete'), app.busy, (value) => app.editing.preview('remove-islands', `${value}mm`))}
-    <button class="btn wide" id="align" aria-pressed=${viewer.tool === 'align'} @click=${() => app.setTool(viewer.tool === 'align' ? 'orbit' : 'align')}>${t('edit.align')}</button>
+    <button
+      class="btn wide"
+      id="align"
+      aria-pressed=${viewer.tool === 'align'}
+      @click=${() => app.setTool(viewer.tool === 'align' ? 'orbit' : 'align')}
+    >
+      ${t('edit.align')}
+    </button>
   </section>`;
 }

@@ -12,7 +12,12 @@ const LIMITS = ['200000', '50000', '0'] as const;
 export type Limit = (typeof LIMITS)[number];
 
 export type Encoding = 'binary' | 'ascii';
-export interface ExportChoice { format: Format; variant: Variant; encoding: Encoding; limit: Limit }
+export interface ExportChoice {
+  format: Format;
+  variant: Variant;
+  encoding: Encoding;
+  limit: Limit;
+}
 
 /** What the commands `export` and `estimate-export` take. */
 export const exportArguments = (exporting: ExportChoice): object => ({
@@ -32,40 +37,74 @@ export function exportStep(app: App): TemplateResult {
       <h2>${t('export.format')}</h2>
       <div class="formats" role="radiogroup" aria-label=${t('export.format')}>
         ${FORMATS.map(
-          (one) => html`<label
-            ><input type="radio" name="format" .checked=${one === format} @change=${() => app.exporting.choose({ format: one })} /><b
-              >${one.toUpperCase()}</b
-            ><span>${t(`export.${one}`)}</span></label
-          >`,
+          (one) =>
+            html`<label
+              ><input
+                type="radio"
+                name="format"
+                .checked=${one === format}
+                @change=${() => app.exporting.choose({ format: one })}
+              /><b>${one.toUpperCase()}</b><span>${t(`export.${one}`)}</span></label
+            >`,
         )}
       </div>
-      ${format === 'dxf'
-        ? html`<h2>${t('export.variant')}</h2>
-            ${choice<Variant>(
-              t('export.variant'),
-              exporting.variant,
-              [['faces', t('export.faces')], ['polyface', t('export.polyface')], ['mesh', t('export.mesh')]],
-              (variant) => app.exporting.choose({ variant }),
-            )}`
-        : ''}
-      ${format === 'stl'
-        ? html`<h2>${t('export.encoding')}</h2>
-            ${choice<Encoding>(t('export.encoding'), exporting.encoding, [['binary', t('export.binary')], ['ascii', t('export.ascii')]], (encoding) => app.exporting.choose({ encoding }))}`
-        : ''}
+      ${
+        format === 'dxf'
+          ? html`<h2>${t('export.variant')}</h2>
+              ${choice<Variant>(
+                t('export.variant'),
+                exporting.variant,
+                [
+                  ['faces', t('export.faces')],
+                  ['polyface', t('export.polyface')],
+                  ['mesh', t('export.mesh')],
+                ],
+                (variant) => app.exporting.choose({ variant }),
+              )}`
+          : ''
+      }
+      ${
+        format === 'stl'
+          ? html`<h2>${t('export.encoding')}</h2>
+              ${choice<Encoding>(
+                t('export.encoding'),
+                exporting.encoding,
+                [
+                  ['binary', t('export.binary')],
+                  ['ascii', t('export.ascii')],
+                ],
+                (encoding) => app.exporting.choose({ encoding }),
+              )}`
+          : ''
+      }
       <h2>${t('export.limit')}<small>${t('export.triangles')}</small></h2>
       ${choice<Limit>(
         t('export.limit'),
         exporting.limit,
-        LIMITS.map((limit) => [limit, limit === '0' ? t('export.all') : html`<span class="num">${number(Number(limit))}</span>`] as const),
+        LIMITS.map(
+          (limit) =>
+            [limit, limit === '0' ? t('export.all') : html`<span class="num">${number(Number(limit))}</span>`] as const,
+        ),
         (limit) => app.exporting.choose({ limit }),
       )}
-      <p class="quiet num" id="estimate">${estimate ? t('export.about', { size: bytes(estimate.bytes, number), triangles: number(estimate.triangles) }) : html`&nbsp;`}</p>
-      <button class="btn primary wide" id="export" ?disabled=${app.busy} @click=${start}>${t('export.write', { format: format.toUpperCase() })}</button>
+      <p class="quiet num" id="estimate">
+        ${estimate ? t('export.about', { size: bytes(estimate.bytes, number), triangles: number(estimate.triangles) }) : html`&nbsp;`}
+      </p>
+      <button class="btn primary wide" id="export" ?disabled=${app.busy} @click=${start}>
+        ${t('export.write', { format: format.toUpperCase() })}
+      </button>
     </section>
     <section class="group">
       <h2>${t('export.more')}</h2>
       <div class="pair">
-        <button class="btn" id="zip" ?disabled=${app.occupied || !project.scan_complete} @click=${() => app.command('export', { format: 'zip' })}>${t('export.zip')}</button>
+        <button
+          class="btn"
+          id="zip"
+          ?disabled=${app.occupied || !project.scan_complete}
+          @click=${() => app.command('export', { format: 'zip' })}
+        >
+          ${t('export.zip')}
+        </button>
         <button class="btn" id="picture" @click=${() => app.exporting.pictureFile()}>${t('export.picture')}</button>
       </div>
     </section>
@@ -74,12 +113,17 @@ export function exportStep(app: App): TemplateResult {
       ${project.exports.length === 0 ? html`<p class="quiet">${t('export.none')}</p>` : ''}
       <div>
         ${project.exports.map(
-          (file) => html`<div class="file">
-            <b>${file.name}</b><span class="num quiet">${bytes(file.bytes, number)}</span>
-            <button class="btn small" @click=${() => app.exporting.download(file.name)} aria-label="${t('export.download')} ${file.name}">
-              ${icon('download')}
-            </button>
-          </div>`,
+          (file) =>
+            html`<div class="file">
+              <b>${file.name}</b><span class="num quiet">${bytes(file.bytes, number)}</span>
+              <button
+                class="btn small"
+                @click=${() => app.exporting.download(file.name)}
+                aria-label="${t('export.download')} ${file.name}"
+              >
+                ${icon('download')}
+              </button>
+            </div>`,
         )}
       </div>
     </section>`;

@@ -16,7 +16,14 @@ function figure(app: App, key: RigFigure, label: string, value: number, unit: st
   const fixed = app.project.scan_begun || app.occupied;
   return html`<label class="slider"
     ><span>${label}</span><b class="num">${number(value, 1)} ${unit}</b>
-    <input data-figure=${key} type="range" min="20" max=${unit === 'px' ? 4000 : 1200} step="0.5" .value=${String(value)} ?disabled=${fixed}
+    <input
+      data-figure=${key}
+      type="range"
+      min="20"
+      max=${unit === 'px' ? 4000 : 1200}
+      step="0.5"
+      .value=${String(value)}
+      ?disabled=${fixed}
       @input=${(event: Event) => app.arranging.draftRig({ [key]: Number((event.target as HTMLInputElement).value) })}
       @change=${(event: Event) => void app.arranging.moveRig({ [key]: Number((event.target as HTMLInputElement).value) })}
   /></label>`;
@@ -25,7 +32,8 @@ function figure(app: App, key: RigFigure, label: string, value: number, unit: st
 function geometry(app: App, rig: RigGeometry): TemplateResult {
   const distance = rig.turntable?.distance_mm ?? 0;
   const angle = distance ? (2 * Math.atan(rig.baseline_mm / 2 / distance) * 180) / Math.PI : null;
-  const fov = (optics: { width_px: number; focal_px: [number, number] }) => (2 * Math.atan(optics.width_px / 2 / optics.focal_px[0]) * 180) / Math.PI;
+  const fov = (optics: { width_px: number; focal_px: [number, number] }) =>
+    (2 * Math.atan(optics.width_px / 2 / optics.focal_px[0]) * 180) / Math.PI;
   return html`<section class="group">
     <h2>${t('rig.geometry')}${app.project.scan_begun ? html`<small>${t('live.fixed')}</small>` : ''}</h2>
     ${figure(app, 'baseline_mm', t('rig.baseline'), rig.baseline_mm, 'mm')}
@@ -33,10 +41,22 @@ function geometry(app: App, rig: RigGeometry): TemplateResult {
     ${figure(app, 'camera_focal_px', t('rig.cameraFocal'), rig.camera.focal_px[0], 'px')}
     ${rig.projector ? figure(app, 'projector_focal_px', t('rig.projectorFocal'), rig.projector.focal_px[0], 'px') : ''}
     <dl class="figures">
-      ${angle === null ? '' : html`<dt>${t('rig.angle')}</dt><dd class="num">${number(angle, 1)}°</dd>`}
-      <dt><i class="key camera"></i>${t('rig.cameraField')}</dt><dd class="num">${number(fov(rig.camera), 1)}°</dd>
-      ${rig.projector ? html`<dt><i class="key projector"></i>${t('rig.projectorField')}</dt><dd class="num">${number(fov(rig.projector), 1)}°</dd>` : ''}
-      <dt><i class="key shared"></i>${t('rig.shared')}</dt><dd></dd>
+      ${
+        angle === null
+          ? ''
+          : html`<dt>${t('rig.angle')}</dt>
+              <dd class="num">${number(angle, 1)}°</dd>`
+      }
+      <dt><i class="key camera"></i>${t('rig.cameraField')}</dt>
+      <dd class="num">${number(fov(rig.camera), 1)}°</dd>
+      ${
+        rig.projector
+          ? html`<dt><i class="key projector"></i>${t('rig.projectorField')}</dt>
+              <dd class="num">${number(fov(rig.projector), 1)}°</dd>`
+          : ''
+      }
+      <dt><i class="key shared"></i>${t('rig.shared')}</dt>
+      <dd></dd>
     </dl>
   </section>`;
 }
@@ -45,18 +65,26 @@ function coverage(state: Calibration): TemplateResult {
   const rows = Math.ceil(state.cells.length / state.columns);
   const names = ['left', 'right', 'up', 'down'] as const;
   return html`<div class="coverage">
-      <svg viewBox="0 0 ${state.columns * 30} ${rows * 24}" role="img" aria-label=${t('rig.field')}>
-        ${state.cells.map(
-          (covered, i) => svg`<rect class=${covered ? 'on' : ''} x=${(i % state.columns) * 30 + 1} y=${Math.floor(i / state.columns) * 24 + 1} width="28" height="22" rx="3" />`,
-        )}
-      </svg>
-      <dl class="figures">
-        <dt>${t('rig.field')}</dt><dd class="num">${number(100 * state.field)} %</dd>
-        <dt>${t('rig.depth')}</dt><dd class="num">${number(100 * (state.distance_ratio - 1))} %</dd>
-        <dt>${t('rig.tilts')}</dt><dd></dd>
-        ${names.map((name, i) => html`<dt class="sub">${t(`rig.tilt.${name}`)}</dt><dd class="num">${number(state.tilts_deg[i] ?? 0)}°</dd>`)}
-      </dl>
-    </div>`;
+    <svg viewBox="0 0 ${state.columns * 30} ${rows * 24}" role="img" aria-label=${t('rig.field')}>
+      ${state.cells.map(
+        (covered, i) =>
+          svg`<rect class=${covered ? 'on' : ''} x=${(i % state.columns) * 30 + 1} y=${Math.floor(i / state.columns) * 24 + 1} width="28" height="22" rx="3" />`,
+      )}
+    </svg>
+    <dl class="figures">
+      <dt>${t('rig.field')}</dt>
+      <dd class="num">${number(100 * state.field)} %</dd>
+      <dt>${t('rig.depth')}</dt>
+      <dd class="num">${number(100 * (state.distance_ratio - 1))} %</dd>
+      <dt>${t('rig.tilts')}</dt>
+      <dd></dd>
+      ${names.map(
+        (name, i) =>
+          html`<dt class="sub">${t(`rig.tilt.${name}`)}</dt>
+            <dd class="num">${number(state.tilts_deg[i] ?? 0)}°</dd>`,
+      )}
+    </dl>
+  </div>`;
 }
 
 function verdict(state: Calibration): TemplateResult | string {
@@ -66,11 +94,16 @@ function verdict(state: Calibration): TemplateResult | string {
     <div class="big num">± ${number(found.point_sigma_mm, 3)} mm</div>
     <p>${t('rig.verdict', { distance: number(found.distance_mm), grade: t(`grade.${found.grade as 'good'}`) })}</p>
     <dl class="figures">
-      <dt>${t('rig.spread')}</dt><dd class="num">${number(found.spread_mm, 3)}<span>mm</span></dd>
-      <dt>${t('rig.baseline')}</dt><dd class="num">${number(found.baseline_mm, 2)}<span>mm</span></dd>
-      <dt>${t('rig.cameraRms')}</dt><dd class="num">${number(found.camera_rms_px, 3)}<span>px</span></dd>
-      <dt>${t('rig.projectorRms')}</dt><dd class="num">${number(found.projector_rms_px, 3)}<span>px</span></dd>
-      <dt>${t('rig.poses')}</dt><dd class="num">${found.poses}</dd>
+      <dt>${t('rig.spread')}</dt>
+      <dd class="num">${number(found.spread_mm, 3)}<span>mm</span></dd>
+      <dt>${t('rig.baseline')}</dt>
+      <dd class="num">${number(found.baseline_mm, 2)}<span>mm</span></dd>
+      <dt>${t('rig.cameraRms')}</dt>
+      <dd class="num">${number(found.camera_rms_px, 3)}<span>px</span></dd>
+      <dt>${t('rig.projectorRms')}</dt>
+      <dd class="num">${number(found.projector_rms_px, 3)}<span>px</span></dd>
+      <dt>${t('rig.poses')}</dt>
+      <dd class="num">${found.poses}</dd>
     </dl>
   </div>`;
 }
@@ -78,10 +111,12 @@ function verdict(state: Calibration): TemplateResult | string {
 /** What the checks of the poses found, in words, and what to do. */
 function doctor(state: Calibration): TemplateResult | string {
   const { findings, fault } = state;
-  if (!fault && findings.length === 0) return state.verdict ? html`<p class="quiet"><span class="dot done"></span>${t('rig.sound')}</p>` : '';
+  if (!fault && findings.length === 0)
+    return state.verdict ? html`<p class="quiet"><span class="dot done"></span>${t('rig.sound')}</p>` : '';
   return html`<div class="doctor">
     <h3>${t('rig.findings')}</h3>
-    ${fault ? html`<p class="bad">${plain(fault)}</p>` : ''} ${findings.map((sentence) => html`<p><span class="dot poor"></span>${plain(sentence)}</p>`)}
+    ${fault ? html`<p class="bad">${plain(fault)}</p>` : ''}
+    ${findings.map((sentence) => html`<p><span class="dot poor"></span>${plain(sentence)}</p>`)}
   </div>`;
 }
 
@@ -100,35 +135,83 @@ function calibration(app: App): TemplateResult {
     event.preventDefault();
     const form = new FormData(event.target as HTMLFormElement);
     const value = (name: string) => Number(form.get(name));
-    void app.command('start-calibration', { columns: value('columns'), rows: value('rows'), square_mm: value('square_mm'), poses: value('poses') });
+    void app.command('start-calibration', {
+      columns: value('columns'),
+      rows: value('rows'),
+      square_mm: value('square_mm'),
+      poses: value('poses'),
+    });
   };
   const field = (name: string, label: string, value: number, step = 1) =>
-    html`<label class="field"><span>${label}</span><input class="num" name=${name} type="number" min=${step < 1 ? 0.1 : 3} max="100" step=${step} required .defaultValue=${String(value)} /></label>`;
+    html`<label class="field"
+      ><span>${label}</span
+      ><input
+        class="num"
+        name=${name}
+        type="number"
+        min=${step < 1 ? 0.1 : 3}
+        max="100"
+        step=${step}
+        required
+        .defaultValue=${String(value)}
+    /></label>`;
   return html`<section class="group">
-    <h2>${t('rig.calibration')}${known && !state ? html`<small class="num">± ${number(known.point_sigma_mm, 3)} mm</small>` : ''}</h2>
-    ${state?.active
-      ? html`<p class="next">${state.waiting ? (state.poses.length === 0 ? t('rig.first') : nextPose(state)) : state.poses.length && state.with_board >= state.wanted ? t('rig.solving') : t('rig.capturing')}</p>
-          <div class="pair">
-            <button class="btn primary" id="pose" ?disabled=${!state.waiting} @click=${() => app.command('capture-pose')}>${icon('check')}${t('rig.pose', { number: state.poses.length + 1, wanted: state.wanted })}</button>
-            <button class="btn" id="end-poses" ?disabled=${!state.waiting || state.with_board < 3} @click=${() => app.command('end-poses')}>${t('rig.end')}</button>
-          </div>
-          ${coverage(state)}`
-      : html`${state ? verdict(state) : html`<p class="quiet">${t('rig.lead')}</p>`} ${poseTable(app)}`}
+    <h2>
+      ${t('rig.calibration')}${known && !state ? html`<small class="num">± ${number(known.point_sigma_mm, 3)} mm</small>` : ''}
+    </h2>
+    ${
+      state?.active
+        ? html`<p class="next">
+              ${state.waiting ? (state.poses.length === 0 ? t('rig.first') : nextPose(state)) : state.poses.length && state.with_board >= state.wanted ? t('rig.solving') : t('rig.capturing')}
+            </p>
+            <div class="pair">
+              <button
+                class="btn primary"
+                id="pose"
+                ?disabled=${!state.waiting}
+                @click=${() => app.command('capture-pose')}
+              >
+                ${icon('check')}${t('rig.pose', { number: state.poses.length + 1, wanted: state.wanted })}
+              </button>
+              <button
+                class="btn"
+                id="end-poses"
+                ?disabled=${!state.waiting || state.with_board < 3}
+                @click=${() => app.command('end-poses')}
+              >
+                ${t('rig.end')}
+              </button>
+            </div>
+            ${coverage(state)}`
+        : html`${state ? verdict(state) : html`<p class="quiet">${t('rig.lead')}</p>`} ${poseTable(app)}`
+    }
     ${state ? doctor(state) : ''}
-    ${state?.active
-      ? ''
-      : html`${project.exports.some(({ name }) => name === REPORT) ? html`<button class="btn wide" id="report" @click=${() => app.exporting.download(REPORT)}>${icon('download')}${t('rig.report')}</button>` : ''}
-          <form class="form-plain" @submit=${start}>
-            <div class="four">${field('columns', t('rig.columns'), 10)}${field('rows', t('rig.rows'), 7)}${field('square_mm', t('rig.square'), 14, 0.01)}${field('poses', t('rig.poses'), 12)}</div>
-            <button class="btn wide" id="calibrate" ?disabled=${app.occupied || !project.can_scan || project.scan_begun}>${t(state?.verdict || known ? 'rig.again' : 'rig.start')}</button>
-          </form>`}
+    ${
+      state?.active
+        ? ''
+        : html`${project.exports.some(({ name }) => name === REPORT) ? html`<button class="btn wide" id="report" @click=${() => app.exporting.download(REPORT)}>${icon('download')}${t('rig.report')}</button>` : ''}
+            <form class="form-plain" @submit=${start}>
+              <div class="four">
+                ${field('columns', t('rig.columns'), 10)}${field('rows', t('rig.rows'), 7)}${field('square_mm', t('rig.square'), 14, 0.01)}${field('poses', t('rig.poses'), 12)}
+              </div>
+              <button
+                class="btn wide"
+                id="calibrate"
+                ?disabled=${app.occupied || !project.can_scan || project.scan_begun}
+              >
+                ${t(state?.verdict || known ? 'rig.again' : 'rig.start')}
+              </button>
+            </form>`
+    }
   </section>`;
 }
 
 export function rigStep(app: App): TemplateResult {
   const { project } = app;
   const rig = app.arranging.drawnRig;
-  const fault = project.rig_begun ? t('rig.uncalibrated') : project.rig_fault || (project.can_scan ? '' : t(project.scan_complete ? 'scan.noRig' : 'rig.none'));
+  const fault = project.rig_begun
+    ? t('rig.uncalibrated')
+    : project.rig_fault || (project.can_scan ? '' : t(project.scan_complete ? 'scan.noRig' : 'rig.none'));
   return html`${devices(app)}${project.can_scan || project.calibration ? calibration(app) : ''}${rig ? geometry(app, rig) : fault ? html`<section class="group"><p class="quiet">${fault}</p></section>` : ''}
-    ${project.can_scan && !project.calibration?.active ? nextStep(app, 'live') : ''}`;
+  ${project.can_scan && !project.calibration?.active ? nextStep(app, 'live') : ''}`;
 }

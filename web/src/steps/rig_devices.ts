@@ -11,7 +11,9 @@ const REQUIRED: ReadonlySet<Table> = new Set(['camera', 'fringes']);
 
 /** The devices of the rig as a draft to begin with. */
 export const draftOf = (app: App): DeviceDraft =>
-  Object.fromEntries(TABLES.map((table) => [table, app.project.devices.find((one) => one.table === table)?.settings ?? ''])) as DeviceDraft;
+  Object.fromEntries(
+    TABLES.map((table) => [table, app.project.devices.find((one) => one.table === table)?.settings ?? '']),
+  ) as DeviceDraft;
 
 const driverOf = (lines: string): string => /^\s*driver\s*=\s*"([^"]*)"/m.exec(lines)?.[1] ?? '';
 
@@ -32,16 +34,27 @@ function chooser(app: App, draft: DeviceDraft, table: Table): TemplateResult {
   const value = lines === '' ? '' : chosen >= 0 ? `f${chosen}` : driver >= 0 ? `d${driver}` : 'as is';
   const option = (key: string, text: string) => html`<option value=${key} ?selected=${key === value}>${text}</option>`;
   return html`<div class="chooser">
-    <label class="field"><span>${t(`table.${table}` as MessageKey)}${REQUIRED.has(table) ? '' : html`<small>${t('rig.optional')}</small>`}</span
+    <label class="field"
+      ><span
+        >${t(`table.${table}` as MessageKey)}${REQUIRED.has(table) ? '' : html`<small>${t('rig.optional')}</small>`}</span
       ><select data-table=${table} @change=${(event: Event) => pick((event.target as HTMLSelectElement).value)}>
         ${option('', t('rig.noDevice'))} ${value === 'as is' ? option('as is', driverOf(lines)) : ''}
         ${found.length ? html`<optgroup label=${t('rig.connected')}>${found.map((one, i) => option(`f${i}`, one.name))}</optgroup>` : ''}
         ${drivers.length ? html`<optgroup label=${t('rig.drivers')}>${drivers.map((one, i) => option(`d${i}`, one.description))}</optgroup>` : ''}
-      </select></label>
-    ${lines
-      ? html`<textarea class="lines" rows=${Math.min(7, lines.split('\n').length)} spellcheck="false" aria-label="${t('rig.settings')}: ${t(`table.${table}` as MessageKey)}"
-          .value=${lines} @change=${(event: Event) => change((event.target as HTMLTextAreaElement).value)}></textarea>`
-      : ''}
+      </select></label
+    >
+    ${
+      lines
+        ? html`<textarea
+            class="lines"
+            rows=${Math.min(7, lines.split('\n').length)}
+            spellcheck="false"
+            aria-label="${t('rig.settings')}: ${t(`table.${table}` as MessageKey)}"
+            .value=${lines}
+            @change=${(event: Event) => change((event.target as HTMLTextAreaElement).value)}
+          ></textarea>`
+        : ''
+    }
   </div>`;
 }
 
@@ -53,36 +66,72 @@ function choosing(app: App, draft: DeviceDraft): TemplateResult {
   };
   const ready = draft.camera.trim() && draft.fringes.trim();
   return html`<p class="quiet">${search ? t('rig.chooseHint') : t('rig.searchFirst')}</p>
-    <button class="btn wide ${search ? '' : 'primary'}" id="find-devices" ?disabled=${app.occupied} @click=${() => app.command('find-devices')}>${icon('again')}${t(search ? 'rig.searchAgain' : 'rig.search')}</button>
+    <button
+      class="btn wide ${search ? '' : 'primary'}"
+      id="find-devices"
+      ?disabled=${app.occupied}
+      @click=${() => app.command('find-devices')}
+    >
+      ${icon('again')}${t(search ? 'rig.searchAgain' : 'rig.search')}
+    </button>
     ${search && search.connected.length === 0 ? html`<p><span class="dot poor"></span>${t('rig.nothingFound')}</p>` : ''}
     ${search?.warnings.map((sentence) => html`<p><span class="dot poor"></span>${sentence}</p>`) ?? ''}
     ${search ? TABLES.map((table) => chooser(app, draft, table)) : ''}
     <div class="pair">
-      <button class="btn" @click=${() => app.arranging.draftDevices(null)} ?disabled=${app.project.devices.length === 0}>${t('rig.keep')}</button>
-      <button class="btn primary" id="set-devices" ?disabled=${app.occupied || !search || !ready} @click=${use}>${t('rig.use')}</button>
+      <button
+        class="btn"
+        @click=${() => app.arranging.draftDevices(null)}
+        ?disabled=${app.project.devices.length === 0}
+      >
+        ${t('rig.keep')}
+      </button>
+      <button class="btn primary" id="set-devices" ?disabled=${app.occupied || !search || !ready} @click=${use}>
+        ${t('rig.use')}
+      </button>
     </div>`;
 }
 
 /** The devices of the rig: listed and tested, or chosen among those that are connected. */
 export function devices(app: App): TemplateResult {
   const { project } = app;
-  const draft = app.arranging.deviceDraft ?? (project.devices.length === 0 && !project.scan_begun ? draftOf(app) : null);
+  const draft =
+    app.arranging.deviceDraft ?? (project.devices.length === 0 && !project.scan_begun ? draftOf(app) : null);
   return html`<section class="group" id="devices">
     <h2>${t('rig.devices')}${project.scan_begun ? html`<small>${t('live.fixed')}</small>` : ''}</h2>
-    ${draft
-      ? choosing(app, draft)
-      : html`<div class="devices">
-            ${project.devices.map(
-              (device) => html`<div class="device">
-                <span class="dot ${device.fault ? 'poor' : device.answer ? 'done' : ''}"></span>
-                <div><b>${t(`table.${device.table.split('-')[0]}` as MessageKey)}</b><span class="quiet">${device.name || device.driver}</span>
-                  ${device.fault || device.answer ? html`<p class=${device.fault ? 'bad' : 'quiet'}>${device.fault || device.answer}</p>` : ''}</div>
-              </div>`,
-            )}
-          </div>
-          <div class="pair">
-            <button class="btn" id="choose-devices" ?disabled=${app.occupied || project.scan_begun} @click=${() => app.arranging.draftDevices(draftOf(app))}>${t('rig.choose')}</button>
-            <button class="btn" id="test-devices" ?disabled=${app.occupied || !project.can_scan} @click=${() => app.command('test-devices')}>${t('rig.test')}</button>
-          </div>`}
+    ${
+      draft
+        ? choosing(app, draft)
+        : html`<div class="devices">
+              ${project.devices.map(
+                (device) =>
+                  html`<div class="device">
+                    <span class="dot ${device.fault ? 'poor' : device.answer ? 'done' : ''}"></span>
+                    <div>
+                      <b>${t(`table.${device.table.split('-')[0]}` as MessageKey)}</b
+                      ><span class="quiet">${device.name || device.driver}</span>
+                      ${device.fault || device.answer ? html`<p class=${device.fault ? 'bad' : 'quiet'}>${device.fault || device.answer}</p>` : ''}
+                    </div>
+                  </div>`,
+              )}
+            </div>
+            <div class="pair">
+              <button
+                class="btn"
+                id="choose-devices"
+                ?disabled=${app.occupied || project.scan_begun}
+                @click=${() => app.arranging.draftDevices(draftOf(app))}
+              >
+                ${t('rig.choose')}
+              </button>
+              <button
+                class="btn"
+                id="test-devices"
+                ?disabled=${app.occupied || !project.can_scan}
+                @click=${() => app.command('test-devices')}
+              >
+                ${t('rig.test')}
+              </button>
+            </div>`
+    }
   </section>`;
 }

@@ -9,7 +9,8 @@ import { joins, nextSetup, presentSetup, setupChoice } from './scan_setups';
 
 /** Whether the present setup is captured. */
 const done = (app: App): boolean =>
-  app.project.scan_complete && app.project.stations.every((station) => station.state === 'done' || station.state === 'skipped');
+  app.project.scan_complete &&
+  app.project.stations.every((station) => station.state === 'done' || station.state === 'skipped');
 
 /** Share of the present setup that is captured; the job counts the stations of all setups. */
 function progressOf(app: App): number {
@@ -34,7 +35,9 @@ export function scanStep(app: App): TemplateResult {
   const job = app.job('scan');
   const present = presentSetup(project.stations);
   const shown = app.setups.shown;
-  const all = project.stations.map((station, place) => ({ station, place })).filter(({ station }) => station.setup === shown);
+  const all = project.stations
+    .map((station, place) => ({ station, place }))
+    .filter(({ station }) => station.setup === shown);
   const stations = all.map(({ station }) => station);
   const begun = project.stations.some((station) => station.setup === present && station.state !== 'waiting');
   const measured = stations.some((station) => station.points > 0);
@@ -43,51 +46,92 @@ export function scanStep(app: App): TemplateResult {
   return html`<section class="group">
       ${setupChoice(app)}
       ${dial(stations, shown === present ? progressOf(app) : 0, shown === present ? note(app) : t('scan.complete'))}
-      ${job
-        ? html`<button class="btn wide" @click=${() => app.command('stop-job', { job: job.number })}>${icon('pause')}${t('scan.pause')}</button>`
-        : complete
-          ? html`<button class="btn primary wide" id="build" ?disabled=${app.occupied} @click=${() => app.build()}>${t('scan.build')}${icon('arrow')}</button>`
-          : project.table_angle
-            ? numberForm('table-angle', t('scan.tableAngle'), project.table_angle.last_deg ?? 0, t('scan.continue'), app.occupied,
-                (angle) => void app.command('start-scan', { table_deg: angle }))
-          : project.can_scan
-            ? html`<button class="btn primary wide" id="scan" ?disabled=${app.occupied} @click=${() => app.command('start-scan')}>
-                ${icon('play')}${begun ? t('scan.continue') : t('scan.start')}
+      ${
+        job
+          ? html`<button class="btn wide" @click=${() => app.command('stop-job', { job: job.number })}>
+              ${icon('pause')}${t('scan.pause')}
+            </button>`
+          : complete
+            ? html`<button class="btn primary wide" id="build" ?disabled=${app.occupied} @click=${() => app.build()}>
+                ${t('scan.build')}${icon('arrow')}
               </button>`
-            : ''}
+            : project.table_angle
+              ? numberForm(
+                  'table-angle',
+                  t('scan.tableAngle'),
+                  project.table_angle.last_deg ?? 0,
+                  t('scan.continue'),
+                  app.occupied,
+                  (angle) => void app.command('start-scan', { table_deg: angle }),
+                )
+              : project.can_scan
+                ? html`<button
+                    class="btn primary wide"
+                    id="scan"
+                    ?disabled=${app.occupied}
+                    @click=${() => app.command('start-scan')}
+                  >
+                    ${icon('play')}${begun ? t('scan.continue') : t('scan.start')}
+                  </button>`
+                : ''
+      }
       <p class="quiet">
         ${!job && begun && !complete ? t('scan.resume') : project.can_scan ? t('scan.lead') : t('scan.noRig')}
       </p>
     </section>
-    ${complete && !job && project.can_scan && !app.session.watches ? nextSetup(app) : ''}
-    ${job ? '' : joins(app)}
+    ${complete && !job && project.can_scan && !app.session.watches ? nextSetup(app) : ''} ${job ? '' : joins(app)}
     <section class="group">
       <table class="table">
         <thead>
           <tr>
             <th>${t('scan.angle')}</th>
-            ${measured || begun ? html`<th>${t('scan.contrast')}</th><th>${t('scan.saturated')}</th><th>${t('scan.points')}</th>` : ''}
+            ${
+              measured || begun
+                ? html`<th>${t('scan.contrast')}</th>
+                    <th>${t('scan.saturated')}</th>
+                    <th>${t('scan.points')}</th>`
+                : ''
+            }
           </tr>
         </thead>
         <tbody class="num">
           ${all.map(
-            ({ station, place }) => html`<tr title=${station.verdict}>
-              <td>
-                ${station.state === 'done' || station.state === 'skipped'
-                  ? html`<button class="rescan" title=${t(shown === present ? 'scan.rescan' : 'scan.turnedSince')} aria-label="${t('scan.rescan')}: ${number(station.angle_deg, 1)}°" ?disabled=${app.occupied || !project.can_scan || shown !== present}
-                      @click=${() => app.command('rescan-station', { station: place })}><span class="dot ${dot(station)}"></span>${icon('again')}</button>`
-                  : html`<span class="dot ${dot(station)}"></span>`}<span class="angle">${number(station.angle_deg, 1)}°</span></td>
-              ${measured || begun
-                ? station.points
-                  ? html`<td>${number(station.contrast, 2)}</td><td>${number(100 * station.saturated, 1)} %</td><td>${number(station.points)}</td>`
-                  : html`<td>·</td><td>·</td><td>·</td>`
-                : ''}
-            </tr>`,
+            ({ station, place }) =>
+              html`<tr title=${station.verdict}>
+                <td>
+                  ${
+                    station.state === 'done' || station.state === 'skipped'
+                      ? html`<button
+                          class="rescan"
+                          title=${t(shown === present ? 'scan.rescan' : 'scan.turnedSince')}
+                          aria-label="${t('scan.rescan')}: ${number(station.angle_deg, 1)}°"
+                          ?disabled=${app.occupied || !project.can_scan || shown !== present}
+                          @click=${() => app.command('rescan-station', { station: place })}
+                        >
+                          <span class="dot ${dot(station)}"></span>${icon('again')}
+                        </button>`
+                      : html`<span class="dot ${dot(station)}"></span>`
+                  }<span class="angle">${number(station.angle_deg, 1)}°</span>
+                </td>
+                ${
+                  measured || begun
+                    ? station.points
+                      ? html`<td>${number(station.contrast, 2)}</td>
+                          <td>${number(100 * station.saturated, 1)} %</td>
+                          <td>${number(station.points)}</td>`
+                      : html`<td>·</td>
+                          <td>·</td>
+                          <td>·</td>`
+                    : ''
+                }
+              </tr>`,
           )}
         </tbody>
       </table>
       ${stations
         .filter((station) => station.verdict && !station.good)
-        .map((station) => html`<p><span class="dot poor"></span>${number(station.angle_deg, 1)}°: ${station.verdict}</p>`)}
+        .map(
+          (station) => html`<p><span class="dot poor"></span>${number(station.angle_deg, 1)}°: ${station.verdict}</p>`,
+        )}
     </section>`;
 }

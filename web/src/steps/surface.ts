@@ -22,17 +22,25 @@ function registrationWords(summary: Summary): string {
   const agree = t('surface.agree', { rms: number(1000 * rms, 1), overlap: number(100 * turntable.overlap) });
   const axis = turntable.kept
     ? t('surface.axisKept')
-    : t('surface.axisMoved', { moved: number(turntable.moved_mm, 3), turned: number(turntable.turned_deg, 3), angles: number(turntable.angles_deg, 3) });
+    : t('surface.axisMoved', {
+        moved: number(turntable.moved_mm, 3),
+        turned: number(turntable.turned_deg, 3),
+        angles: number(turntable.angles_deg, 3),
+      });
   const { closure_deg: closure } = turntable;
   const closes = closure === null || turntable.kept ? '' : ` ${t('surface.closes', { angle: number(closure, 4) })}`;
   return `${agree} ${axis}${closes}`;
 }
 
 /** Whether setups were joined. */
-const several = (app: App): boolean => (app.project.surface?.summary?.setups ?? []).filter((setup) => setup.joined).length > 1;
+const several = (app: App): boolean =>
+  (app.project.surface?.summary?.setups ?? []).filter((setup) => setup.joined).length > 1;
 
 const swatch = (color: Rgb, text: string): TemplateResult =>
-  html`<span><svg viewBox="0 0 14 14" aria-hidden="true">${svg`<rect width="14" height="14" rx="3" fill=${css(color)} />`}</svg>${text}</span>`;
+  html`<span
+    ><svg viewBox="0 0 14 14" aria-hidden="true">${svg`<rect width="14" height="14" rx="3" fill=${css(color)} />`}</svg
+    >${text}</span
+  >`;
 
 export function appearance(app: App): TemplateResult {
   const { look, viewer } = app;
@@ -42,7 +50,11 @@ export function appearance(app: App): TemplateResult {
     ${choice<Shading>(
       t('surface.shading'),
       look.shading,
-      [['smooth', t('surface.smooth')], ['flat', t('surface.flat')], ['wire', t('surface.wire')]],
+      [
+        ['smooth', t('surface.smooth')],
+        ['flat', t('surface.flat')],
+        ['wire', t('surface.wire')],
+      ],
       (shading) => app.setLook({ shading }),
     )}
     ${viewer.wiresCoarsely ? html`<p class="quiet">${t('surface.wiresOf', { shown: number(viewer.trianglesShown), count: number(app.project.surface?.triangles ?? 0) })}</p>` : ''}
@@ -51,7 +63,10 @@ export function appearance(app: App): TemplateResult {
       t('surface.color'),
       look.coloring,
       [
-        ['plain', t('surface.plain')], ['sigma', t('surface.sigma')], ['views', t('surface.views')], ['marks', t('surface.marks')],
+        ['plain', t('surface.plain')],
+        ['sigma', t('surface.sigma')],
+        ['views', t('surface.views')],
+        ['marks', t('surface.marks')],
         ...(several(app) ? ([['setup', t('surface.setup')]] as const) : []),
         ...(app.project.surface?.comparison ? ([['deviation', t('surface.deviation')]] as const) : []),
       ],
@@ -60,21 +75,25 @@ export function appearance(app: App): TemplateResult {
     ${look.coloring === 'sigma' && scale ? legend(t('surface.sigmaLegend'), scale, 1000, 1) : ''}
     ${look.coloring === 'views' && scale ? legend(t('surface.viewsLegend'), scale, 1, 0) : ''}
     ${look.coloring === 'deviation' && scale ? legend(t('surface.deviationLegend'), scale, 1, 2) : ''}
-    ${look.coloring === 'setup' && several(app)
-      ? html`<div class="swatches">
-          ${(app.project.surface?.summary?.setups ?? [])
-            .filter((setup) => setup.joined)
-            .map((setup, i) => swatch(setupColor(i), t('surface.setupOnly', { number: setup.number + 1 })))}
-          ${swatch(SEVERAL_SETUPS[0] as Rgb, t('surface.setupBoth'))}
-        </div>`
-      : ''}
-    ${look.coloring === 'marks'
-      ? html`<div class="swatches">
-          ${(['surface.measured', 'surface.displaced', 'surface.synthesized'] as const).map(
-            (key, i) => swatch(MARK_COLORS[i] ?? [0, 0, 0], t(key)),
-          )}
-        </div>`
-      : ''}
+    ${
+      look.coloring === 'setup' && several(app)
+        ? html`<div class="swatches">
+            ${(app.project.surface?.summary?.setups ?? [])
+              .filter((setup) => setup.joined)
+              .map((setup, i) => swatch(setupColor(i), t('surface.setupOnly', { number: setup.number + 1 })))}
+            ${swatch(SEVERAL_SETUPS[0] as Rgb, t('surface.setupBoth'))}
+          </div>`
+        : ''
+    }
+    ${
+      look.coloring === 'marks'
+        ? html`<div class="swatches">
+            ${(['surface.measured', 'surface.displaced', 'surface.synthesized'] as const).map((key, i) =>
+              swatch(MARK_COLORS[i] ?? [0, 0, 0], t(key)),
+            )}
+          </div>`
+        : ''
+    }
   </section>`;
 }
 
@@ -82,59 +101,109 @@ export function appearance(app: App): TemplateResult {
 export function sectionPlane(app: App): TemplateResult {
   const { look } = app;
   return html`${choice<SectionAxis>(
-      t('surface.section'),
-      look.axis,
-      [['off', t('surface.off')], ['x', 'x'], ['y', 'y'], ['z', 'z']],
-      (axis) => app.setLook({ axis }),
-    )}
-    ${look.axis === 'off'
+    t('surface.section'),
+    look.axis,
+    [
+      ['off', t('surface.off')],
+      ['x', 'x'],
+      ['y', 'y'],
+      ['z', 'z'],
+    ],
+    (axis) => app.setLook({ axis }),
+  )}
+  ${
+    look.axis === 'off'
       ? ''
       : html`<div class="row">
-          <input class="grow" type="range" min="0" max="1" step="0.002" .value=${String(look.share)} aria-label=${t('surface.position')}
-            @input=${(event: Event) => app.setLook({ share: Number((event.target as HTMLInputElement).value) })} />
-          <button class="icon-btn" title=${t('surface.flip')} aria-label=${t('surface.flip')} @click=${() => app.setLook({ flipped: !look.flipped })}>${icon('flip')}</button>
-        </div>`}`;
+          <input
+            class="grow"
+            type="range"
+            min="0"
+            max="1"
+            step="0.002"
+            .value=${String(look.share)}
+            aria-label=${t('surface.position')}
+            @input=${(event: Event) => app.setLook({ share: Number((event.target as HTMLInputElement).value) })}
+          />
+          <button
+            class="icon-btn"
+            title=${t('surface.flip')}
+            aria-label=${t('surface.flip')}
+            @click=${() => app.setLook({ flipped: !look.flipped })}
+          >
+            ${icon('flip')}
+          </button>
+        </div>`
+  }`;
 }
 
 export function surfaceStep(app: App): TemplateResult {
   const { surface } = app.project;
-  if (!surface) return html`<section class="group"><p class="quiet">${t(app.project.surface_loading ? 'surface.loading' : 'surface.none')}</p></section>`;
+  if (!surface)
+    return html`<section class="group">
+      <p class="quiet">${t(app.project.surface_loading ? 'surface.loading' : 'surface.none')}</p>
+    </section>`;
   const { look, viewer } = app;
   const size = viewer.size;
   const { summary } = surface;
   return html`${appearance(app)}
     <section class="group">
-      <h2>${t('surface.section')}<small class="num">${look.axis === 'off' ? '' : `${look.axis} = ${number(viewer.sectionAt, 2)} mm`}</small></h2>
+      <h2>
+        ${t('surface.section')}<small class="num"
+          >${look.axis === 'off' ? '' : `${look.axis} = ${number(viewer.sectionAt, 2)} mm`}</small
+        >
+      </h2>
       ${sectionPlane(app)}
       ${(['measure', 'angle'] as const).map(
-        (tool) => html`<button class="btn wide" aria-pressed=${app.viewer.tool === tool} @click=${() => app.setTool(app.viewer.tool === tool ? 'orbit' : tool)}>
-          ${icon(tool)}${t(tool === 'measure' ? 'surface.measure' : 'surface.measureAngle')}
-        </button>`,
+        (tool) =>
+          html`<button
+            class="btn wide"
+            aria-pressed=${app.viewer.tool === tool}
+            @click=${() => app.setTool(app.viewer.tool === tool ? 'orbit' : tool)}
+          >
+            ${icon(tool)}${t(tool === 'measure' ? 'surface.measure' : 'surface.measureAngle')}
+          </button>`,
       )}
     </section>
-    ${joins(app)}
-    ${comparing(app)}
+    ${joins(app)} ${comparing(app)}
     <section class="group">
       <h2>${t('surface.figures')}</h2>
       <dl class="figures">
-        <dt>${t('surface.sigmaMedian')}</dt>${um(surface.sigma_mm.combined)}
-        ${surface.sigma_mm.systematic === null
-          ? ''
-          : html`<dt class="sub">${t('surface.noise')}</dt>${um(surface.sigma_mm.noise)}<dt class="sub">${t('surface.systematic')}</dt>${um(surface.sigma_mm.systematic)}`}
+        <dt>${t('surface.sigmaMedian')}</dt>
+        ${um(surface.sigma_mm.combined)}
+        ${
+          surface.sigma_mm.systematic === null
+            ? ''
+            : html`<dt class="sub">${t('surface.noise')}</dt>
+                ${um(surface.sigma_mm.noise)}
+                <dt class="sub">${t('surface.systematic')}</dt>
+                ${um(surface.sigma_mm.systematic)}`
+        }
         <dt>${t('surface.size')}</dt>
         <dd class="num">${number(size.x, 1)} × ${number(size.y, 1)} × ${number(size.z, 1)}<span>mm</span></dd>
-        <dt>${t('surface.triangles')}</dt><dd class="num">${number(surface.triangles)}</dd>
-        ${summary
-          ? html`<dt>${t('surface.points')}</dt><dd class="num">${number(summary.points)}</dd>
-              <dt>${t('surface.viewsFused')}</dt><dd class="num">${number(summary.views)}</dd>`
-          : ''}
-        <dt>${t('surface.parts')}</dt><dd class="num">${number(surface.components)}</dd>
-        <dt>${t('surface.holes')}</dt><dd class="num">${number(surface.hole_count)}</dd>
+        <dt>${t('surface.triangles')}</dt>
+        <dd class="num">${number(surface.triangles)}</dd>
+        ${
+          summary
+            ? html`<dt>${t('surface.points')}</dt>
+                <dd class="num">${number(summary.points)}</dd>
+                <dt>${t('surface.viewsFused')}</dt>
+                <dd class="num">${number(summary.views)}</dd>`
+            : ''
+        }
+        <dt>${t('surface.parts')}</dt>
+        <dd class="num">${number(surface.components)}</dd>
+        <dt>${t('surface.holes')}</dt>
+        <dd class="num">${number(surface.hole_count)}</dd>
       </dl>
       ${summary?.registration ? html`<p class="quiet">${registrationWords(summary)}</p>` : ''}
       ${summary?.untrusted_reason ? html`<p><span class="dot poor"></span>${summary.untrusted_reason}</p>` : ''}
-      ${app.project.scan_complete
-        ? html`<button class="btn wide" ?disabled=${app.busy} @click=${() => app.build()}>${t('surface.build')}</button>`
-        : ''}
+      ${
+        app.project.scan_complete
+          ? html`<button class="btn wide" ?disabled=${app.busy} @click=${() => app.build()}>
+              ${t('surface.build')}
+            </button>`
+          : ''
+      }
     </section>`;
 }
