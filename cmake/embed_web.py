@@ -9,9 +9,15 @@ import shutil
 import subprocess
 import sys
 
-TYPES = {".html": "text/html; charset=utf-8", ".js": "text/javascript; charset=utf-8",
-         ".css": "text/css; charset=utf-8", ".svg": "image/svg+xml", ".woff2": "font/woff2",
-         ".json": "application/json", ".png": "image/png"}
+TYPES = {
+    ".html": "text/html; charset=utf-8",
+    ".js": "text/javascript; charset=utf-8",
+    ".css": "text/css; charset=utf-8",
+    ".svg": "image/svg+xml",
+    ".woff2": "font/woff2",
+    ".json": "application/json",
+    ".png": "image/png",
+}
 
 
 def build(web: pathlib.Path, tree: pathlib.Path, node: str) -> None:
@@ -23,8 +29,10 @@ def build(web: pathlib.Path, tree: pathlib.Path, node: str) -> None:
         if (web / name).exists():
             shutil.copytree(web / name, tree / name)
     modules = tree / "node_modules"
-    for script in ([modules / "typescript/bin/tsc", "--noEmit"],
-                   [modules / "vite/bin/vite.js", "build", "--logLevel", "warn"]):
+    for script in (
+        [modules / "typescript/bin/tsc", "--noEmit"],
+        [modules / "vite/bin/vite.js", "build", "--logLevel", "warn"],
+    ):
         done = subprocess.run([node, *map(str, script)], cwd=tree, check=False)
         if done.returncode != 0:
             sys.exit(done.returncode)
@@ -41,15 +49,31 @@ def embed(dist: pathlib.Path, output: pathlib.Path) -> None:
         compressed = packed / f"{number}.gz"
         compressed.write_bytes(gzip.compress(path.read_bytes(), 9, mtime=0))
         name = f"frangia_web_asset_{number}"
-        text += [f'asm(".pushsection .rodata\\n{name}:\\n.incbin \\"{compressed}\\"\\n{name}_end:\\n.byte 0\\n'
-                 '.popsection\\n");',
-                 f'extern "C" const char {name}[];', f'extern "C" const char {name}_end[];']
+        text += [
+            f'asm(".pushsection .rodata\\n{name}:\\n.incbin \\"{compressed}\\"\\n{name}_end:\\n.byte 0\\n'
+            '.popsection\\n");',
+            f'extern "C" const char {name}[];',
+            f'extern "C" const char {name}_end[];',
+        ]
         kind = TYPES.get(path.suffix, "application/octet-stream")
-        entries.append(f'      {{"/{path.relative_to(dist)}", "{kind}", '
-                       f"{{{name}, static_cast<std::size_t>({name}_end - {name})}}}},")
-    text += ["", "namespace frangia {", "", "std::span<const WebAsset> web_assets() {",
-             f"  static const std::array<WebAsset, {len(files)}> kAssets{{{{", *entries, "  }};",
-             "  return kAssets;", "}", "", "}  // namespace frangia", ""]
+        entries.append(
+            f'      {{"/{path.relative_to(dist)}", "{kind}", '
+            f"{{{name}, static_cast<std::size_t>({name}_end - {name})}}}},"
+        )
+    text += [
+        "",
+        "namespace frangia {",
+        "",
+        "std::span<const WebAsset> web_assets() {",
+        f"  static const std::array<WebAsset, {len(files)}> kAssets{{{{",
+        *entries,
+        "  }};",
+        "  return kAssets;",
+        "}",
+        "",
+        "}  // namespace frangia",
+        "",
+    ]
     output.write_text("\n".join(text))
 
 

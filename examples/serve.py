@@ -17,8 +17,10 @@ ADDRESS = f"http://127.0.0.1:{server['port']}"
 def ask(path, arguments=None):
     """GET without arguments, POST with them."""
     request = urllib.request.Request(
-        ADDRESS + path, headers={"Authorization": f"Bearer {server['key']}", "Content-Type": "application/json"},
-        data=None if arguments is None else json.dumps(arguments).encode())
+        ADDRESS + path,
+        headers={"Authorization": f"Bearer {server['key']}", "Content-Type": "application/json"},
+        data=None if arguments is None else json.dumps(arguments).encode(),
+    )
     with urllib.request.urlopen(request) as answer:
         return answer.read()
 
@@ -43,7 +45,9 @@ command("create-project", name=name, part="bracket", stations=6)
 project = command("start-scan")
 print("points of each station:", [station["points"] for station in project["stations"]])
 surface = command("reconstruct")["surface"]
-print(f"{surface['triangles']} triangles, sigma {1000 * surface['sigma_mm']['combined']:.1f} um, {surface['hole_count']} holes")
+print(
+    f"{surface['triangles']} triangles, sigma {1000 * surface['sigma_mm']['combined']:.1f} um, {surface['hole_count']} holes"
+)
 command("edit", operation="fill-holes", value="10mm")
 exports = command("export", format="dxf")["exports"]
 pathlib.Path("part.dxf").write_bytes(ask("/api/exports/" + urllib.request.quote(exports[0]["name"])))

@@ -74,7 +74,9 @@ def type_of(text, returned=False):
     """A type of pybind11 as one of Python."""
     text = re.sub(r"frangia\._\w+\.", "", text.strip())
     if "::" in text:
-        sys.exit(f"make_stubs.py: the module has a signature with the type {text} of C++; bind that type before its use")
+        sys.exit(
+            f"make_stubs.py: the module has a signature with the type {text} of C++; bind that type before its use"
+        )
     text = re.sub(r"numpy\.ndarray\[numpy\.(\w+)(\[[^\]]*\])?(, [^\]]*)?\]", r"NDArray[np.\1]", text)
     text = text.replace("numpy.ndarray", "NDArray[Any]")
     text = text.replace("os.PathLike", "Path" if returned else "str | os.PathLike[str]")
@@ -82,7 +84,11 @@ def type_of(text, returned=False):
         text = text[: found.start()] + found.group(1) + " | None" + text[found.end() :]
     for old, new in (("List[", "list["), ("Dict[", "dict["), ("Tuple[", "tuple[")):
         text = text.replace(old, new)
-    text = re.sub(r"\b(list|dict|tuple|Iterable)\b(?!\[)", lambda kind: kind[0] + ("[Any, Any]" if kind[0] == "dict" else "[Any, ...]" if kind[0] == "tuple" else "[Any]"), text)
+    text = re.sub(
+        r"\b(list|dict|tuple|Iterable)\b(?!\[)",
+        lambda kind: kind[0] + ("[Any, Any]" if kind[0] == "dict" else "[Any, ...]" if kind[0] == "tuple" else "[Any]"),
+        text,
+    )
     if not returned:  # NumPy's arrays are taken from whatever they can be made of
         text = re.sub(r"NDArray\[.*?\]\]?", "ArrayLike", text) if "NDArray" in text else text
         text = re.sub(r"\blist\[(?=[^\]]*\])", "Iterable[", text) if text.startswith("list[") else text

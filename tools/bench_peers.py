@@ -167,8 +167,10 @@ def main(folder):
         """Prints a figure, its limit and whether the limit holds."""
         holds = value <= limit if at_most else value >= limit
         results[name] = {"value": value, "limit": limit, "met": bool(holds)}
-        print(f"{name:<44}{value:10.3g} {unit:<6} {'at most' if at_most else 'at least'} {limit:<6g} "
-              f"{'met' if holds else 'MISSED'}")
+        print(
+            f"{name:<44}{value:10.3g} {unit:<6} {'at most' if at_most else 'at least'} {limit:<6g} "
+            f"{'met' if holds else 'MISSED'}"
+        )
 
     def compare(task, peer, theirs, mine, wanted=None):
         """Prints how many times longer a peer takes; with a limit, whether it holds."""
@@ -184,14 +186,14 @@ def main(folder):
     print(f"one core currently adds {results['adds_per_ns']:.2f} floats per ns")
     met("decode, ns per pixel", times["decode/schwider/20"] * 1e9 / pixels, 3.0, "ns", True)
     for name in ("doubling", "negative_exponential"):
-        met(f"seven maps {name}, ns per pixel", times[f"decode_maps/{name}/20"] * 1e9 / pixels, 12.0,
-            "ns", True)
+        met(f"seven maps {name}, ns per pixel", times[f"decode_maps/{name}/20"] * 1e9 / pixels, 12.0, "ns", True)
     met("spatial unwrapping, s", times["unwrap_space/20"], 1.0, "s", True)
 
     decode_ours = times["decode/schwider/20"]
     if "decode_cold/schwider/20" in times:
-        compare("decode", "NumPy, both cold", seconds(lambda: decode_cold(np, frames))[0],
-                times["decode_cold/schwider/20"])
+        compare(
+            "decode", "NumPy, both cold", seconds(lambda: decode_cold(np, frames))[0], times["decode_cold/schwider/20"]
+        )
     warm = warm_decoder(np, frames)
     warm_seconds, decoded = seconds(warm, WARM_RUNS)
     for name, one, other in zip(("phase", "modulation", "mean", "sigma"), decoded, decode_cold(np, frames)):
@@ -213,8 +215,9 @@ def main(folder):
         pattern = cv2.structured_light.SinusoidalPattern_create(parameters)
         # It filters each frame by Fourier transforms and fails for sides that are not products of small primes;
         # the benchmark's side is one.
-        compare("decode", "OpenCV, warm", seconds(lambda: pattern.computePhaseMap(frames[:3]), WARM_RUNS)[0],
-                decode_ours, 8)
+        compare(
+            "decode", "OpenCV, warm", seconds(lambda: pattern.computePhaseMap(frames[:3]), WARM_RUNS)[0], decode_ours, 8
+        )
     except (ImportError, AttributeError) as error:
         print(f"OpenCV contrib is absent (python3-opencv): {error}")
     except Exception as error:  # the bindings differ between versions

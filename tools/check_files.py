@@ -46,7 +46,9 @@ def program(*arguments):
 def ask(*command):
     """Standard output and error of a program; empty when it cannot start or takes more than 15 minutes."""
     try:
-        answer = subprocess.run(list(map(str, command)), capture_output=True, text=True, timeout=900, errors="replace", cwd=WORK)
+        answer = subprocess.run(
+            list(map(str, command)), capture_output=True, text=True, timeout=900, errors="replace", cwd=WORK
+        )
     except (OSError, subprocess.TimeoutExpired):
         return ""
     return answer.stdout + answer.stderr
@@ -108,16 +110,48 @@ def blender(path):
 
 # MeshLab 2020.09 of Debian 12 crashes on any OBJ, even of one triangle, so OBJ is not among its columns.
 READERS = {  # name: (is it installed, how to count, columns)
-    "assimp": (shutil.which("assimp"), assimp, ["DXF faces", "DXF polyface", "STL", "STL text", "PLY", "OBJ", "GLB", "glTF", "3MF", "OFF"]),
-    "ezdxf": (ask("/usr/bin/python3", "-c", "import ezdxf; print(1)").strip() == "1", script("check_ezdxf.py"), ["DXF faces", "DXF polyface", "DXF mesh"]),
-    "lib3mf": (ask("/usr/bin/python3", "-c", "import ctypes; ctypes.CDLL('lib3MF.so.1'); print(1)").strip() == "1", script("check_3mf.py"), ["3MF"]),
-    "admesh": (shutil.which("admesh"), lambda path: number(r"Number of facets\s+:\s+(\d+)", ask("admesh", "-e", path)), ["STL", "STL text"]),
+    "assimp": (
+        shutil.which("assimp"),
+        assimp,
+        ["DXF faces", "DXF polyface", "STL", "STL text", "PLY", "OBJ", "GLB", "glTF", "3MF", "OFF"],
+    ),
+    "ezdxf": (
+        ask("/usr/bin/python3", "-c", "import ezdxf; print(1)").strip() == "1",
+        script("check_ezdxf.py"),
+        ["DXF faces", "DXF polyface", "DXF mesh"],
+    ),
+    "lib3mf": (
+        ask("/usr/bin/python3", "-c", "import ctypes; ctypes.CDLL('lib3MF.so.1'); print(1)").strip() == "1",
+        script("check_3mf.py"),
+        ["3MF"],
+    ),
+    "admesh": (
+        shutil.which("admesh"),
+        lambda path: number(r"Number of facets\s+:\s+(\d+)", ask("admesh", "-e", path)),
+        ["STL", "STL text"],
+    ),
     "NumPy": (True, python("numpy, sys", "print(len(numpy.loadtxt(sys.argv[1])))"), ["XYZ"]),
-    "PCL": (ask("/usr/bin/python3", "-c", "import pcl; print(1)").strip() == "1", python("pcl, sys", "print(pcl.load(sys.argv[1]).size)"), ["PCD"]),
-    "MeshLab": (shutil.which("meshlabserver") and shutil.which("xvfb-run"), meshlab, ["STL", "STL text", "PLY", "OFF", "XYZ"]),
-    "CloudCompare": (shutil.which("CloudCompare") and shutil.which("xvfb-run"), cloud_compare, ["DXF faces", "DXF polyface", "STL", "STL text", "PLY", "OBJ", "OFF", "XYZ"]),
+    "PCL": (
+        ask("/usr/bin/python3", "-c", "import pcl; print(1)").strip() == "1",
+        python("pcl, sys", "print(pcl.load(sys.argv[1]).size)"),
+        ["PCD"],
+    ),
+    "MeshLab": (
+        shutil.which("meshlabserver") and shutil.which("xvfb-run"),
+        meshlab,
+        ["STL", "STL text", "PLY", "OFF", "XYZ"],
+    ),
+    "CloudCompare": (
+        shutil.which("CloudCompare") and shutil.which("xvfb-run"),
+        cloud_compare,
+        ["DXF faces", "DXF polyface", "STL", "STL text", "PLY", "OBJ", "OFF", "XYZ"],
+    ),
     "PrusaSlicer": (shutil.which("prusa-slicer"), prusa, ["STL", "STL text", "OBJ", "3MF"]),
-    "Blender": (shutil.which("blender"), blender, ["DXF faces", "DXF polyface", "DXF mesh", "STL", "STL text", "PLY", "OBJ", "GLB", "glTF"]),
+    "Blender": (
+        shutil.which("blender"),
+        blender,
+        ["DXF faces", "DXF polyface", "DXF mesh", "STL", "STL text", "PLY", "OBJ", "GLB", "glTF"],
+    ),
 }
 
 
@@ -126,22 +160,40 @@ def write_open_mesh(path, side=30):
     vertices = [(x / 7, y / 11, math.sin(x / 7) * math.cos(y / 11)) for y in range(side) for x in range(side)]
     corners = [y * side + x for y in range(side - 1) for x in range(side - 1)]
     triangles = [t for i in corners for t in ((i, i + 1, i + side), (i + 1, i + side + 1, i + side))]
-    lines = ["ply", "format ascii 1.0", f"element vertex {len(vertices)}", *(f"property float {axis}" for axis in "xyz"),
-             f"element face {len(triangles)}", "property list uchar int vertex_indices", "property uchar mark", "end_header"]
+    lines = [
+        "ply",
+        "format ascii 1.0",
+        f"element vertex {len(vertices)}",
+        *(f"property float {axis}" for axis in "xyz"),
+        f"element face {len(triangles)}",
+        "property list uchar int vertex_indices",
+        "property uchar mark",
+        "end_header",
+    ]
     lines += ["%f %f %f" % vertex for vertex in vertices]
     lines += ["3 %d %d %d " % triangle + str(number % 3) for number, triangle in enumerate(triangles)]
     path.write_text("\n".join(lines) + "\n")
 
 
 def compare(found, expected):
-    return "all" if found == expected else "nothing" if not found else found if isinstance(found, str) else f"{found} of {expected}"
+    return (
+        "all"
+        if found == expected
+        else "nothing"
+        if not found
+        else found
+        if isinstance(found, str)
+        else f"{found} of {expected}"
+    )
 
 
 def main():
     page = PAGE.read_text()
     before, rest = page.split(BEGIN)
     old, after = rest.split(END)
-    kept = {line.split("|")[1].strip(): line for line in old.splitlines() if line.startswith("| ") and "---" not in line}
+    kept = {
+        line.split("|")[1].strip(): line for line in old.splitlines() if line.startswith("| ") and "---" not in line
+    }
 
     program("simulate", "bracket", "--rig", "digital", "--views", 2, "-o", WORK / "scan")
     program("edit", WORK / "scan" / "truth.ply", "--remesh", "4mm", "-o", WORK / "closed.ply")
@@ -167,7 +219,9 @@ def main():
             element = "vertices" if column in ("XYZ", "PCD") else "triangles"
             results = {mesh: compare(count(WORK / mesh / name), counts[mesh][element]) for mesh in counts}
             same = len(set(results.values())) == 1
-            cells.append(results["closed"] if same else ", ".join(f"{mesh}: {result}" for mesh, result in results.items()))
+            cells.append(
+                results["closed"] if same else ", ".join(f"{mesh}: {result}" for mesh, result in results.items())
+            )
         rows.append(f"| {reader} | " + " | ".join(cells) + " |")
         print(rows[-1], flush=True)
     head = "| | " + " | ".join(FORMATS) + " |\n|" + "---|" * (len(FORMATS) + 1)

@@ -4,7 +4,10 @@ import sys
 
 MOST = 400
 
-long = [f"{path} ({lines})" for path in map(pathlib.Path, sys.argv[1:])
-        if (lines := len(path.read_text().splitlines())) > MOST]
+long = [
+    f"{path} ({lines})"
+    for path in map(pathlib.Path, sys.argv[1:])
+    if (lines := len(path.read_text().splitlines())) > MOST
+]
 if long:
     sys.exit(f"above {MOST} lines: {', '.join(long)}; a file is one concept: split it")

@@ -21,13 +21,20 @@ for file in summary["files"]:
             modules[name][i] += file[key]
 if not modules:
     sys.exit("coverage_table.py: gcovr found no file of src/frangia; run the tests of the coverage preset first")
-lines = ["# Coverage", "",
-         "Lines and branches of the library that `./run test` executes, measured by `./run lint coverage`, which writes "
-         "this file (gcc --coverage at -O2, gcovr; branches that only exceptions take are left out).", "",
-         "| module | lines | branches |", "|---|---|---|"]
+lines = [
+    "# Coverage",
+    "",
+    "Lines and branches of the library that `./run test` executes, measured by `./run lint coverage`, which writes "
+    "this file (gcc --coverage at -O2, gcovr; branches that only exceptions take are left out).",
+    "",
+    "| module | lines | branches |",
+    "|---|---|---|",
+]
 for name in sorted(modules, key=lambda name: (name == "all", name)):
     line_covered, line_total, branch_covered, branch_total = modules[name]
-    lines.append(f"| {name} | {share(line_covered, line_total)} of {line_total} | {share(branch_covered, branch_total)} of {branch_total} |")
+    lines.append(
+        f"| {name} | {share(line_covered, line_total)} of {line_total} | {share(branch_covered, branch_total)} of {branch_total} |"
+    )
 text = "\n".join(lines) + "\n"
 print(text)
 pathlib.Path(sys.argv[2]).write_text(text)

@@ -34,7 +34,20 @@ def scan(part, *options):
 
 
 def show(name, before, after, *options):
-    run("picture", before, after, "-o", OUT / f"{name}.png", "--width", 320, "--height", 320, "--marks", "--no-legend", *options)
+    run(
+        "picture",
+        before,
+        after,
+        "-o",
+        OUT / f"{name}.png",
+        "--width",
+        320,
+        "--height",
+        320,
+        "--marks",
+        "--no-legend",
+        *options,
+    )
 
 
 def picture(name, before, steps, *options):
@@ -49,7 +62,9 @@ def picture(name, before, steps, *options):
 bust = scan("bust")
 bracket = scan("bracket")
 face = WORK / "face.ply"  # a part of the head in which triangles are visible
-edit(bust, face, "--keep-largest", 1, "--select-box", "-40,-40,62,40,40,100", "--invert", "--delete", "--keep-largest", 1)
+edit(
+    bust, face, "--keep-largest", 1, "--select-box", "-40,-40,62,40,40,100", "--invert", "--delete", "--keep-largest", 1
+)
 mask = WORK / "mask.ply"
 edit(face, mask, "--select-ball", "22,0,80,13", "--invert", "--delete", "--keep-largest", 1)
 
@@ -84,7 +99,14 @@ picture("offset", bracket, ["--offset", "2mm"])
 
 def write_ply(path, vertices, triangles):
     """Writes an ASCII PLY file."""
-    lines = ["ply", "format ascii 1.0", f"element vertex {len(vertices)}", "property float x", "property float y", "property float z"]
+    lines = [
+        "ply",
+        "format ascii 1.0",
+        f"element vertex {len(vertices)}",
+        "property float x",
+        "property float y",
+        "property float z",
+    ]
     lines += [f"element face {len(triangles)}", "property list uchar int vertex_indices", "end_header"]
     lines += [" ".join(map(str, vertex)) for vertex in vertices]
     lines += [f"3 {a} {b} {c}" for a, b, c in triangles]
@@ -117,7 +139,10 @@ def intersecting(vertices, triangles):
     """Makes pairs of spikes that intersect each other."""
     vertices = [list(vertex) for vertex in vertices]
     for height in (72, 80, 88):
-        left, right = (min(range(len(vertices)), key=lambda i: sum((v - m) ** 2 for v, m in zip(vertices[i], (17, y, height)))) for y in (-4, 4))
+        left, right = (
+            min(range(len(vertices)), key=lambda i: sum((v - m) ** 2 for v, m in zip(vertices[i], (17, y, height))))
+            for y in (-4, 4)
+        )
         (xl, yl, zl), (xr, yr, zr) = vertices[left], vertices[right]
         vertices[left], vertices[right] = [xl + 12, 2 * yr - yl, 2 * zr - zl], [xr + 12, 2 * yl - yr, 2 * zl - zr]
     return vertices, triangles
@@ -149,7 +174,13 @@ def ball(centre, radius, rings=48):
     for i in range(1, rings):
         for j in range(2 * rings):
             polar, turn = pi * i / rings, pi * j / rings
-            vertices.append([centre[0] + radius * sin(polar) * cos(turn), centre[1] + radius * sin(polar) * sin(turn), centre[2] + radius * cos(polar)])
+            vertices.append(
+                [
+                    centre[0] + radius * sin(polar) * cos(turn),
+                    centre[1] + radius * sin(polar) * sin(turn),
+                    centre[2] + radius * cos(polar),
+                ]
+            )
     vertices.append([centre[0], centre[1], centre[2] - radius])
     at = lambda i, j: 1 + (i - 1) * 2 * rings + j % (2 * rings)
     faces = []

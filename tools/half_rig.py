@@ -8,7 +8,9 @@ def half_rig(program, folder):
     rig = folder / "digital-half.toml"
     if not rig.exists():
         scan = folder / "digital"
-        subprocess.run([program, "--quiet", "simulate", "plate", "--rig", "digital", "--views", "1", "-o", scan], check=True)
+        subprocess.run(
+            [program, "--quiet", "simulate", "plate", "--rig", "digital", "--views", "1", "-o", scan], check=True
+        )
 
         def halved(match):
             numbers = [0.5 * float(number) for number in match[2].split(",")]

@@ -23,7 +23,7 @@ STEPS = 4
 def rule(quality):
     """jpeg_noise_counts2 of src/frangia/frames/jpeg_noise.cpp."""
     scale = (200 - 2 * quality) / 100 if quality >= 50 else 50 / quality
-    return 0.05 + 12.0 * scale ** 1.5
+    return 0.05 + 12.0 * scale**1.5
 
 
 def frames(folder, period):
@@ -50,7 +50,7 @@ def estimated(images, mask):
     sigma = max(np.median(second) / 0.6745, 0.3)
     for _ in range(3):
         sigma = np.sqrt(np.mean(second[second <= 3 * sigma] ** 2) / 0.9733)
-    return max(sigma ** 2, 1 / 12)
+    return max(sigma**2, 1 / 12)
 
 
 def main():
@@ -61,8 +61,22 @@ def main():
         for name, options in {"noisy": [], "clean": ["--no-noise", "--bits", "16"]}.items():
             scans[name] = folder / f"{part}-{name}"
             if not scans[name].exists():
-                subprocess.run([program, "--quiet", "simulate", part, "--views", "1", "--periods",
-                                ",".join(map(str, (1280, 160, *PERIODS))), "-o", scans[name], *options], check=True)
+                subprocess.run(
+                    [
+                        program,
+                        "--quiet",
+                        "simulate",
+                        part,
+                        "--views",
+                        "1",
+                        "--periods",
+                        ",".join(map(str, (1280, 160, *PERIODS))),
+                        "-o",
+                        scans[name],
+                        *options,
+                    ],
+                    check=True,
+                )
         for period in PERIODS:
             truth, modulation = wrapped(frames(scans["clean"], period))
             modulation = modulation / 257  # of 8 bits
@@ -73,7 +87,7 @@ def main():
             for quality in QUALITIES:
                 images = [compressed(image, quality) for image in noisy]
                 error = np.angle(np.exp(1j * (wrapped(images)[0] - truth)))[good]
-                total = np.mean(error ** 2 * STEPS * modulation[good] ** 2 / 2)
+                total = np.mean(error**2 * STEPS * modulation[good] ** 2 / 2)
                 rest = total - estimated(images, good)
                 ratio = np.sqrt(total / (estimated(images, good) + rule(quality)))
                 cells.append(f"{rest:5.2f} ({ratio:4.2f})")

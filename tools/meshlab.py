@@ -15,11 +15,22 @@ def apply(name, parameters, meshes):
 
     parameters   rows of a type, a name and a value; MeshLab takes the default of none: list all
     """
-    rows = "".join(f'<Param type="{kind}" name="{key}" value="{value}" min="0" max="100"/>' for kind, key, value in parameters)
+    rows = "".join(
+        f'<Param type="{kind}" name="{key}" value="{value}" min="0" max="100"/>' for kind, key, value in parameters
+    )
     with tempfile.TemporaryDirectory() as work:
         script = pathlib.Path(work, "filter.mlx")
         script.write_text(f'<!DOCTYPE FilterScript><FilterScript><filter name="{name}">{rows}</filter></FilterScript>')
-        command = ["xvfb-run", "-a", "meshlabserver", "-i", *map(lambda path: str(pathlib.Path(path).resolve()), meshes),
-                   "-s", str(script), "-o", "out.ply"]
+        command = [
+            "xvfb-run",
+            "-a",
+            "meshlabserver",
+            "-i",
+            *map(lambda path: str(pathlib.Path(path).resolve()), meshes),
+            "-s",
+            str(script),
+            "-o",
+            "out.ply",
+        ]
         answer = subprocess.run(command, cwd=work, check=False, capture_output=True, text=True)
     return answer.stdout + answer.stderr

@@ -32,13 +32,20 @@ def chart(folder, name, title, x_label, y_label, draw):
 
 def stages(program, folder):
     """A row of pictures that `frangia decode` writes for a view of the paper's rig."""
-    shown = (("fringe-residues", "modulo 2π, residues"), ("fringe-modulation", "modulation"),
-             ("growth", "order of growth"), ("regions", "regions"), ("fringes", "fringe orders"),
-             ("absolute", "final phase"), ("mask", "reason of missing pixels"))
+    shown = (
+        ("fringe-residues", "modulo 2π, residues"),
+        ("fringe-modulation", "modulation"),
+        ("growth", "order of growth"),
+        ("regions", "regions"),
+        ("fringes", "fringe orders"),
+        ("absolute", "final phase"),
+        ("mask", "reason of missing pixels"),
+    )
     with tempfile.TemporaryDirectory() as work:
         scan, views = os.path.join(work, "scan"), os.path.join(work, "stages")
-        subprocess.run([program, "--quiet", "simulate", "bracket", "--rig", "carducci", "--views", "4",
-                        "-o", scan], check=True)
+        subprocess.run(
+            [program, "--quiet", "simulate", "bracket", "--rig", "carducci", "--views", "4", "-o", scan], check=True
+        )
         subprocess.run([program, "--quiet", "decode", scan, "--view", "0", "-o", views], check=True)
         figure, all_axes = plt.subplots(1, len(shown), figsize=(14, 2.9))
         for axes, (name, title) in zip(all_axes, shown):
@@ -47,7 +54,13 @@ def stages(program, folder):
             axes.set_title(title, fontsize=9)
             axes.axis("off")
         figure.tight_layout(pad=0.4)
-        figure.savefig(os.path.join(folder, "stages.png"), dpi=110, bbox_inches="tight", pad_inches=0.05, metadata={"Software": None})
+        figure.savefig(
+            os.path.join(folder, "stages.png"),
+            dpi=110,
+            bbox_inches="tight",
+            pad_inches=0.05,
+            metadata={"Software": None},
+        )
         plt.close(figure)
 
 
@@ -63,9 +76,13 @@ def noise_points(program):
         return np.asarray(Image.open(path), dtype=float)
 
     with tempfile.TemporaryDirectory() as work:
+
         def decoded(scan, algorithm):
             out = os.path.join(work, "stages")
-            subprocess.run([program, "--quiet", "decode", scan, "--algorithm", algorithm, "--max-sigma", "2", "-o", out], check=True)
+            subprocess.run(
+                [program, "--quiet", "decode", scan, "--algorithm", algorithm, "--max-sigma", "2", "-o", out],
+                check=True,
+            )
             return image(os.path.join(out, "p20-wrapped.tiff")), image(os.path.join(out, "p20-modulation.tiff"))
 
         def simulated(name, *options):
@@ -93,17 +110,18 @@ def noise_points(program):
 def main(program, bench, folder):
     os.makedirs(folder, exist_ok=True)
     stages(program, folder)
-    table = json.loads(subprocess.run([program, "--json", "algorithms"], check=True,
-                                      capture_output=True, text=True).stdout)
+    table = json.loads(
+        subprocess.run([program, "--json", "algorithms"], check=True, capture_output=True, text=True).stdout
+    )
 
     def ripple(axes):
         for row in table:
             if row["ripple_by_percent"] and max(row["ripple_by_percent"]) > 1e-9:
-                axes.semilogy(range(-10, 11), [max(value, 1e-8) for value in row["ripple_by_percent"]],
-                              label=row["name"])
+                axes.semilogy(
+                    range(-10, 11), [max(value, 1e-8) for value in row["ripple_by_percent"]], label=row["name"]
+                )
 
-    chart(folder, "ripple.svg", "Ripple against step error", "step error, %",
-          "peak-to-valley phase error, rad", ripple)
+    chart(folder, "ripple.svg", "Ripple against step error", "step error, %", "peak-to-valley phase error, rad", ripple)
 
     measured = noise_points(program)
 
@@ -121,12 +139,21 @@ def main(program, bench, folder):
     def failure(axes):
         sigma = [0.02 + 0.005 * i for i in range(100)]
         for ratio in (2, 4, 8, 16):
-            axes.semilogy(sigma, [max(1e-12, math.erfc(math.pi / (s * math.sqrt(2 * (1 + ratio**2)))))
-                                  for s in sigma], label=f"ratio {ratio}")
+            axes.semilogy(
+                sigma,
+                [max(1e-12, math.erfc(math.pi / (s * math.sqrt(2 * (1 + ratio**2))))) for s in sigma],
+                label=f"ratio {ratio}",
+            )
         axes.axhline(1e-6, color="k", linestyle=":", label="1e-6")
 
-    chart(folder, "wrong-order.svg", "Probability of a wrong order against sigma",
-          "sigma of each map, rad", "probability per pixel and level", failure)
+    chart(
+        folder,
+        "wrong-order.svg",
+        "Probability of a wrong order against sigma",
+        "sigma of each map, rad",
+        "probability per pixel and level",
+        failure,
+    )
     path = os.path.join(bench, "phase.json")
     if not os.path.exists(path):
         print(f"{path} is missing; run ./run bench to plot the speed")
@@ -138,8 +165,7 @@ def main(program, bench, folder):
         for start in ("decode/schwider", "decode_maps/doubling", "unwrap_space"):
             some = [run for run in runs if run["name"].startswith(start + "/")]
             sizes = [int(run["name"].rsplit("/", 1)[1]) for run in some]
-            axes.loglog(sizes, [run["cpu_time"] / size for run, size in zip(some, sizes)], "o-",
-                        label=start)
+            axes.loglog(sizes, [run["cpu_time"] / size for run, size in zip(some, sizes)], "o-", label=start)
 
     chart(folder, "speed.svg", "Speed against size, one core", "Mpx", "ns per pixel", speed)
 

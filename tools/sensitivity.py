@@ -16,8 +16,14 @@ import sys
 
 from half_rig import half_rig
 
-SCANS = [("bust", "digital"), ("blade", "digital"), ("bracket", "digital"), ("shaft", "digital"),
-         ("bust", "angular"), ("bracket", "angular")]
+SCANS = [
+    ("bust", "digital"),
+    ("blade", "digital"),
+    ("bracket", "digital"),
+    ("shaft", "digital"),
+    ("bust", "angular"),
+    ("bracket", "angular"),
+]
 VIEWS = 6
 FOLDER = pathlib.Path("out/sensitivity")
 MARK = "<!-- sensitivity: the rest of this page is written by tools/sensitivity.py -->"
@@ -31,8 +37,23 @@ def answers(program, study, part, rig):
     if not kept.exists():
         if not (scan / "scan.toml").exists():
             model = half_rig(program, FOLDER) if rig == "digital" else rig
-            subprocess.run([program, "--quiet", "simulate", part, "--rig", model, "--samples", "4", "--views", str(VIEWS),
-                            "-o", scan], check=True)
+            subprocess.run(
+                [
+                    program,
+                    "--quiet",
+                    "simulate",
+                    part,
+                    "--rig",
+                    model,
+                    "--samples",
+                    "4",
+                    "--views",
+                    str(VIEWS),
+                    "-o",
+                    scan,
+                ],
+                check=True,
+            )
         unfinished = kept.with_suffix(".unfinished")
         with unfinished.open("w") as output:
             subprocess.run([study, scan, "--all"], check=True, stdout=output)
@@ -66,10 +87,15 @@ def table(all_answers):
     rows = ["| scan | triangles | RMS, mm | 99 %, mm | covered, % | sigmas |", "|---|---|---|---|---|---|"]
     for (part, rig), lines in zip(SCANS, all_answers):
         base = lines[0]
-        rows.append(f"| {part}, {rig} | {base['triangles']} | {base['rms_mm']:.4f} | {base['p99_mm']:.4f} "
-                    f"| {100 * base['covered']:.2f} | {base['sigmas']:.2f} |")
-    rows += ["", "| parameter | value | half: RMS, 99 %, covered, sigmas, triangles | double: RMS, 99 %, covered, sigmas, triangles |",
-             "|---|---|---|---|"]
+        rows.append(
+            f"| {part}, {rig} | {base['triangles']} | {base['rms_mm']:.4f} | {base['p99_mm']:.4f} "
+            f"| {100 * base['covered']:.2f} | {base['sigmas']:.2f} |"
+        )
+    rows += [
+        "",
+        "| parameter | value | half: RMS, 99 %, covered, sigmas, triangles | double: RMS, 99 %, covered, sigmas, triangles |",
+        "|---|---|---|---|",
+    ]
     idle = []
     for line in all_answers[0][1::2]:
         halves = [cell(all_answers, line["name"], 0.5, key) for key in keys]

@@ -33,7 +33,8 @@ class SlurmNode:
         ports = [free_port(), free_port()]
         host = socket.gethostname().split(".")[0]
         at = self.folder
-        self.conf.write_text(f"""ClusterName=frangia
+        self.conf.write_text(
+            f"""ClusterName=frangia
 SlurmctldHost={host}(127.0.0.1)
 AuthType=auth/munge
 AuthInfo=socket={at}/munge/socket
@@ -61,11 +62,22 @@ SlurmdTimeout=20
 SlurmctldTimeout=20
 NodeName={host} NodeAddr=127.0.0.1 CPUs={self.cores} RealMemory=4000 State=UNKNOWN
 PartitionName=main Nodes={host} Default=YES MaxTime=INFINITE State=UP
-""")
+"""
+        )
         self.munged = subprocess.Popen(
-            ["munged", "--force", "--foreground", f"--key-file={key}", f"--socket={at}/munge/socket",
-             f"--pid-file={at}/munge/pid", f"--log-file={at}/munge/log", f"--seed-file={at}/munge/seed"],
-            stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+            [
+                "munged",
+                "--force",
+                "--foreground",
+                f"--key-file={key}",
+                f"--socket={at}/munge/socket",
+                f"--pid-file={at}/munge/pid",
+                f"--log-file={at}/munge/log",
+                f"--seed-file={at}/munge/seed",
+            ],
+            stdout=subprocess.DEVNULL,
+            stderr=subprocess.DEVNULL,
+        )
         self.slurmctld = self.slurmd = None
         self.start_controller()
         self.start_node()
@@ -104,7 +116,9 @@ PartitionName=main Nodes={host} Default=YES MaxTime=INFINITE State=UP
 
     def is_busy(self):
         """Whether a job waits or runs; also while the controller does not answer."""
-        answer = subprocess.run(["squeue", "-h", "-r", "-o", "%A"], env=self.environment, capture_output=True, text=True)
+        answer = subprocess.run(
+            ["squeue", "-h", "-r", "-o", "%A"], env=self.environment, capture_output=True, text=True
+        )
         return answer.returncode != 0 or bool(answer.stdout.strip())
 
     def running(self):

@@ -189,7 +189,17 @@ def sigma_and_closing():
     run("reconstruct", scan, "-o", mesh)
     run("reconstruct", scan, "-o", closed, "--watertight")
     run("inspect", mesh, "--show", "sigma", "--scale", 0.02, "--no-legend", "--picture", WORK / "sigma.png")
-    run("inspect", mesh, "--reference", scan / "truth.ply", "--scale", 0.02, "--no-legend", "--picture", WORK / "error.png")
+    run(
+        "inspect",
+        mesh,
+        "--reference",
+        scan / "truth.ply",
+        "--scale",
+        0.02,
+        "--no-legend",
+        "--picture",
+        WORK / "error.png",
+    )
     side_by_side(
         IMAGES / "surface-sigma.png",
         [
@@ -236,7 +246,17 @@ def setups():
     pictures = []
     for name, places in (("moved", on_table), ("aligned", aligned)):
         combine_views(WORK / f"{name}.ply", rig, depths, places, lambda view: 1 + 4 * setup_of[view])
-        run("inspect", WORK / f"{name}.ply", "--show", "views", "--no-legend", "--picture", WORK / f"{name}.png", "--from", "50,25")
+        run(
+            "inspect",
+            WORK / f"{name}.ply",
+            "--show",
+            "views",
+            "--no-legend",
+            "--picture",
+            WORK / f"{name}.png",
+            "--from",
+            "50,25",
+        )
         pictures.append(middle_of(WORK / f"{name}.png", (0.18, 0.02, 0.82, 0.98)))
     side_by_side(
         IMAGES / "surface-setups.png",
@@ -307,7 +327,17 @@ def block_edge():
     write_ply(WORK / "cubes.ply", vertices, numpy.ones(len(vertices)), faces)
     pictures = []
     for name in ("block", "cubes"):
-        run("inspect", WORK / f"{name}.ply", "--show", "shape", "--from", "35,30", "--no-legend", "--picture", WORK / f"{name}.png")
+        run(
+            "inspect",
+            WORK / f"{name}.ply",
+            "--show",
+            "shape",
+            "--from",
+            "35,30",
+            "--no-legend",
+            "--picture",
+            WORK / f"{name}.png",
+        )
         pictures.append(middle_of(WORK / f"{name}.png", (0.36, 0.24, 0.64, 0.66)))
     side_by_side(
         IMAGES / "surface-edge.png",

@@ -21,11 +21,58 @@ SCHEMA = json.loads(pathlib.Path(sys.argv[2]).read_text())
 CONNECTIONS = 256  # HttpLimits::connections
 
 # What a field that names something may receive. None of them may reach another file.
-NAMES = ["", ".", "..", "../evil", "../../evil", "a/../../evil", "/tmp/evil", "//evil", "..\\evil", "C:\\evil", "\\\\host\\evil",
-         "%2e%2e", "%2e%2e%2fevil", "..%2fevil", "%252e%252e%252fevil", "%c0%ae%c0%ae%c0%afevil", "a\u0000b", "../evil\u0000.dxf",
-         "x" * 61, "x" * 5000, "\u00fc" * 100, "\uff0e\uff0e\uff0fevil", "\u2025/evil", "\u202efxd.live", "\U0001f5ff", "\ud800",
-         "e\u0301vil", "-rf", "--help", " evil", "evil ", "\tevil", "a\nb", "\r\nSet-Cookie: evil=1", "\x7f", "~", "~root", "$HOME",
-         "$(id)", "`id`", "; id", "a|id", "file:///etc/passwd", ".frangia-lock", ".git", "CON", "secret.txt", "<b>evil</b>", "{}", "null"]
+NAMES = [
+    "",
+    ".",
+    "..",
+    "../evil",
+    "../../evil",
+    "a/../../evil",
+    "/tmp/evil",
+    "//evil",
+    "..\\evil",
+    "C:\\evil",
+    "\\\\host\\evil",
+    "%2e%2e",
+    "%2e%2e%2fevil",
+    "..%2fevil",
+    "%252e%252e%252fevil",
+    "%c0%ae%c0%ae%c0%afevil",
+    "a\u0000b",
+    "../evil\u0000.dxf",
+    "x" * 61,
+    "x" * 5000,
+    "\u00fc" * 100,
+    "\uff0e\uff0e\uff0fevil",
+    "\u2025/evil",
+    "\u202efxd.live",
+    "\U0001f5ff",
+    "\ud800",
+    "e\u0301vil",
+    "-rf",
+    "--help",
+    " evil",
+    "evil ",
+    "\tevil",
+    "a\nb",
+    "\r\nSet-Cookie: evil=1",
+    "\x7f",
+    "~",
+    "~root",
+    "$HOME",
+    "$(id)",
+    "`id`",
+    "; id",
+    "a|id",
+    "file:///etc/passwd",
+    ".frangia-lock",
+    ".git",
+    "CON",
+    "secret.txt",
+    "<b>evil</b>",
+    "{}",
+    "null",
+]
 REFUSED = (400, 404)
 
 
@@ -39,7 +86,10 @@ def percent_forms(name):
 
 def below(folder):
     """All files and folders below a folder, with the size of the files."""
-    return {path.relative_to(folder): path.stat().st_size if path.is_file() else -1 for path in pathlib.Path(folder).rglob("*")}
+    return {
+        path.relative_to(folder): path.stat().st_size if path.is_file() else -1
+        for path in pathlib.Path(folder).rglob("*")
+    }
 
 
 class Hostile(unittest.TestCase):
@@ -121,9 +171,22 @@ class Hostile(unittest.TestCase):
         exports.mkdir()
         (exports / "part.dxf").write_text("an export")
         asked = 0
-        for name in NAMES + ["../project.json", "../rig.toml", "part.dxf/../../rig.toml", "./part.dxf", "part.dxf/", "part.dxf\u0000"]:
+        for name in NAMES + [
+            "../project.json",
+            "../rig.toml",
+            "part.dxf/../../rig.toml",
+            "./part.dxf",
+            "part.dxf/",
+            "part.dxf\u0000",
+        ]:
             for form in percent_forms(name):
-                for path in (f"/api/exports/{form}", f"/api/clouds/{form}", f"/api/commands/{form}", f"/api/{form}", f"/assets/{form}"):
+                for path in (
+                    f"/api/exports/{form}",
+                    f"/api/clouds/{form}",
+                    f"/api/commands/{form}",
+                    f"/api/{form}",
+                    f"/assets/{form}",
+                ):
                     status, head, body = self.server.ask("GET", path)
                     self.assertIn(status, REFUSED, path)
                     for text in (b"secret", b"an export", b"frangia-project", b"root:"):
@@ -132,9 +195,24 @@ class Hostile(unittest.TestCase):
                     asked += 1
                 self.assertIn(self.server.ask("POST", f"/api/commands/{form}", {})[0], REFUSED, form)
         self.assertGreater(asked, 400)
-        for path in ("/api/clouds/0", "/api/clouds/-1", "/api/clouds/99999999999999999999", "/api/clouds/0x0", "/api/clouds/", "/api/clouds/1 "):
+        for path in (
+            "/api/clouds/0",
+            "/api/clouds/-1",
+            "/api/clouds/99999999999999999999",
+            "/api/clouds/0x0",
+            "/api/clouds/",
+            "/api/clouds/1 ",
+        ):
             self.assertNotEqual(self.server.ask("GET", path)[0], 200, path)
-        for target in (f"http://{self.server.host}/api/state", "*", "//api/state", "/api/../api/state", "/API/STATE", "/api/state/", "/api/state%00"):
+        for target in (
+            f"http://{self.server.host}/api/state",
+            "*",
+            "//api/state",
+            "/api/../api/state",
+            "/API/STATE",
+            "/api/state/",
+            "/api/state%00",
+        ):
             self.assertIn(self.server.ask("GET", target)[0], REFUSED, target)
 
     def test_every_text_of_every_command_refuses_what_it_does_not_know(self):
@@ -142,8 +220,16 @@ class Hostile(unittest.TestCase):
         tried = 0
         for command, arguments in SCHEMA["definitions"]["commands"].items():
             fields = arguments.get("properties", {})
-            fit = {"name": self.project.name, "operation": "smooth", "value": "1", "format": "stl", "kind": "plane", "station": 0,
-                   "triangle": 0, "job": 1}
+            fit = {
+                "name": self.project.name,
+                "operation": "smooth",
+                "value": "1",
+                "format": "stl",
+                "kind": "plane",
+                "station": 0,
+                "triangle": 0,
+                "job": 1,
+            }
             for field in fields:
                 if command == "create-project" and field == "name":
                     continue  # tried above
@@ -160,7 +246,19 @@ class Hostile(unittest.TestCase):
     def test_numbers_outside_of_their_range_are_refused(self):
         for command, arguments in SCHEMA["definitions"]["commands"].items():
             for field in arguments.get("properties", {}):
-                for number in ("1e999", "-1e999", "-1e308", "1e300", "18446744073709551616", "-9223372036854775809", "[]", "{}", "[1e999]", "NaN", "Infinity"):
+                for number in (
+                    "1e999",
+                    "-1e999",
+                    "-1e308",
+                    "1e300",
+                    "18446744073709551616",
+                    "-9223372036854775809",
+                    "[]",
+                    "{}",
+                    "[1e999]",
+                    "NaN",
+                    "Infinity",
+                ):
                     if (field, number) in (("exposures_ms", "[]"), ("devices", "{}")):
                         continue  # no merging of exposures, no devices
                     body = '{"%s": %s}' % (field, number)
@@ -171,22 +269,44 @@ class Hostile(unittest.TestCase):
     def test_bodies_that_are_truncated_or_no_json_are_refused(self):
         good = json.dumps({"operation": "fill-holes", "value": "10mm"})
         bodies = [good[:end] for end in range(1, len(good))]
-        bodies += [good + "x", good + good, "\ufeff" + good + "{", "[" + good + "]", '"a text"', "0", "true", "null", "{\"a\": }", "{'a': 1}",
-                   "{\"operation\": \"undo\", \"operation\": 1}", "[" * 900_000, "{\"a\":" * 150_000, "{" + "\"a\": 1, " * 100_000 + "\"b\": 1}"]
+        bodies += [
+            good + "x",
+            good + good,
+            "\ufeff" + good + "{",
+            "[" + good + "]",
+            '"a text"',
+            "0",
+            "true",
+            "null",
+            '{"a": }',
+            "{'a': 1}",
+            '{"operation": "undo", "operation": 1}',
+            "[" * 900_000,
+            '{"a":' * 150_000,
+            "{" + '"a": 1, ' * 100_000 + '"b": 1}',
+        ]
         for body in bodies:
             for path in ("/api/commands/edit", "/api/session", "/api/operator"):
                 if path == "/api/operator" and len(body) < 1000:
                     continue  # its body has no meaning
                 status = self.server.ask("POST", path, body.encode("utf-8", "surrogatepass"))[0]
                 self.assertIn(status, (200,) if path == "/api/operator" else (400, 403), body[:40])
-        for body in (b"\xff\xfe{\x00}\x00", b"\xc3\x28", b'{"operation": "\xff"}', b'{"operation": "a\x00"}', b"\x00" * 1000):
+        for body in (
+            b"\xff\xfe{\x00}\x00",
+            b"\xc3\x28",
+            b'{"operation": "\xff"}',
+            b'{"operation": "a\x00"}',
+            b"\x00" * 1000,
+        ):
             self.assertEqual(self.server.ask("POST", "/api/commands/edit", body)[0], 400, body[:20])
         self.assert_serves()
 
     def test_requests_that_end_early_change_nothing(self):
         body = json.dumps({"name": "half"}).encode()
-        head = (f"POST /api/commands/create-project HTTP/1.1\r\nHost: {self.server.host}\r\nAuthorization: Bearer {self.server.key}\r\n"
-                f"Content-Type: application/json\r\nContent-Length: {len(body)}\r\n\r\n").encode()
+        head = (
+            f"POST /api/commands/create-project HTTP/1.1\r\nHost: {self.server.host}\r\nAuthorization: Bearer {self.server.key}\r\n"
+            f"Content-Type: application/json\r\nContent-Length: {len(body)}\r\n\r\n"
+        ).encode()
         whole = head + body
         for end in list(range(1, len(whole), 7)) + [len(whole) - 1]:
             with self.server.connect() as line:
@@ -195,27 +315,59 @@ class Hostile(unittest.TestCase):
         self.assert_serves()
 
     def test_a_header_that_decides_who_asks_stands_once(self):
-        good = {"Host": self.server.host, "Authorization": f"Bearer {self.server.key}", "Origin": f"http://{self.server.host}",
-                "Sec-Fetch-Site": "same-origin", "Content-Type": "application/json"}
+        good = {
+            "Host": self.server.host,
+            "Authorization": f"Bearer {self.server.key}",
+            "Origin": f"http://{self.server.host}",
+            "Sec-Fetch-Site": "same-origin",
+            "Content-Type": "application/json",
+        }
         for field, value in good.items():
             for other in (value, "evil.example"):
-                lines = [f"{name}: {text}" for name, text in good.items()] + [f"{field}: {other}", "Content-Length: 2", "Connection: close"]
+                lines = [f"{name}: {text}" for name, text in good.items()] + [
+                    f"{field}: {other}",
+                    "Content-Length: 2",
+                    "Connection: close",
+                ]
                 for method in ("GET", "POST"):
-                    answer = self.server.raw((f"{method} /api/state HTTP/1.1\r\n" + "\r\n".join(lines) + "\r\n\r\n{}").encode())
+                    answer = self.server.raw(
+                        (f"{method} /api/state HTTP/1.1\r\n" + "\r\n".join(lines) + "\r\n\r\n{}").encode()
+                    )
                     self.assertIn(b" 400 ", answer[:20], (field, other))
         lines = "".join(f"{name}: {text}\r\n" for name, text in good.items())
-        for smuggled in ("Content-Length: 2\r\nContent-Length: 3\r\n", "Content-Length: 2\r\nTransfer-Encoding: chunked\r\n",
-                         "Transfer-Encoding: chunked\r\nTransfer-Encoding: identity\r\n", "Transfer-Encoding: xchunked\r\n",
-                         "Content-Length: +2\r\n", "Content-Length: 0x2\r\n", "Content-Length : 2\r\n"):
-            answer = self.server.raw((f"POST /api/operator HTTP/1.1\r\n{lines}{smuggled}\r\n{{}}GET /api/state HTTP/1.1\r\n{lines}\r\n").encode(), 3)
+        for smuggled in (
+            "Content-Length: 2\r\nContent-Length: 3\r\n",
+            "Content-Length: 2\r\nTransfer-Encoding: chunked\r\n",
+            "Transfer-Encoding: chunked\r\nTransfer-Encoding: identity\r\n",
+            "Transfer-Encoding: xchunked\r\n",
+            "Content-Length: +2\r\n",
+            "Content-Length: 0x2\r\n",
+            "Content-Length : 2\r\n",
+        ):
+            answer = self.server.raw(
+                (
+                    f"POST /api/operator HTTP/1.1\r\n{lines}{smuggled}\r\n{{}}GET /api/state HTTP/1.1\r\n{lines}\r\n"
+                ).encode(),
+                3,
+            )
             self.assertLessEqual(answer.count(b"HTTP/1.1 200"), 1, smuggled)
             self.assertNotIn(b'"projects"', answer, smuggled)
         self.assert_serves()
 
     def test_keys_are_accepted_in_one_place_only(self):
-        for authorization in (self.server.key, f"bearer {self.server.key}", f"Basic {self.server.key}", f"Bearer  {self.server.key}",
-                              f"Bearer {self.server.key}\u0000", f"Bearer {self.server.key},Bearer x", "Bearer " + "x" * 10_000, "Bearer"):
-            status = self.server.ask("GET", "/api/state", key=None, Authorization=authorization.encode().decode("latin-1"))[0]
+        for authorization in (
+            self.server.key,
+            f"bearer {self.server.key}",
+            f"Basic {self.server.key}",
+            f"Bearer  {self.server.key}",
+            f"Bearer {self.server.key}\u0000",
+            f"Bearer {self.server.key},Bearer x",
+            "Bearer " + "x" * 10_000,
+            "Bearer",
+        ):
+            status = self.server.ask(
+                "GET", "/api/state", key=None, Authorization=authorization.encode().decode("latin-1")
+            )[0]
             self.assertIn(status, (400, 401), authorization[:30])
 
     def test_malformed_frames_end_their_connection_only(self):
@@ -223,13 +375,21 @@ class Hostile(unittest.TestCase):
         hello = json.dumps({"type": "hello", "key": key}).encode()
         watcher = self.server.live()
         attacks = {
-            "reserved bits": b"\xf1" + frame(hello)[1:], "an unknown opcode": frame(hello, opcode=3),
-            "a fragmented control frame": b"\x09" + frame(b"x", opcode=9)[1:], "a long control frame": frame(b"x" * 126, opcode=9),
-            "a continuation of nothing": frame(hello, opcode=0), "a length of 2^62": b"\x81\xff" + struct.pack(">Q", 1 << 62) + b"\0\0\0\0",
-            "a length of 2^64 - 1": b"\x81\xff" + b"\xff" * 8 + b"\0\0\0\0", "no UTF-8": frame(b'{"type": "\xff"}'),
-            "a close frame of one byte": frame(b"\x03", opcode=8), "a close code that is reserved": frame(struct.pack(">H", 1005), opcode=8),
-            "many pings": frame(b"x" * 125, opcode=9) * 200, "an empty text": frame(b""), "HTTP": b"GET / HTTP/1.1\r\n\r\n",
-            "parts without an end": b"\x01" + frame(b"x" * 50)[1:] + (b"\x00" + frame(b"x" * 50)[1:]) * 200}
+            "reserved bits": b"\xf1" + frame(hello)[1:],
+            "an unknown opcode": frame(hello, opcode=3),
+            "a fragmented control frame": b"\x09" + frame(b"x", opcode=9)[1:],
+            "a long control frame": frame(b"x" * 126, opcode=9),
+            "a continuation of nothing": frame(hello, opcode=0),
+            "a length of 2^62": b"\x81\xff" + struct.pack(">Q", 1 << 62) + b"\0\0\0\0",
+            "a length of 2^64 - 1": b"\x81\xff" + b"\xff" * 8 + b"\0\0\0\0",
+            "no UTF-8": frame(b'{"type": "\xff"}'),
+            "a close frame of one byte": frame(b"\x03", opcode=8),
+            "a close code that is reserved": frame(struct.pack(">H", 1005), opcode=8),
+            "many pings": frame(b"x" * 125, opcode=9) * 200,
+            "an empty text": frame(b""),
+            "HTTP": b"GET / HTTP/1.1\r\n\r\n",
+            "parts without an end": b"\x01" + frame(b"x" * 50)[1:] + (b"\x00" + frame(b"x" * 50)[1:]) * 200,
+        }
         for begin in (b"", frame(hello)):
             for what, attack in attacks.items():
                 line = self.server.upgrade()
@@ -253,13 +413,16 @@ class Hostile(unittest.TestCase):
 
     def test_random_bytes_end_nothing_but_their_connection(self):
         generator = random.Random(1)
-        requests = [b"GET / HTTP/1.1\r\nHost: %b\r\n\r\n", b"GET /api/state HTTP/1.1\r\nHost: %b\r\nAuthorization: Bearer " + self.server.key.encode() + b"\r\n\r\n",
-                    b"POST /api/commands/edit HTTP/1.1\r\nHost: %b\r\nContent-Type: application/json\r\nContent-Length: 2\r\n\r\n{}"]
+        requests = [
+            b"GET / HTTP/1.1\r\nHost: %b\r\n\r\n",
+            b"GET /api/state HTTP/1.1\r\nHost: %b\r\nAuthorization: Bearer " + self.server.key.encode() + b"\r\n\r\n",
+            b"POST /api/commands/edit HTTP/1.1\r\nHost: %b\r\nContent-Type: application/json\r\nContent-Length: 2\r\n\r\n{}",
+        ]
         for number in range(300):
             data = bytearray(generator.choice(requests) % self.server.host.encode())
             for _ in range(generator.randrange(1, 8)):
                 at = generator.randrange(len(data))
-                data[at:at + generator.randrange(3)] = generator.randbytes(generator.randrange(4))
+                data[at : at + generator.randrange(3)] = generator.randbytes(generator.randrange(4))
             with self.server.connect() as line, contextlib.suppress(OSError):
                 line.sendall(data)
                 line.shutdown(socket.SHUT_WR)

@@ -69,22 +69,55 @@ class Proxies(unittest.TestCase):
             self.skipTest("openssl is not installed")
         self.folder = pathlib.Path(self.enterContext(tempfile.TemporaryDirectory()))
         self.certificate, self.key = self.folder / "scanner.pem", self.folder / "scanner.key"
-        subprocess.run(["openssl", "req", "-x509", "-newkey", "ec", "-pkeyopt", "ec_paramgen_curve:P-256", "-nodes", "-days", "2",
-                        "-keyout", self.key, "-out", self.certificate, "-subj", f"/CN={NAME}", "-addext", f"subjectAltName=DNS:{NAME}"],
-                       check=True, capture_output=True)
-        subprocess.run([PROGRAM, "serve", "--set-password"], input=PASSWORD + "\n", text=True, check=True, capture_output=True,
-                       env={**os.environ, "XDG_CONFIG_HOME": str(self.folder)})
+        subprocess.run(
+            [
+                "openssl",
+                "req",
+                "-x509",
+                "-newkey",
+                "ec",
+                "-pkeyopt",
+                "ec_paramgen_curve:P-256",
+                "-nodes",
+                "-days",
+                "2",
+                "-keyout",
+                self.key,
+                "-out",
+                self.certificate,
+                "-subj",
+                f"/CN={NAME}",
+                "-addext",
+                f"subjectAltName=DNS:{NAME}",
+            ],
+            check=True,
+            capture_output=True,
+        )
+        subprocess.run(
+            [PROGRAM, "serve", "--set-password"],
+            input=PASSWORD + "\n",
+            text=True,
+            check=True,
+            capture_output=True,
+            env={**os.environ, "XDG_CONFIG_HOME": str(self.folder)},
+        )
 
     def serve(self, start):
         """Checks a proxy. `start(port of the proxy, port of the server)` returns its command."""
         port = free_port()
         # The address that users write has no port: --allowed-host is the name, as the page says, with the port under test.
-        server = Proxied(self.folder, "--behind-proxy", "--allowed-host", f"{NAME}:{port}", XDG_CONFIG_HOME=str(self.folder))
+        server = Proxied(
+            self.folder, "--behind-proxy", "--allowed-host", f"{NAME}:{port}", XDG_CONFIG_HOME=str(self.folder)
+        )
         proxy = None
         try:
             with open(self.folder / "log", "wb") as log:
-                proxy = subprocess.Popen(start(port, server.port), stdout=log, stderr=log,
-                                         env={**os.environ, "HOME": str(self.folder), "XDG_DATA_HOME": str(self.folder)})
+                proxy = subprocess.Popen(
+                    start(port, server.port),
+                    stdout=log,
+                    stderr=log,
+                    env={**os.environ, "HOME": str(self.folder), "XDG_DATA_HOME": str(self.folder)},
+                )
             server.reach(port)
             self.wait_for(server, proxy)
             self.check(server)
@@ -120,11 +153,15 @@ class Proxies(unittest.TestCase):
             status, _, body = server.ask("GET", "/", key=None, Host=host)
             self.assertTrue(status in (400, 403, 404, 421) or body == b"", (host, status))
         for foreign in ("https://evil.example", f"http://{server.host}", "null"):
-            self.assertEqual(server.ask("POST", "/api/session", {"password": PASSWORD}, key=None, Origin=foreign)[0], 403, foreign)
+            self.assertEqual(
+                server.ask("POST", "/api/session", {"password": PASSWORD}, key=None, Origin=foreign)[0], 403, foreign
+            )
             self.assertEqual(server.upgrade(Origin=foreign), 403, foreign)
         self.assertEqual(server.ask("GET", "/api/state", Sec_Fetch_Site="cross-site")[0], 403)
         self.assertEqual(server.ask("GET", "/api/state")[0], 401)
-        self.assertEqual(server.ask("POST", "/api/session", {"password": "a wrong password"}, key=None, **origin)[0], 403)
+        self.assertEqual(
+            server.ask("POST", "/api/session", {"password": "a wrong password"}, key=None, **origin)[0], 403
+        )
         status, _, body = server.ask("POST", "/api/session", {"password": PASSWORD}, key=None, **origin)
         self.assertEqual(status, 200)
         server.key = json.loads(body)["key"]
@@ -147,8 +184,12 @@ class Proxies(unittest.TestCase):
         if not (shutil.which("chromium") and shutil.which("node") and os.environ.get("FRANGIA_WEB")):
             print("not tried in a browser: chromium, node or FRANGIA_WEB is missing")
             return
-        done = subprocess.run(["node", HERE / "password.mjs", server.origin, PASSWORD], capture_output=True, text=True,
-                              timeout=90 * SLOWDOWN)
+        done = subprocess.run(
+            ["node", HERE / "password.mjs", server.origin, PASSWORD],
+            capture_output=True,
+            text=True,
+            timeout=90 * SLOWDOWN,
+        )
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
 
     def test_caddy(self):
@@ -158,8 +199,12 @@ class Proxies(unittest.TestCase):
         def start(port, behind):
             # A test neither asks for certificates nor listens on port 80 or that of Caddy's administration.
             text = "{\n    admin off\n    auto_https disable_redirects\n}\n" + replaced(
-                block_with("reverse_proxy"), (f"{NAME} {{", f"{NAME}:{port} {{"), ("127.0.0.1:6328", f"127.0.0.1:{behind}"),
-                ("/etc/ssl/scanner.pem", str(self.certificate)), ("/etc/ssl/private/scanner.key", str(self.key)))
+                block_with("reverse_proxy"),
+                (f"{NAME} {{", f"{NAME}:{port} {{"),
+                ("127.0.0.1:6328", f"127.0.0.1:{behind}"),
+                ("/etc/ssl/scanner.pem", str(self.certificate)),
+                ("/etc/ssl/private/scanner.key", str(self.key)),
+            )
             (self.folder / "Caddyfile").write_text(text)
             return ["caddy", "run", "--config", str(self.folder / "Caddyfile"), "--adapter", "caddyfile"]
 
@@ -172,12 +217,20 @@ class Proxies(unittest.TestCase):
 
         def start(port, behind):
             site = replaced(
-                block_with("proxy_pass"), ("listen 443 ssl", f"listen 127.0.0.1:{port} ssl"), ("127.0.0.1:6328", f"127.0.0.1:{behind}"),
-                ("/etc/ssl/scanner.pem", str(self.certificate)), ("/etc/ssl/private/scanner.key", str(self.key)))
-            own = "".join(f"{name}_temp_path {self.folder}/{name};\n" for name in ("client_body", "proxy", "fastcgi", "uwsgi", "scgi"))
+                block_with("proxy_pass"),
+                ("listen 443 ssl", f"listen 127.0.0.1:{port} ssl"),
+                ("127.0.0.1:6328", f"127.0.0.1:{behind}"),
+                ("/etc/ssl/scanner.pem", str(self.certificate)),
+                ("/etc/ssl/private/scanner.key", str(self.key)),
+            )
+            own = "".join(
+                f"{name}_temp_path {self.folder}/{name};\n"
+                for name in ("client_body", "proxy", "fastcgi", "uwsgi", "scgi")
+            )
             user = "user root;\n" if os.getuid() == 0 else ""
             (self.folder / "nginx.conf").write_text(
-                f"{user}daemon off;\npid {self.folder}/nginx.pid;\nerror_log stderr;\nevents {{}}\nhttp {{\naccess_log off;\n{own}{site}}}\n")
+                f"{user}daemon off;\npid {self.folder}/nginx.pid;\nerror_log stderr;\nevents {{}}\nhttp {{\naccess_log off;\n{own}{site}}}\n"
+            )
             return [nginx, "-e", "stderr", "-p", str(self.folder), "-c", str(self.folder / "nginx.conf")]
 
         self.serve(start)

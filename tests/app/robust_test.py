@@ -51,7 +51,9 @@ class Robust(unittest.TestCase):
         server.command("create-project", name="part", part="plate", stations=stations)
         server.wait()
         rig = server.projects / "part" / "rig.toml"
-        text = rig.read_text().replace("[devices.camera]\n", f"[devices.camera]\nreal_time = true\nreference_exposure_ms = {exposure_ms}\n")
+        text = rig.read_text().replace(
+            "[devices.camera]\n", f"[devices.camera]\nreal_time = true\nreference_exposure_ms = {exposure_ms}\n"
+        )
         if table:
             self.assertIn('home = "switch"', text)
             text = text.replace('home = "switch"', table)
@@ -60,7 +62,10 @@ class Robust(unittest.TestCase):
         return server.projects / "part"
 
     def scan_share(self, server):
-        return next((job["progress"] for job in server.state()["jobs"] if job["kind"] == "scan" and job["state"] == "running"), 0)
+        return next(
+            (job["progress"] for job in server.state()["jobs"] if job["kind"] == "scan" and job["state"] == "running"),
+            0,
+        )
 
     def test_a_killed_scan_asks_for_the_angle_of_a_table_without_a_home_switch(self):
         server = self.serve()
@@ -86,8 +91,11 @@ class Robust(unittest.TestCase):
         self.assertTrue(state["project"]["scan_complete"], state["jobs"][-1])
         self.assertIsNone(state["project"]["table_angle"])
         self.assertEqual(server.stop(), 0)
-        done = subprocess.run([PROGRAM, "scan", project / "rig.toml", "-o", self.folder / "whole", "--views", "3", "--exposure", "200"],
-                              capture_output=True, text=True)
+        done = subprocess.run(
+            [PROGRAM, "scan", project / "rig.toml", "-o", self.folder / "whole", "--views", "3", "--exposure", "200"],
+            capture_output=True,
+            text=True,
+        )
         self.assertEqual(done.returncode, 0, done.stderr)
         whole, resumed = frames_of(self.folder / "whole"), frames_of(project / "scan")
         self.assertEqual(set(resumed), set(whole))
@@ -103,8 +111,13 @@ class Robust(unittest.TestCase):
         self.assertEqual(status, 400)
         self.assertIn(f"process {first.process.pid}", json.loads(body)["error"])
         self.assertIsNone(second.state()["project"])
-        done = subprocess.run([PROGRAM, "serve", "--port", "0", self.folder / "projects" / "part"], capture_output=True, text=True,
-                              env=second.environment, timeout=PATIENCE)
+        done = subprocess.run(
+            [PROGRAM, "serve", "--port", "0", self.folder / "projects" / "part"],
+            capture_output=True,
+            text=True,
+            env=second.environment,
+            timeout=PATIENCE,
+        )
         self.assertEqual(done.returncode, 3)
         self.assertIn(f"process {first.process.pid}", done.stderr)
         # It opens again where it is open already, and elsewhere once it was closed.
@@ -122,16 +135,25 @@ class Robust(unittest.TestCase):
 
     def test_a_port_in_use_is_named_and_the_usual_one_gives_way(self):
         server = self.serve()
-        done = subprocess.run([PROGRAM, "serve", "--port", str(server.port), "--projects", self.folder / "other"], capture_output=True,
-                              text=True, env=server.environment, timeout=PATIENCE)
+        done = subprocess.run(
+            [PROGRAM, "serve", "--port", str(server.port), "--projects", self.folder / "other"],
+            capture_output=True,
+            text=True,
+            env=server.environment,
+            timeout=PATIENCE,
+        )
         self.assertEqual(done.returncode, 4)
         self.assertIn(str(server.port), done.stderr)
         self.assertIn("in use", done.stderr)
         self.assertFalse((self.folder / "other").exists())
         self.assertEqual(server.ask("GET", "/api/state")[0], 200)
         with contextlib.suppress(OSError), socket.create_server(("127.0.0.1", 6328)):
-            process = subprocess.Popen([PROGRAM, "--json", "serve", "--projects", self.folder / "other"], stdout=subprocess.PIPE,
-                                       env={**os.environ, "XDG_RUNTIME_DIR": str(self.folder)}, text=True)
+            process = subprocess.Popen(
+                [PROGRAM, "--json", "serve", "--projects", self.folder / "other"],
+                stdout=subprocess.PIPE,
+                env={**os.environ, "XDG_RUNTIME_DIR": str(self.folder)},
+                text=True,
+            )
             try:
                 text = ""
                 while "}" not in text:
@@ -174,8 +196,11 @@ class Robust(unittest.TestCase):
             self.assertEqual(state["project"]["surface"]["triangles"], triangles)
             self.assertEqual(server.ask("GET", "/api/mesh")[0], 200)
             # What writes fails in words, and leaves what is there.
-            for command, arguments in (("export", {"format": "stl"}), ("edit", {"operation": "fill-holes", "value": "5mm"}),
-                                       ("reconstruct", {})):
+            for command, arguments in (
+                ("export", {"format": "stl"}),
+                ("edit", {"operation": "fill-holes", "value": "5mm"}),
+                ("reconstruct", {}),
+            ):
                 server.command(command, **arguments)
                 job = server.wait(90)["jobs"][-1]
                 self.assertEqual(job["state"], "failed", command)
@@ -190,14 +215,24 @@ class Robust(unittest.TestCase):
         finally:
             for path in paths:
                 path.chmod(0o755 if path.is_dir() else 0o644)
-        self.assertEqual(sorted(path.relative_to(project) for path in paths[1:]), sorted(path.relative_to(project) for path in project.rglob("*")))
+        self.assertEqual(
+            sorted(path.relative_to(project) for path in paths[1:]),
+            sorted(path.relative_to(project) for path in project.rglob("*")),
+        )
 
     def test_a_full_disk_is_said_in_words_and_loses_nothing(self):
         disk = self.folder / "projects"
         disk.mkdir()
         # A disk of 80 MB that the server alone sees; this test reaches it through /proc.
-        unshare = ["unshare", "-m", *([] if os.getuid() == 0 else ["-r"]), "sh", "-c",
-                   f'mount -t tmpfs -o size=80m none "{disk}" && exec "$@"', "sh"]
+        unshare = [
+            "unshare",
+            "-m",
+            *([] if os.getuid() == 0 else ["-r"]),
+            "sh",
+            "-c",
+            f'mount -t tmpfs -o size=80m none "{disk}" && exec "$@"',
+            "sh",
+        ]
         if not shutil.which("unshare") or subprocess.run([*unshare, "true"], capture_output=True).returncode != 0:
             self.skipTest("this user may not mount a small disk (unshare -m)")
         server = self.serve(wrapper=unshare)
@@ -215,8 +250,13 @@ class Robust(unittest.TestCase):
         with open(filler, "wb", buffering=0) as file, contextlib.suppress(OSError):
             while True:
                 file.write(b"x" * 4096)
-        for command, arguments in (("export", {"format": "obj"}), ("export", {"format": "stl"}), ("export", {"format": "zip"}),
-                                   ("edit", {"operation": "fill-holes", "value": "5mm"}), ("reconstruct", {})):
+        for command, arguments in (
+            ("export", {"format": "obj"}),
+            ("export", {"format": "stl"}),
+            ("export", {"format": "zip"}),
+            ("edit", {"operation": "fill-holes", "value": "5mm"}),
+            ("reconstruct", {}),
+        ):
             server.command(command, **arguments)
             job = server.wait(90)["jobs"][-1]
             self.assertEqual(job["state"], "failed", (command, arguments))
@@ -232,7 +272,10 @@ class Robust(unittest.TestCase):
             self.assertEqual(path.read_bytes(), data, path)
         # With room again, it goes on.
         filler.unlink()
-        for command, arguments in (("edit", {"operation": "fill-holes", "value": "5mm"}), ("export", {"format": "obj"})):
+        for command, arguments in (
+            ("edit", {"operation": "fill-holes", "value": "5mm"}),
+            ("export", {"format": "obj"}),
+        ):
             server.command(command, **arguments)
             self.assertEqual(server.wait(90)["jobs"][-1]["state"], "done", command)
 

@@ -19,8 +19,14 @@ class Script(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             server = Server(folder)
             try:
-                done = subprocess.run([sys.executable, EXAMPLE], cwd=folder, env=server.environment, capture_output=True, text=True,
-                                      timeout=200 * SLOWDOWN)
+                done = subprocess.run(
+                    [sys.executable, EXAMPLE],
+                    cwd=folder,
+                    env=server.environment,
+                    capture_output=True,
+                    text=True,
+                    timeout=200 * SLOWDOWN,
+                )
                 self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
                 self.assertIn("wrote part.dxf", done.stdout)
             finally:

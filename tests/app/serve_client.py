@@ -27,7 +27,10 @@ class Server:
         self.environment = {**os.environ, "XDG_RUNTIME_DIR": str(self.runtime), **environment}
         self.process = subprocess.Popen(
             [*wrapper, PROGRAM, "--json", "serve", "--port", "0", "--projects", str(self.projects), *arguments],
-            stdout=subprocess.PIPE, stderr=stderr, env=self.environment)
+            stdout=subprocess.PIPE,
+            stderr=stderr,
+            env=self.environment,
+        )
         printed = b""
         while b"}" not in printed:
             line = self.process.stdout.readline()
@@ -99,10 +102,18 @@ class Server:
 
     def upgrade(self, **headers):
         """Opens a WebSocket and returns its line, or the status of the refusal."""
-        fields = {"Host": self.host, "Connection": "Upgrade", "Upgrade": "websocket", "Sec-WebSocket-Version": "13",
-                  "Sec-WebSocket-Key": base64.b64encode(os.urandom(16)).decode(), **headers}
+        fields = {
+            "Host": self.host,
+            "Connection": "Upgrade",
+            "Upgrade": "websocket",
+            "Sec-WebSocket-Version": "13",
+            "Sec-WebSocket-Key": base64.b64encode(os.urandom(16)).decode(),
+            **headers,
+        }
         line = self.connect()
-        line.sendall(b"GET /api/live HTTP/1.1\r\n" + "".join(f"{n}: {v}\r\n" for n, v in fields.items()).encode() + b"\r\n")
+        line.sendall(
+            b"GET /api/live HTTP/1.1\r\n" + "".join(f"{n}: {v}\r\n" for n, v in fields.items()).encode() + b"\r\n"
+        )
         head = b""
         while b"\r\n\r\n" not in head and (block := line.recv(1)):
             head += block

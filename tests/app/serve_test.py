@@ -39,23 +39,38 @@ class Serve(unittest.TestCase):
     def test_page_carries_its_security_headers(self):
         status, head, _ = self.server.ask("GET", "/", key=None)
         self.assertEqual(status, 200)
-        for field in ("default-src 'none'", "frame-ancestors 'none'", "X-Content-Type-Options: nosniff",
-                      "Referrer-Policy: no-referrer"):
+        for field in (
+            "default-src 'none'",
+            "frame-ancestors 'none'",
+            "X-Content-Type-Options: nosniff",
+            "Referrer-Policy: no-referrer",
+        ):
             self.assertIn(field, head)
         self.assertNotIn("unsafe", head)
         self.assertNotIn("Access-Control", head)
         self.assertNotIn("Set-Cookie", head)
 
     def test_foreign_host_is_refused(self):
-        for host in ("evil.example", f"evil.example:{self.server.port}", "127.0.0.1", f"127.0.0.1:{self.server.port + 1}",
-                     "", f"127.0.0.1:{self.server.port}.evil.example"):
+        for host in (
+            "evil.example",
+            f"evil.example:{self.server.port}",
+            "127.0.0.1",
+            f"127.0.0.1:{self.server.port + 1}",
+            "",
+            f"127.0.0.1:{self.server.port}.evil.example",
+        ):
             self.assertEqual(self.server.ask("GET", "/api/state", Host=host)[0], 403, host)
             self.assertEqual(self.server.ask("GET", "/", key=None, Host=host)[0], 403, host)
         self.assertEqual(self.server.ask("GET", "/api/state", Host=f"localhost:{self.server.port}")[0], 200)
 
     def test_foreign_origin_is_refused(self):
-        for origin in ("http://evil.example", "null", f"https://127.0.0.1:{self.server.port}",
-                       f"http://127.0.0.1:{self.server.port + 1}", f"http://127.0.0.1:{self.server.port}.evil.example"):
+        for origin in (
+            "http://evil.example",
+            "null",
+            f"https://127.0.0.1:{self.server.port}",
+            f"http://127.0.0.1:{self.server.port + 1}",
+            f"http://127.0.0.1:{self.server.port}.evil.example",
+        ):
             self.assertEqual(self.server.ask("GET", "/api/state", Origin=origin)[0], 403, origin)
             self.assertEqual(self.server.ask("POST", "/api/session", {"token": "x"}, Origin=origin)[0], 403, origin)
             self.assertEqual(self.server.upgrade(Origin=origin), 403, origin)
@@ -93,8 +108,19 @@ class Serve(unittest.TestCase):
     def test_names_reach_no_other_file(self):
         secret = pathlib.Path(self.folder.name) / "secret.txt"
         secret.write_text("secret")
-        for name in ("../secret.txt", "..%2fsecret.txt", "%2e%2e/secret.txt", "..%5csecret.txt", "/etc/passwd", "%2fetc%2fpasswd",
-                     "%00", "%", "%4", "%zz", "....//secret.txt"):
+        for name in (
+            "../secret.txt",
+            "..%2fsecret.txt",
+            "%2e%2e/secret.txt",
+            "..%5csecret.txt",
+            "/etc/passwd",
+            "%2fetc%2fpasswd",
+            "%00",
+            "%",
+            "%4",
+            "%zz",
+            "....//secret.txt",
+        ):
             for path in (f"/api/exports/{name}", f"/api/clouds/{name}", f"/{name}", f"/assets/{name}"):
                 status, _, body = self.server.ask("GET", path)
                 self.assertIn(status, (400, 404), path)
@@ -108,12 +134,27 @@ class Serve(unittest.TestCase):
 
     def test_oversized_and_malformed_requests_are_refused(self):
         head = f"Host: {self.server.host}\r\nAuthorization: Bearer {self.server.key}\r\n".encode()
-        self.assertIn(b" 413 ", self.server.raw(
-            b"POST /api/commands/edit HTTP/1.1\r\n" + head + b"Content-Type: application/json\r\nContent-Length: 99999999\r\n\r\n")[:40])
-        self.assertIn(b" 431 ", self.server.raw(b"GET /api/state HTTP/1.1\r\n" + head + b"X: " + b"x" * 40000 + b"\r\n\r\n")[:40])
-        for request in (b"\r\n\r\n", b"GET\r\n\r\n", b"\x16\x03\x01\x02\x00\x01\x00", b"GET / HTTP/9.9\r\n\r\n", b"A" * 20000,
-                        b"GET / HTTP/1.1\r\nHost\r\n\r\n", b"POST / HTTP/1.1\r\nContent-Length: -1\r\n\r\n",
-                        b"POST / HTTP/1.1\r\nContent-Length: 5\r\nTransfer-Encoding: chunked\r\n\r\nzz\r\n\r\n"):
+        self.assertIn(
+            b" 413 ",
+            self.server.raw(
+                b"POST /api/commands/edit HTTP/1.1\r\n"
+                + head
+                + b"Content-Type: application/json\r\nContent-Length: 99999999\r\n\r\n"
+            )[:40],
+        )
+        self.assertIn(
+            b" 431 ", self.server.raw(b"GET /api/state HTTP/1.1\r\n" + head + b"X: " + b"x" * 40000 + b"\r\n\r\n")[:40]
+        )
+        for request in (
+            b"\r\n\r\n",
+            b"GET\r\n\r\n",
+            b"\x16\x03\x01\x02\x00\x01\x00",
+            b"GET / HTTP/9.9\r\n\r\n",
+            b"A" * 20000,
+            b"GET / HTTP/1.1\r\nHost\r\n\r\n",
+            b"POST / HTTP/1.1\r\nContent-Length: -1\r\n\r\n",
+            b"POST / HTTP/1.1\r\nContent-Length: 5\r\nTransfer-Encoding: chunked\r\n\r\nzz\r\n\r\n",
+        ):
             answer = self.server.raw(request, 12)
             self.assertNotIn(b" 200 ", answer[:20], request[:40])
         for body in (b"{", b"[" * 100000, b"\xff", b"null", b'{"operation": "' + b"x" * 900000 + b'"}'):
@@ -123,16 +164,28 @@ class Serve(unittest.TestCase):
         self.assert_serves()
 
     def test_websocket_needs_a_key_and_bounds_its_messages(self):
-        for message in (b"", b"{}", b"{", b'{"type": "hello"}', b'{"type": "hello", "key": "x"}',
-                        json.dumps({"type": "hello", "key": self.server.token}).encode(),
-                        json.dumps({"type": 7, "key": self.server.key}).encode()):
+        for message in (
+            b"",
+            b"{}",
+            b"{",
+            b'{"type": "hello"}',
+            b'{"type": "hello", "key": "x"}',
+            json.dumps({"type": "hello", "key": self.server.token}).encode(),
+            json.dumps({"type": 7, "key": self.server.key}).encode(),
+        ):
             line = self.server.upgrade()
             line.sendall(frame(message))
             opcode, body = read_frame(line)
             self.assertEqual((opcode, struct.unpack(">H", body[:2])[0]), (8, 1008), message)
             line.close()
         hello = json.dumps({"type": "hello", "key": self.server.key}).encode()
-        for attack in (frame(hello, masked=False), frame(b"x" * 10000), b"\xff" * 40, frame(hello, opcode=2), frame(hello)[:9]):
+        for attack in (
+            frame(hello, masked=False),
+            frame(b"x" * 10000),
+            b"\xff" * 40,
+            frame(hello, opcode=2),
+            frame(hello)[:9],
+        ):
             line = self.server.upgrade()
             line.sendall(attack)
             with contextlib.suppress(OSError):
@@ -184,8 +237,9 @@ class Serve(unittest.TestCase):
         self.assertEqual(path.stat().st_mode & 0o777, 0o600)
         key = json.loads(path.read_text())["key"]
         self.assertEqual(self.server.ask("GET", "/api/state", key=key)[0], 200)
-        link = subprocess.run([PROGRAM, "serve", "--new-link"], env=self.server.environment, capture_output=True, text=True,
-                              check=True).stdout.strip()
+        link = subprocess.run(
+            [PROGRAM, "serve", "--new-link"], env=self.server.environment, capture_output=True, text=True, check=True
+        ).stdout.strip()
         self.assertEqual(self.server.ask("POST", "/api/session", {"token": link.split("#token=")[1]}, key=None)[0], 200)
 
     def test_one_browser_operates_and_others_take_over(self):
@@ -203,7 +257,13 @@ class Serve(unittest.TestCase):
 
     def test_live_layers_are_chosen_by_known_names_only(self):
         hello = json.dumps({"type": "hello", "key": self.server.key}).encode()
-        for message in (b"{}", b"x", b'{"type": "show"}', b'{"type": "show", "layer": "../x"}', b'{"type": "show", "layer": 3}'):
+        for message in (
+            b"{}",
+            b"x",
+            b'{"type": "show"}',
+            b'{"type": "show", "layer": "../x"}',
+            b'{"type": "show", "layer": 3}',
+        ):
             line = self.server.upgrade()
             line.sendall(frame(hello))
             read_frame(line)
@@ -220,8 +280,13 @@ class Serve(unittest.TestCase):
             config = {"XDG_CONFIG_HOME": folder, "XDG_RUNTIME_DIR": folder}
 
             def refusal(*arguments):
-                done = subprocess.run([PROGRAM, "serve", "--port", "0", *arguments], env={**os.environ, **config},
-                                      capture_output=True, text=True, timeout=PATIENCE)
+                done = subprocess.run(
+                    [PROGRAM, "serve", "--port", "0", *arguments],
+                    env={**os.environ, **config},
+                    capture_output=True,
+                    text=True,
+                    timeout=PATIENCE,
+                )
                 self.assertNotEqual(done.returncode, 0, arguments)
                 return done.stderr
 
@@ -229,10 +294,18 @@ class Serve(unittest.TestCase):
             self.assertIn("--allowed-host", refusal("--behind-proxy"))
             self.assertIn("--allowed-host", refusal("--listen", "0.0.0.0", "--plain-lan"))
             self.assertIn("--set-password", refusal("--listen", "127.0.0.2", "--plain-lan"))
-            self.assertIn("exclude", refusal("--listen", "127.0.0.2", "--plain-lan", "--behind-proxy", "--allowed-host", "x"))
+            self.assertIn(
+                "exclude", refusal("--listen", "127.0.0.2", "--plain-lan", "--behind-proxy", "--allowed-host", "x")
+            )
             for password, code in (("short\n", 3), ("a long password\n", 0)):
-                done = subprocess.run([PROGRAM, "serve", "--set-password"], env={**os.environ, **config}, input=password, text=True,
-                                      capture_output=True, timeout=PATIENCE)
+                done = subprocess.run(
+                    [PROGRAM, "serve", "--set-password"],
+                    env={**os.environ, **config},
+                    input=password,
+                    text=True,
+                    capture_output=True,
+                    timeout=PATIENCE,
+                )
                 self.assertEqual(done.returncode, code, done.stderr)
             stored = pathlib.Path(folder) / "frangia" / "serve-password"
             self.assertEqual(stored.stat().st_mode & 0o777, 0o600)
@@ -245,9 +318,15 @@ class Serve(unittest.TestCase):
                 self.assertIn("wss://scanner.test", proxied.ask("GET", "/", key=None)[1])
                 self.assertEqual(proxied.ask("GET", "/", key=None, Host="evil.example")[0], 403)
                 origin = {"Origin": "https://scanner.test"}
-                self.assertEqual(proxied.ask("POST", "/api/session", {"password": "a wrong password"}, key=None, **origin)[0], 403)
                 self.assertEqual(
-                    proxied.ask("POST", "/api/session", {"password": "a long password"}, key=None, Origin="http://scanner.test")[0], 403)
+                    proxied.ask("POST", "/api/session", {"password": "a wrong password"}, key=None, **origin)[0], 403
+                )
+                self.assertEqual(
+                    proxied.ask(
+                        "POST", "/api/session", {"password": "a long password"}, key=None, Origin="http://scanner.test"
+                    )[0],
+                    403,
+                )
                 answer = proxied.ask("POST", "/api/session", {"password": "a long password"}, key=None, **origin)
                 self.assertEqual(answer[0], 200)
                 proxied.key = json.loads(answer[2])["key"]
@@ -271,16 +350,23 @@ class Serve(unittest.TestCase):
         def check(name, value):
             jsonschema.validate(value, {**schema, "$ref": f"#/definitions/{name}"})
 
-        self.assertEqual(self.server.ask("POST", "/api/commands/create-project", {"name": "Schema", "stations": 3})[0], 200)
+        self.assertEqual(
+            self.server.ask("POST", "/api/commands/create-project", {"name": "Schema", "stations": 3})[0], 200
+        )
         check("state", self.server.wait())
         check("error", json.loads(self.server.ask("POST", "/api/commands/nothing", {})[2]))
         check("error", json.loads(self.server.ask("GET", "/api/state", key=None)[2]))
         check("error", json.loads(self.server.ask("GET", "/api/mesh")[2]))
+
         def example(rule):
             """A value that a rule of the schema allows."""
             if "$ref" in rule:
                 return example(schema["definitions"][rule["$ref"].split("/")[-1]])
-            return rule["enum"][0] if "enum" in rule else {"string": "x", "integer": rule.get("minimum", 0)}.get(rule["type"], 1.5)
+            return (
+                rule["enum"][0]
+                if "enum" in rule
+                else {"string": "x", "integer": rule.get("minimum", 0)}.get(rule["type"], 1.5)
+            )
 
         # What the schema calls a command, the server knows; what it forbids, the server refuses.
         for name, arguments in schema["definitions"]["commands"].items():

@@ -69,7 +69,9 @@ def main():
             (seeds / folder / name).write_bytes((out / name).read_bytes())
     (seeds / "names").mkdir(exist_ok=True)
     (seeds / "names" / "bmp.txt").write_text("{pattern}_{frame:02}.bmp\np64_00.bmp\np64_01.bmp\np8_00.bmp\n")
-    (seeds / "names" / "view.txt").write_text("v{view:03}/{frame}.png\nv000/1.png\nv000/2.png\nv001/1.png\nv001/2.png\n")
+    (seeds / "names" / "view.txt").write_text(
+        "v{view:03}/{frame}.png\nv000/1.png\nv000/2.png\nv001/1.png\nv001/2.png\n"
+    )
 
 
 if __name__ == "__main__":

@@ -55,8 +55,10 @@ def camera_rays():
     def distort(x, y):
         r2 = x * x + y * y
         radial = 1 + K1 * r2 + K2 * r2**2 + K3 * r2**3
-        return (x * radial + 2 * P1 * x * y + P2 * (r2 + 2 * x * x),
-                y * radial + P1 * (r2 + 2 * y * y) + 2 * P2 * x * y)
+        return (
+            x * radial + 2 * P1 * x * y + P2 * (r2 + 2 * x * x),
+            y * radial + P1 * (r2 + 2 * y * y) + 2 * P2 * x * y,
+        )
 
     x, y = xd.copy(), yd.copy()
     step = 1e-6
@@ -78,8 +80,9 @@ def write_png(path, image):
         return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
 
     header = struct.pack(">IIBBBBB", image.shape[1], image.shape[0], 16, 0, 0, 0, 0)
-    path.write_bytes(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", header) + chunk(b"IDAT", zlib.compress(rows, 6)) +
-                     chunk(b"IEND", b""))
+    path.write_bytes(
+        b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", header) + chunk(b"IDAT", zlib.compress(rows, 6)) + chunk(b"IEND", b"")
+    )
 
 
 def first_hit(origin, rays):
@@ -89,7 +92,7 @@ def first_hit(origin, rays):
         plane = np.where(along < 0, ((PLANE_POINT - origin) @ PLANE_NORMAL) / along, np.inf)
     a = np.sum(rays * rays, axis=-1)
     half_b = rays @ (origin - SPHERE_CENTER)
-    root = half_b**2 - a * (np.sum((origin - SPHERE_CENTER)**2) - SPHERE_RADIUS**2)
+    root = half_b**2 - a * (np.sum((origin - SPHERE_CENTER) ** 2) - SPHERE_RADIUS**2)
     sphere = np.where(root > 0, (-half_b - np.sqrt(np.maximum(root, 0))) / a, np.inf)
     plane = np.where(plane > 0, plane, np.inf)
     sphere = np.where(sphere > 0, sphere, np.inf)
@@ -142,7 +145,8 @@ def main():
                 write_png(view / f"p{number}-{shift}.png", image)
         views.append(f'[[view]]\nangle_deg = {angle_deg}\nfolder = "views/{index}"\n')
     rows = ", ".join("[" + ", ".join(repr(float(x)) for x in row) + "]" for row in projector)
-    (folder / "rig.toml").write_text(f"""format = "frangia-rig"
+    (folder / "rig.toml").write_text(
+        f"""format = "frangia-rig"
 version = 1
 [camera]
 size_px = [{WIDTH}, {HEIGHT}]
@@ -160,15 +164,20 @@ principal_point_px = [{PROJECTOR_CX}, {PROJECTOR_CY}]
 [turntable]
 point_mm = {[float(x) for x in AXIS_POINT]}
 axis = {[float(x) for x in axis]}
-""")
-    patterns = "".join(f'[[pattern]]\nname = "p{i}"\nkind = "fringe"\nperiod_px = {period}\n'
-                       f"shifts_deg = {[360.0 * k / SHIFTS for k in range(SHIFTS)]}\n"
-                       for i, period in enumerate(PERIODS_PX))
-    (folder / "scan.toml").write_text('format = "frangia-scan"\nversion = 2\nname = "plane and sphere"\n' + patterns +
-                                      "".join(views))
+"""
+    )
+    patterns = "".join(
+        f'[[pattern]]\nname = "p{i}"\nkind = "fringe"\nperiod_px = {period}\n'
+        f"shifts_deg = {[360.0 * k / SHIFTS for k in range(SHIFTS)]}\n"
+        for i, period in enumerate(PERIODS_PX)
+    )
+    (folder / "scan.toml").write_text(
+        'format = "frangia-scan"\nversion = 2\nname = "plane and sphere"\n' + patterns + "".join(views)
+    )
     # The truth, for the test: sphere centre and radius, plane point and normal, object frame.
-    (folder / "truth.txt").write_text(" ".join(repr(float(x)) for x in [*SPHERE_CENTER, SPHERE_RADIUS, *PLANE_POINT,
-                                                                        *PLANE_NORMAL]) + "\n")
+    (folder / "truth.txt").write_text(
+        " ".join(repr(float(x)) for x in [*SPHERE_CENTER, SPHERE_RADIUS, *PLANE_POINT, *PLANE_NORMAL]) + "\n"
+    )
 
 
 main()

@@ -34,8 +34,13 @@ def storage(name, values):
 def matlab_camera(matrix, distortion, size):
     shifted = matrix.copy()
     shifted[:2, 2] += 1.0  # the first pixel of MATLAB is (1, 1)
-    return {"RadialDistortion": distortion[[0, 1, 4]].reshape(1, 3), "TangentialDistortion": distortion[[2, 3]].reshape(1, 2),
-            "ImageSize": np.array([[size[1], size[0]]], float), "WorldUnits": "mm", "IntrinsicMatrix": shifted.T}
+    return {
+        "RadialDistortion": distortion[[0, 1, 4]].reshape(1, 3),
+        "TangentialDistortion": distortion[[2, 3]].reshape(1, 2),
+        "ImageSize": np.array([[size[1], size[0]]], float),
+        "WorldUnits": "mm",
+        "IntrinsicMatrix": shifted.T,
+    }
 
 
 def as_lists(value):
@@ -48,26 +53,71 @@ def as_lists(value):
 
 def main():
     DATA.mkdir(exist_ok=True)
-    storage("slstudio.xml", {"Kc": CAMERA, "kc": CAMERA_D.reshape(5, 1), "Kp": PROJECTOR, "kp": PROJECTOR_D.reshape(5, 1),
-                             "Rp": ROTATION, "Tp": TRANSLATION, "cam_error": 0.2, "proj_error": 0.3, "stereo_error": 0.3,
-                             "frameWidth": SIZE[0], "frameHeight": SIZE[1], "screenResX": PROJECTOR_SIZE[0],
-                             "screenResY": PROJECTOR_SIZE[1]})
-    storage("scan3d.yml", {"cam_K": CAMERA, "cam_kc": CAMERA_D.reshape(1, 5), "proj_K": PROJECTOR,
-                           "proj_kc": PROJECTOR_D.reshape(1, 5), "R": ROTATION, "T": TRANSLATION})
-    storage("intrinsics.yml", {"M1": CAMERA, "D1": CAMERA_D.reshape(1, 5), "M2": PROJECTOR, "D2": PROJECTOR_D.reshape(1, 5)})
+    storage(
+        "slstudio.xml",
+        {
+            "Kc": CAMERA,
+            "kc": CAMERA_D.reshape(5, 1),
+            "Kp": PROJECTOR,
+            "kp": PROJECTOR_D.reshape(5, 1),
+            "Rp": ROTATION,
+            "Tp": TRANSLATION,
+            "cam_error": 0.2,
+            "proj_error": 0.3,
+            "stereo_error": 0.3,
+            "frameWidth": SIZE[0],
+            "frameHeight": SIZE[1],
+            "screenResX": PROJECTOR_SIZE[0],
+            "screenResY": PROJECTOR_SIZE[1],
+        },
+    )
+    storage(
+        "scan3d.yml",
+        {
+            "cam_K": CAMERA,
+            "cam_kc": CAMERA_D.reshape(1, 5),
+            "proj_K": PROJECTOR,
+            "proj_kc": PROJECTOR_D.reshape(1, 5),
+            "R": ROTATION,
+            "T": TRANSLATION,
+        },
+    )
+    storage(
+        "intrinsics.yml", {"M1": CAMERA, "D1": CAMERA_D.reshape(1, 5), "M2": PROJECTOR, "D2": PROJECTOR_D.reshape(1, 5)}
+    )
     storage("extrinsics.yml", {"R": ROTATION, "T": TRANSLATION})
-    storage("camera.yml", {"image_width": SIZE[0], "image_height": SIZE[1], "camera_matrix": CAMERA,
-                           "distortion_coefficients": CAMERA_D.reshape(5, 1)})
-    stereo = {"CameraParameters1": matlab_camera(CAMERA, CAMERA_D, SIZE),
-              "CameraParameters2": matlab_camera(PROJECTOR, PROJECTOR_D, PROJECTOR_SIZE),
-              "RotationOfCamera2": ROTATION.T, "TranslationOfCamera2": TRANSLATION.T}
+    storage(
+        "camera.yml",
+        {
+            "image_width": SIZE[0],
+            "image_height": SIZE[1],
+            "camera_matrix": CAMERA,
+            "distortion_coefficients": CAMERA_D.reshape(5, 1),
+        },
+    )
+    stereo = {
+        "CameraParameters1": matlab_camera(CAMERA, CAMERA_D, SIZE),
+        "CameraParameters2": matlab_camera(PROJECTOR, PROJECTOR_D, PROJECTOR_SIZE),
+        "RotationOfCamera2": ROTATION.T,
+        "TranslationOfCamera2": TRANSLATION.T,
+    }
     scipy.io.savemat(DATA / "matlab-v5.mat", stereo)
     scipy.io.savemat(DATA / "matlab-v7.mat", {"stereoParams": stereo}, do_compression=True)
     (DATA / "matlab.json").write_text(json.dumps(as_lists(stereo), indent=1) + "\n")
-    toolbox = {"fc_left": np.array([[CAMERA[0, 0]], [CAMERA[1, 1]]]), "cc_left": CAMERA[:2, 2:], "alpha_c_left": np.zeros((1, 1)),
-               "kc_left": CAMERA_D.reshape(5, 1), "fc_right": np.array([[PROJECTOR[0, 0]], [PROJECTOR[1, 1]]]),
-               "cc_right": PROJECTOR[:2, 2:], "alpha_c_right": np.zeros((1, 1)), "kc_right": PROJECTOR_D.reshape(5, 1),
-               "om": cv2.Rodrigues(ROTATION)[0], "T": TRANSLATION, "nx": float(SIZE[0]), "ny": float(SIZE[1])}
+    toolbox = {
+        "fc_left": np.array([[CAMERA[0, 0]], [CAMERA[1, 1]]]),
+        "cc_left": CAMERA[:2, 2:],
+        "alpha_c_left": np.zeros((1, 1)),
+        "kc_left": CAMERA_D.reshape(5, 1),
+        "fc_right": np.array([[PROJECTOR[0, 0]], [PROJECTOR[1, 1]]]),
+        "cc_right": PROJECTOR[:2, 2:],
+        "alpha_c_right": np.zeros((1, 1)),
+        "kc_right": PROJECTOR_D.reshape(5, 1),
+        "om": cv2.Rodrigues(ROTATION)[0],
+        "T": TRANSLATION,
+        "nx": float(SIZE[0]),
+        "ny": float(SIZE[1]),
+    }
     scipy.io.savemat(DATA / "Calib_Results_stereo.mat", toolbox)
     half = np.array([0.5, 0.5])  # the corner of COLMAP's first pixel is (0, 0)
     lines = ["# Camera list with one line of data per camera:", "#   CAMERA_ID, MODEL, WIDTH, HEIGHT, PARAMS[]"]
@@ -83,9 +133,16 @@ def main():
     (DATA / "ros.yaml").write_text(text)
     zero = np.zeros(3)
     camera_px = cv2.projectPoints(POINTS, zero, zero, CAMERA, CAMERA_D)[0].reshape(-1, 2)
-    projector_px = cv2.projectPoints(POINTS, cv2.Rodrigues(ROTATION)[0], TRANSLATION, PROJECTOR, PROJECTOR_D)[0].reshape(-1, 2)
-    (DATA / "points.json").write_text(json.dumps({"points": POINTS.tolist(), "camera_px": camera_px.tolist(),
-                                                  "projector_px": projector_px.tolist()}, indent=1) + "\n")
+    projector_px = cv2.projectPoints(POINTS, cv2.Rodrigues(ROTATION)[0], TRANSLATION, PROJECTOR, PROJECTOR_D)[
+        0
+    ].reshape(-1, 2)
+    (DATA / "points.json").write_text(
+        json.dumps(
+            {"points": POINTS.tolist(), "camera_px": camera_px.tolist(), "projector_px": projector_px.tolist()},
+            indent=1,
+        )
+        + "\n"
+    )
 
 
 if __name__ == "__main__":

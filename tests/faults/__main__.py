@@ -22,8 +22,12 @@ BEGIN, END = "<!-- begin table: written by `./run faults` -->", "<!-- end table 
 
 def write_row(page, answer):
     text = page.read_text()
-    rows = {line.split("`")[1]: line for line in text.split(BEGIN)[1].split(END)[0].splitlines() if line.startswith("| `")}
-    rows[answer.name] = f"| `{answer.name}` | {answer.title} | {answer.tried} | {len(answer.failures)} | {answer.measured} |"
+    rows = {
+        line.split("`")[1]: line for line in text.split(BEGIN)[1].split(END)[0].splitlines() if line.startswith("| `")
+    }
+    rows[
+        answer.name
+    ] = f"| `{answer.name}` | {answer.title} | {answer.tried} | {len(answer.failures)} | {answer.measured} |"
     ordered = [rows[name] for name in STUDIES if name in rows]
     table = ["", "| study | what was done | tried | failed | measured |", "|---|---|---|---|---|", *ordered, ""]
     temporary = page.with_suffix(".tmp")
@@ -47,7 +51,10 @@ def main():
         work = tempfile.mkdtemp(prefix="frangia-faults-")
         begin = time.monotonic()
         answer = importlib.import_module(name).run(Campaign(chosen.program, work, chosen.long, chosen.seed))
-        print(f"{name}: {answer.tried} tried, {len(answer.failures)} failed, {time.monotonic() - begin:.0f} s; {answer.measured}", flush=True)
+        print(
+            f"{name}: {answer.tried} tried, {len(answer.failures)} failed, {time.monotonic() - begin:.0f} s; {answer.measured}",
+            flush=True,
+        )
         for failure in answer.failures:
             print(f"  {failure}", flush=True)
         failed += len(answer.failures)

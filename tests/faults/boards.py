@@ -77,7 +77,7 @@ class GrblBoard:
                     time.sleep(0.01)
                     continue
                 for i in range(len(received)):
-                    self._receive(received[i:i + 1])
+                    self._receive(received[i : i + 1])
 
     def _switch(self, output, on):
         after = self.on | {output: on}
@@ -106,7 +106,12 @@ class GrblBoard:
             return
         if line == "$X":
             self.alarm = False
-        for word, output, on in (("M3", "spindle", True), ("M5", "spindle", False), ("M8", "coolant", True), ("M9", "coolant", False)):
+        for word, output, on in (
+            ("M3", "spindle", True),
+            ("M5", "spindle", False),
+            ("M8", "coolant", True),
+            ("M9", "coolant", False),
+        ):
             if line == word or line.startswith(word + " "):
                 self._switch(output, on)
         if self._is("alarm") and "G1" in line:
@@ -130,7 +135,9 @@ class GrblBoard:
 def rig_with(board, frames, rig_text):
     """A rig.toml whose table and lights are outputs of the board and whose camera replays the frames of a scan."""
     head = rig_text.split("[devices.camera]")[0]
-    return head + f"""[devices.camera]
+    return (
+        head
+        + f"""[devices.camera]
 driver = "folder"
 folder = "{frames}"
 
@@ -159,3 +166,4 @@ home = "here"
 units_per_degree = 1
 speed_deg_per_s = 360
 """
+    )

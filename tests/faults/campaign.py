@@ -48,7 +48,9 @@ class Campaign:
     def digest(self, scan):
         """A hash of all frames and of the mesh."""
         mesh = scan.parent / "mesh.ply"
-        subprocess.run([self.program, "--quiet", "reconstruct", scan, "-o", mesh], check=True, stderr=subprocess.DEVNULL)
+        subprocess.run(
+            [self.program, "--quiet", "reconstruct", scan, "-o", mesh], check=True, stderr=subprocess.DEVNULL
+        )
         found = hashlib.sha256(mesh.read_bytes())
         for frame in sorted(scan.rglob("*.png")):
             found.update(str(frame.relative_to(scan)).encode() + frame.read_bytes())

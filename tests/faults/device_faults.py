@@ -10,8 +10,11 @@ MAX_END_S = 5.0
 
 
 def run(campaign):
-    answer = Answer("device_faults", "a GRBL board on a pseudo-terminal is " + ", ".join(FAULTS) + " from a random command on",
-                    campaign.count(len(FAULTS), 108))
+    answer = Answer(
+        "device_faults",
+        "a GRBL board on a pseudo-terminal is " + ", ".join(FAULTS) + " from a random command on",
+        campaign.count(len(FAULTS), 108),
+    )
     frames = campaign.fresh("replayed")
     subprocess.run(campaign.scan_command(frames), check=True)
     slowest = 0.0

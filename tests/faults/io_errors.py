@@ -8,8 +8,11 @@ CALLS = {"write,writev": 60, "fsync": 20, "fdatasync": 20, "rename": 20, "mkdir"
 
 
 def run(campaign):
-    answer = Answer("io_errors", "a write, sync, rename or mkdir of `scan` fails (I/O error, disk full), then finished",
-                    campaign.count(4, 120))
+    answer = Answer(
+        "io_errors",
+        "a write, sync, rename or mkdir of `scan` fails (I/O error, disk full), then finished",
+        campaign.count(4, 120),
+    )
     if not shutil.which("strace"):
         raise SystemExit("faults: io_errors needs strace; install it")
     for i in range(answer.tried):
@@ -18,8 +21,23 @@ def run(campaign):
         error, repeat = (("EIO", ""), ("ENOSPC", "+"))[i % 2]
         scan = campaign.fresh("failing")
         what = f"{call} {when}{repeat} fails with {error}"
-        result = subprocess.run(["strace", "-f", "-qq", "-e", "trace=none", "-e", f"inject={call}:error={error}:when={when}{repeat}",
-                                 "-o", "/dev/null", *campaign.scan_command(scan)], capture_output=True, text=True, timeout=60)
+        result = subprocess.run(
+            [
+                "strace",
+                "-f",
+                "-qq",
+                "-e",
+                "trace=none",
+                "-e",
+                f"inject={call}:error={error}:when={when}{repeat}",
+                "-o",
+                "/dev/null",
+                *campaign.scan_command(scan),
+            ],
+            capture_output=True,
+            text=True,
+            timeout=60,
+        )
         if result.returncode < 0 or result.returncode > 128:
             answer.failures.append(f"{what}: crashed with {result.returncode}: {result.stderr.strip()}")
         if result.returncode == 0 and not (scan / "scan.toml").exists():

@@ -33,19 +33,32 @@ SLOWDOWN = float(os.environ.get("FRANGIA_SLOWDOWN", "1"))  # of programs with sa
 MAX_SECONDS = 5 * SLOWDOWN
 EXIT_CODES = {0, 1, 2, 3, 4, 5}
 MESHES = ["3mf", "dxf", "glb", "gltf", "obj", "off", "pcd", "ply", "stl", "xyz"]
-NUMBERS = [b"-1", b"0", b"1e300", b"-1e300", b"nan", b"inf", b"0.5", b"4294967296", b"2147483648",
-           b"9223372036854775807", b"18446744073709551615", b"9000000000000000000", b"1e-300"]
+NUMBERS = [
+    b"-1",
+    b"0",
+    b"1e300",
+    b"-1e300",
+    b"nan",
+    b"inf",
+    b"0.5",
+    b"4294967296",
+    b"2147483648",
+    b"9223372036854775807",
+    b"18446744073709551615",
+    b"9000000000000000000",
+    b"1e-300",
+]
 
 
 class Case:
     """A sample file and the commands that read it."""
 
     def __init__(self, name, sample, place, commands, folder=None):
-        self.name = name          # for the report
-        self.sample = sample      # bytes
-        self.place = place        # path of the file, relative to the folder of the run
+        self.name = name  # for the report
+        self.sample = sample  # bytes
+        self.place = place  # path of the file, relative to the folder of the run
         self.commands = commands  # lists of arguments
-        self.folder = folder      # files that the folder of the run also holds
+        self.folder = folder  # files that the folder of the run also holds
 
 
 def flip_bits(data, chance):
@@ -57,7 +70,7 @@ def flip_bits(data, chance):
 
 
 def truncate(data, chance):
-    return data[:chance.randrange(len(data) + 1)]
+    return data[: chance.randrange(len(data) + 1)]
 
 
 def splice(data, chance):
@@ -68,7 +81,7 @@ def splice(data, chance):
 
 def repeat(data, chance):
     begin = chance.randrange(len(data) + 1)
-    part = data[begin:begin + chance.choice([1, 4, 16, 64])]
+    part = data[begin : begin + chance.choice([1, 4, 16, 64])]
     return data[:begin] + part * chance.choice([10, 1000, 20000]) + data[begin:]
 
 
@@ -77,7 +90,7 @@ def swap_number(data, chance):
     if not numbers:
         return flip_bits(data, chance)
     found = chance.choice(numbers)
-    return data[:found.start()] + chance.choice(NUMBERS) + data[found.end():]
+    return data[: found.start()] + chance.choice(NUMBERS) + data[found.end() :]
 
 
 def swap_word(data, chance):
@@ -86,17 +99,16 @@ def swap_word(data, chance):
         return flip_bits(data, chance)
     at = 4 * chance.randrange(len(data) // 4)
     word = chance.choice([b"\xff" * 4, b"\0" * 4, b"\xff\xff\xff\x7f", b"\0\0\0\x80", b"\0\0\x80\x7f"])
-    return data[:at] + word + data[at + 4:]
+    return data[:at] + word + data[at + 4 :]
 
 
 def insert_odd_text(data, chance):
     at = chance.randrange(len(data) + 1)
-    odd = chance.choice([b"\x1b[31m", b"\xff\xfe", b"\0", b"\xe2\x80\xae", b"\r\n\n", b"%s%n", b"\""])
+    odd = chance.choice([b"\x1b[31m", b"\xff\xfe", b"\0", b"\xe2\x80\xae", b"\r\n\n", b"%s%n", b'"'])
     return data[:at] + odd + data[at:]
 
 
-MUTATIONS = [flip_bits, flip_bits, truncate, splice, repeat, swap_number, swap_number, swap_word,
-             insert_odd_text]
+MUTATIONS = [flip_bits, flip_bits, truncate, splice, repeat, swap_number, swap_number, swap_word, insert_odd_text]
 
 
 def mutate(data, chance):
@@ -107,8 +119,10 @@ def mutate(data, chance):
 
 def sheet_ply(side):
     """A wavy sheet of side x side points as an ascii PLY."""
-    header = ("ply\nformat ascii 1.0\nelement vertex {}\nproperty float x\nproperty float y\nproperty float z\n"
-              "element face {}\nproperty list uchar int vertex_indices\nend_header\n")
+    header = (
+        "ply\nformat ascii 1.0\nelement vertex {}\nproperty float x\nproperty float y\nproperty float z\n"
+        "element face {}\nproperty list uchar int vertex_indices\nend_header\n"
+    )
     points = [f"{x} {y} {x * y % 7 / 10}\n" for y in range(side) for x in range(side)]
     corners = [y * side + x for y in range(side - 1) for x in range(side - 1)]
     faces = [f"3 {i} {i + 1} {i + side}\n3 {i + 1} {i + side + 1} {i + side}\n" for i in corners]
@@ -117,32 +131,41 @@ def sheet_ply(side):
 
 def sample_files(program, folder):
     """Meshes of every format and a scan, written by the program."""
+
     def run(*arguments):
         subprocess.run([program, "--quiet", *arguments], check=True, stdout=subprocess.DEVNULL)
+
     run("simulate", "plate", "--rig", str(SMALL_RIG), "--views", "2", "-o", str(folder / "scan"))
     (folder / "scan" / "truth.ply").unlink()
     (folder / "a.ply").write_text(sheet_ply(12))
-    outputs = [argument for kind in MESHES if kind != "ply"
-               for argument in ("-o", str(folder / f"a.{kind}"))]
+    outputs = [argument for kind in MESHES if kind != "ply" for argument in ("-o", str(folder / f"a.{kind}"))]
     run("edit", str(folder / "a.ply"), *outputs)
 
 
 def all_cases(program, folder):
     sample_files(program, folder)
     cases = []
-    mesh_commands = [["edit", "FILE", "--list"],
-                     ["edit", "FILE", "--fill-holes", "10", "--orient", "-o", "out.stl"],
-                     ["inspect", "FILE", "--reference", "FILE"]]
+    mesh_commands = [
+        ["edit", "FILE", "--list"],
+        ["edit", "FILE", "--fill-holes", "10", "--orient", "-o", "out.stl"],
+        ["inspect", "FILE", "--reference", "FILE"],
+    ]
     for kind in MESHES:
         files = [folder / f"a.{kind}", *sorted((SEEDS / kind).iterdir())]
         cases += [Case(kind, file.read_bytes(), f"in.{kind}", mesh_commands) for file in files]
     scan = folder / "scan"
     frame = sorted(scan.glob("views/000/*.png"))[0]
     for name in ["scan.toml", "rig.toml", str(frame.relative_to(scan))]:
-        commands = [["decode", "scan", "--view", "0", "-o", "stages"],
-                    ["reconstruct", "scan", "-o", "out.stl"]]
-        cases.append(Case(name.split(".")[-1] if name.endswith("png") else name,
-                          (scan / name).read_bytes(), "scan/" + name, commands, scan))
+        commands = [["decode", "scan", "--view", "0", "-o", "stages"], ["reconstruct", "scan", "-o", "out.stl"]]
+        cases.append(
+            Case(
+                name.split(".")[-1] if name.endswith("png") else name,
+                (scan / name).read_bytes(),
+                "scan/" + name,
+                commands,
+                scan,
+            )
+        )
     merge = ["merge", "FILE", "-o", "out.stl"]
     for file in sorted((SEEDS / "range").iterdir()):
         cases.append(Case("range", file.read_bytes(), "in.ply", [merge, ["merge", "FILE", "FILE", "-o", "out.stl"]]))
@@ -151,15 +174,36 @@ def all_cases(program, folder):
     cases.append(Case("conf", conf, "in.conf", [merge], folder / "a.ply"))
     script = b"""{"format": "frangia-edits", "version": 1, "done": 2, "steps": [
  {"operation": "fill-holes", "value": "10mm"}, {"operation": "orient"}, {"operation": "decimate", "value": "50"}]}"""
-    cases.append(Case("script", script, "in.json", [["edit", "a.ply", "--script", "FILE", "-o", "out.stl"]],
-                      folder / "a.ply"))
-    cases.append(Case("rig", SMALL_RIG.read_bytes(), "in.toml",
-                      [["plan", "--rig", "FILE"], ["devices", "FILE", "--no-search"],
-                       ["simulate", "plate", "--rig", "FILE", "--views", "1", "-o", "out"]]))
+    cases.append(
+        Case("script", script, "in.json", [["edit", "a.ply", "--script", "FILE", "-o", "out.stl"]], folder / "a.ply")
+    )
+    cases.append(
+        Case(
+            "rig",
+            SMALL_RIG.read_bytes(),
+            "in.toml",
+            [
+                ["plan", "--rig", "FILE"],
+                ["devices", "FILE", "--no-search"],
+                ["simulate", "plate", "--rig", "FILE", "--views", "1", "-o", "out"],
+            ],
+        )
+    )
     manifest = (SEEDS / "manifest" / "capture.txt").read_bytes()
-    cases.append(Case("manifest", manifest, "scan/capture/manifest.txt",
-                      [["reconstruct", "scan", "-o", "out.stl"]], scan))
-    foreign = ["calibrate", "import", "FILE", "--camera-size", "1280,1024", "--projector-size", "1280,800", "-o", "rig.toml"]
+    cases.append(
+        Case("manifest", manifest, "scan/capture/manifest.txt", [["reconstruct", "scan", "-o", "out.stl"]], scan)
+    )
+    foreign = [
+        "calibrate",
+        "import",
+        "FILE",
+        "--camera-size",
+        "1280,1024",
+        "--projector-size",
+        "1280,800",
+        "-o",
+        "rig.toml",
+    ]
     for file in sorted(CALIBRATIONS.iterdir()):
         cases.append(Case("calibration", file.read_bytes(), "in" + file.suffix, [foreign]))
     return cases
@@ -177,14 +221,19 @@ def is_plain(output):
         text = output.decode()
     except UnicodeDecodeError:
         return False
-    return not any(ord(c) < 32 and c != "\n" or 127 <= ord(c) < 160 or c in "\u202a\u202b\u202d\u202e"
-                   for c in text)
+    return not any(ord(c) < 32 and c != "\n" or 127 <= ord(c) < 160 or c in "\u202a\u202b\u202d\u202e" for c in text)
 
 
 def fault_of(program, command, folder, stretch):
     """What is wrong with a run; None when nothing is."""
-    process = subprocess.Popen([program, *command], cwd=folder, stdin=subprocess.DEVNULL,
-                               stdout=subprocess.PIPE, stderr=subprocess.STDOUT, preexec_fn=limit)
+    process = subprocess.Popen(
+        [program, *command],
+        cwd=folder,
+        stdin=subprocess.DEVNULL,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        preexec_fn=limit,
+    )
     try:
         output, _ = process.communicate(timeout=MAX_SECONDS * stretch)
     except subprocess.TimeoutExpired:
@@ -234,8 +283,9 @@ def main():
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--keep", type=pathlib.Path)
     parser.add_argument("--jobs", type=int, default=os.cpu_count())
-    parser.add_argument("--stretch", type=float, default=1.0,
-                        help="factor of the time limit, on a machine that does other work")
+    parser.add_argument(
+        "--stretch", type=float, default=1.0, help="factor of the time limit, on a machine that does other work"
+    )
     arguments = parser.parse_args()
     program = str(arguments.program.resolve())
     with tempfile.TemporaryDirectory(prefix="frangia-samples-") as name:
@@ -243,8 +293,11 @@ def main():
         chance = random.Random(arguments.seed)
         runs = [(chance.choice(cases), arguments.seed * 1_000_000 + i) for i in range(arguments.count)]
         with concurrent.futures.ThreadPoolExecutor(arguments.jobs) as pool:
-            faults = [fault for fault in pool.map(
-                lambda run: run_one(program, *run, arguments.keep, arguments.stretch), runs) if fault]
+            faults = [
+                fault
+                for fault in pool.map(lambda run: run_one(program, *run, arguments.keep, arguments.stretch), runs)
+                if fault
+            ]
     for fault in faults:
         print(fault)
     print(f"{arguments.count} mutated inputs, {len(faults)} faults")

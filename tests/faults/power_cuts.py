@@ -6,8 +6,11 @@ from campaign import Answer, acknowledged_frames, count_lost
 
 
 def run(campaign):
-    answer = Answer("power_cuts", "power cut at random writes of `scan` (ordered and reordered disks), then finished",
-                    campaign.count(4, 300))
+    answer = Answer(
+        "power_cuts",
+        "power cut at random writes of `scan` (ordered and reordered disks), then finished",
+        campaign.count(4, 300),
+    )
     if not shutil.which("strace"):
         raise SystemExit("faults: power_cuts needs strace; install it")
     scan = campaign.fresh("recorded")

@@ -7,7 +7,18 @@ import time
 from boards import GrblBoard, rig_with
 from campaign import RIG, Answer
 
-SIGNALS = ("SIGINT", "SIGTERM", "SIGHUP", "SIGQUIT", "SIGPIPE", "SIGSEGV", "SIGABRT", "SIGKILL", "SIGINT twice", "reader ends")
+SIGNALS = (
+    "SIGINT",
+    "SIGTERM",
+    "SIGHUP",
+    "SIGQUIT",
+    "SIGPIPE",
+    "SIGSEGV",
+    "SIGABRT",
+    "SIGKILL",
+    "SIGINT twice",
+    "reader ends",
+)
 SLOWDOWN = float(os.environ.get("FRANGIA_SLOWDOWN", "1"))  # of programs with sanitizers
 MAX_DARK_S = 0.5 * SLOWDOWN
 MAX_END_S = 5.0 * SLOWDOWN
@@ -26,8 +37,11 @@ def interrupt(process, name):
 
 def run(campaign):
     per_signal = campaign.count(1, 50)
-    answer = Answer("signals", "each of " + ", ".join(SIGNALS) + " at random moments of `scan` over a GRBL board on a pseudo-terminal",
-                    per_signal * len(SIGNALS))
+    answer = Answer(
+        "signals",
+        "each of " + ", ".join(SIGNALS) + " at random moments of `scan` over a GRBL board on a pseudo-terminal",
+        per_signal * len(SIGNALS),
+    )
     frames = campaign.fresh("replayed")
     subprocess.run(campaign.scan_command(frames), check=True)
     slowest = 0.0
@@ -38,7 +52,9 @@ def run(campaign):
             rig = frames.parent / f"rig-{name.replace(' ', '-')}-{i}.toml"
             rig.write_text(rig_with(board, frames, RIG.read_text()))
             scan = campaign.fresh("signalled")
-            process = subprocess.Popen(campaign.scan_command(scan, rig), stderr=subprocess.PIPE, stdout=subprocess.DEVNULL)
+            process = subprocess.Popen(
+                campaign.scan_command(scan, rig), stderr=subprocess.PIPE, stdout=subprocess.DEVNULL
+            )
             wait_for_light(board, process)
             time.sleep(campaign.random.uniform(0.0, 0.3))
             begin = time.monotonic()

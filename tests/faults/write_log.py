@@ -19,8 +19,12 @@ def unescape(text):
 def record(command, log):
     """Runs a command under strace; returns its exit code. The search for leaks does not work under it."""
     environment = {**os.environ, "ASAN_OPTIONS": "detect_leaks=0"}
-    return subprocess.run(["strace", "-f", "-y", "-qq", "-xx", "-s", "4000000", "-e", f"trace={CALLS}", "-o", log, *command],
-                          stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, env=environment).returncode
+    return subprocess.run(
+        ["strace", "-f", "-y", "-qq", "-xx", "-s", "4000000", "-e", f"trace={CALLS}", "-o", log, *command],
+        stdout=subprocess.DEVNULL,
+        stderr=subprocess.DEVNULL,
+        env=environment,
+    ).returncode
 
 
 def joined_lines(log):
@@ -44,7 +48,7 @@ def operations(log, folder):
 
     def inside(path):
         path = path.replace(b"//", b"/")
-        return path[len(root):] if path.startswith(root) else b"" if path + b"/" == root else None
+        return path[len(root) :] if path.startswith(root) else b"" if path + b"/" == root else None
 
     for call in joined_lines(log):
         name = call.split("(", 1)[0]
@@ -112,11 +116,11 @@ class Disk:
                 self.content[self.names[path]] = bytearray()
         elif kind == "truncate" and path in self.names:
             data = self.content[self.names[path]]
-            del data[operation[2]:]
+            del data[operation[2] :]
         elif kind == "write" and self.names.get(path) is not None:
             data, offset = self.content[self.names[path]], operation[2]
             data.extend(bytes(max(0, offset + len(operation[3]) - len(data))))
-            data[offset:offset + len(operation[3])] = operation[3]
+            data[offset : offset + len(operation[3])] = operation[3]
         elif kind == "mkdir":
             self._name(path, None)
         elif kind == "unlink" and path in self.names:
@@ -124,7 +128,7 @@ class Disk:
             del self.names[path]
         elif kind == "rename" and path in self.names:
             target = operation[2]
-            moved = {old: target + old[len(path):] for old in self.names if old == path or old.startswith(path + b"/")}
+            moved = {old: target + old[len(path) :] for old in self.names if old == path or old.startswith(path + b"/")}
             self.pending.append(({moved[old]: self.names[old] for old in moved}, set(moved)))
             for old, new in moved.items():
                 self.names[new] = self.names.pop(old)
@@ -132,7 +136,11 @@ class Disk:
             if self.names.get(path) is not None:
                 self.synced[self.names[path]] = bytes(self.content[self.names[path]])
             else:  # a folder: its names are certain
-                self.pending = [change for change in self.pending if not any(parent(p) == path for p in change[0] | dict.fromkeys(change[1]))]
+                self.pending = [
+                    change
+                    for change in self.pending
+                    if not any(parent(p) == path for p in change[0] | dict.fromkeys(change[1]))
+                ]
 
     def _name(self, path, file):
         self.names[path] = file
@@ -153,8 +161,11 @@ class Disk:
                     for old, new in zip(sorted(removed), sorted(added)):
                         if new in before:
                             names[old] = before[new]
-            names = {path: file for path, file in names.items()
-                     if all(path[:i] in names for i in range(len(path)) if path[i:i + 1] == b"/")}
+            names = {
+                path: file
+                for path, file in names.items()
+                if all(path[:i] in names for i in range(len(path)) if path[i : i + 1] == b"/")
+            }
         folder.mkdir(parents=True, exist_ok=True)
         for path, file in sorted(names.items()):
             target = folder / path.decode()

@@ -78,12 +78,14 @@ def schema(name):
 @functools.cache
 def verbs():
     """The names of all verbs, of those with verbs of their own the latter: `calibrate-rig`."""
+
     def below(words):
         text = subprocess.run([PROGRAM, *words, "--help"], capture_output=True, text=True, check=True).stdout
         if "Subcommands:" not in text:
             return ["-".join(words)]
         names = re.findall(r"^  ([a-z]+) ", text.split("Subcommands:")[1], re.MULTILINE)
         return [leaf for name in names for leaf in below([*words, name])]
+
     return below([])
 
 
@@ -104,13 +106,16 @@ class Answers(unittest.TestCase):
 
     @classmethod
     def run_quietly(cls, *arguments):
-        subprocess.run([PROGRAM, "--quiet", *map(str, arguments)], cwd=cls.folder, check=True, stderr=subprocess.DEVNULL)
+        subprocess.run(
+            [PROGRAM, "--quiet", *map(str, arguments)], cwd=cls.folder, check=True, stderr=subprocess.DEVNULL
+        )
 
     def answer(self, *arguments, code=0, verb=None, **keywords):
         """The answer, which is one JSON document that follows the schema of the verb."""
         verb = verb or arguments[0]
-        done = subprocess.run([PROGRAM, "--json", *map(str, arguments)], cwd=self.folder, capture_output=True, text=True,
-                              **keywords)
+        done = subprocess.run(
+            [PROGRAM, "--json", *map(str, arguments)], cwd=self.folder, capture_output=True, text=True, **keywords
+        )
         self.assertEqual(done.returncode, code, f"{arguments}: {done.stderr}")
         parsed = json.loads(done.stdout)
         jsonschema.Draft202012Validator(schema(verb)).validate(parsed)
@@ -130,13 +135,16 @@ class Answers(unittest.TestCase):
         self.answer("batch", "scans", "-o", "batch", "--task", "0")
         self.answer("batch", "scans", "-o", "batch")
         self.answer("reconstruct", "other", "-o", "other.ply")
-        self.answer("import", "scan/views/000", "-o", "imported", "--patterns", "scan/scan.toml", "--rig", "rig.toml", "--yes")
+        self.answer(
+            "import", "scan/views/000", "-o", "imported", "--patterns", "scan/scan.toml", "--rig", "rig.toml", "--yes"
+        )
 
     def test_acceptance(self):
         (self.folder / "ball-rig.toml").write_text(rig_text("ball-bar"))
         (self.folder / "acceptance.toml").write_text(
             'format = "frangia-acceptance"\nversion = 1\nsource = "devices"\nrig = "ball-rig.toml"\nviews = 3\n'
-            '[artifact]\ndiameters_mm = [40.0]\nu95_mm = 0.001\n[limits]\nprobing_size_mm = 0.0001\n')
+            "[artifact]\ndiameters_mm = [40.0]\nu95_mm = 0.001\n[limits]\nprobing_size_mm = 0.0001\n"
+        )
         test = ("accept", "acceptance.toml", "-o", "acceptance", "--fail-out-of-tolerance")
         self.answer(*test, code=1, input="\n\n\n")  # a limit that this rig does not keep
         self.assertTrue((self.folder / "acceptance" / "certificate.html").exists())
@@ -155,9 +163,21 @@ class Answers(unittest.TestCase):
         self.answer("edit", "mesh.ply", "--select-plane", "0,0,1,20mm", "--delete", "--preview", "look.png")
         self.answer("picture", "mesh.ply", "--width", "200", "--height", "150", "-o", "picture.png")
         self.answer("merge", "mesh.ply", "mesh.ply", "-o", "merged.ply", "--voxel", "2mm")
-        self.answer("inspect", "mesh.ply", "--reference", "scan/truth.ply", "--features", "--section", "z=20", "--thickness")
-        self.answer("inspect", "mesh.ply", "--reference", "scan/truth.ply", "--align", "best-fit", "--tolerance", "0.5,0.6",
-                    "--fail-out-of-tolerance", code=1)
+        self.answer(
+            "inspect", "mesh.ply", "--reference", "scan/truth.ply", "--features", "--section", "z=20", "--thickness"
+        )
+        self.answer(
+            "inspect",
+            "mesh.ply",
+            "--reference",
+            "scan/truth.ply",
+            "--align",
+            "best-fit",
+            "--tolerance",
+            "0.5,0.6",
+            "--fail-out-of-tolerance",
+            code=1,
+        )
 
     def test_devices(self):
         (self.folder / "devices.toml").write_text(rig_text("plate"))
@@ -166,11 +186,29 @@ class Answers(unittest.TestCase):
         faults = self.answer("devices", "broken.toml", "--no-search", code=4)
         self.assertIn("absent", faults["rig"][1]["fault"])
         self.answer("scan", "devices.toml", "-o", "captured", "--views", "1", "--periods", "1280,160")
-        self.answer("calibrate", "piezo", SOURCE / "examples/simulated-interferometer.toml", "--steps", "9", verb="calibrate-piezo")
+        self.answer(
+            "calibrate",
+            "piezo",
+            SOURCE / "examples/simulated-interferometer.toml",
+            "--steps",
+            "9",
+            verb="calibrate-piezo",
+        )
         (self.folder / "truth.toml").write_text(rig_text())
         (self.folder / "maker.toml").write_text(MAKER)
-        self.answer("calibrate", "capture", "maker.toml", "-o", "poses", "--square", "14mm", "--poses", "4",
-                    verb="calibrate-capture", input="\n\n\n\n\n")
+        self.answer(
+            "calibrate",
+            "capture",
+            "maker.toml",
+            "-o",
+            "poses",
+            "--square",
+            "14mm",
+            "--poses",
+            "4",
+            verb="calibrate-capture",
+            input="\n\n\n\n\n",
+        )
         self.answer("calibrate", "rig", "poses", "-o", "calibrated.toml", verb="calibrate-rig")
 
     def test_rigs(self):
@@ -181,9 +219,21 @@ class Answers(unittest.TestCase):
         self.answer("calibrate", "check", "rig.toml", "scan", verb="calibrate-check")
         self.run_quietly("simulate", "plate", "--rig", "rig.toml", "--views", "1", "--ramp", "16", "-o", "ramp")
         self.answer("response", "ramp", "-o", "response.toml")
-        self.run_quietly("simulate", "--calibration", "checkerboard", "--on-turntable", "--rig", "rig.toml", "--views", "4", "-o",
-                         "turning")
-        self.answer("calibrate", "turntable", "turning", "--rig", "rig.toml", "-o", "turned.toml", verb="calibrate-turntable")
+        self.run_quietly(
+            "simulate",
+            "--calibration",
+            "checkerboard",
+            "--on-turntable",
+            "--rig",
+            "rig.toml",
+            "--views",
+            "4",
+            "-o",
+            "turning",
+        )
+        self.answer(
+            "calibrate", "turntable", "turning", "--rig", "rig.toml", "-o", "turned.toml", verb="calibrate-turntable"
+        )
 
     @unittest.skipUnless("--demo" in sys.argv, "a demo takes a minute")
     def test_demo(self):
@@ -196,8 +246,13 @@ class Answers(unittest.TestCase):
         self.answer("plan", "--rig", "angular")
 
     def test_serve(self):
-        server = subprocess.Popen([PROGRAM, "--json", "serve", "--port", "0", "--projects", "projects"], cwd=self.folder,
-                                  stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
+        server = subprocess.Popen(
+            [PROGRAM, "--json", "serve", "--port", "0", "--projects", "projects"],
+            cwd=self.folder,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.DEVNULL,
+            text=True,
+        )
         text = ""
         for line in server.stdout:
             text += line
@@ -210,14 +265,25 @@ class Answers(unittest.TestCase):
 
     def test_errors(self):
         (self.folder / "unplugged.toml").write_text(
-            rig_text("plate").replace('[devices.turntable]\ndriver = "simulated"',
-                                      '[devices.turntable]\ndriver = "grbl"\nport = "/dev/nothing-there"'))
-        for code, kind, arguments in [(2, "usage", ["fly"]), (2, "usage", ["reconstruct", "--no-such"]),
-                                      (3, "input", ["reconstruct", "nowhere", "-o", "a.ply"]),
-                                      (3, "file", ["reconstruct", "scan", "-o", "nowhere/a.ply"]),
-                                      (4, "device", ["scan", "unplugged.toml", "-o", "nothing"])]:
-            done = subprocess.run([PROGRAM, "--json", *arguments], cwd=self.folder, capture_output=True, text=True,
-                                  env={"PATH": "/nonexistent"})
+            rig_text("plate").replace(
+                '[devices.turntable]\ndriver = "simulated"',
+                '[devices.turntable]\ndriver = "grbl"\nport = "/dev/nothing-there"',
+            )
+        )
+        for code, kind, arguments in [
+            (2, "usage", ["fly"]),
+            (2, "usage", ["reconstruct", "--no-such"]),
+            (3, "input", ["reconstruct", "nowhere", "-o", "a.ply"]),
+            (3, "file", ["reconstruct", "scan", "-o", "nowhere/a.ply"]),
+            (4, "device", ["scan", "unplugged.toml", "-o", "nothing"]),
+        ]:
+            done = subprocess.run(
+                [PROGRAM, "--json", *arguments],
+                cwd=self.folder,
+                capture_output=True,
+                text=True,
+                env={"PATH": "/nonexistent"},
+            )
             self.assertEqual(done.returncode, code, done.stderr)
             error = json.loads(done.stdout)
             jsonschema.Draft202012Validator(schema("error")).validate(error)
@@ -237,11 +303,14 @@ class Schemas(unittest.TestCase):
             if not isinstance(node, dict):
                 return
             for name, property in node.get("properties", {}).items():
-                self.assertTrue(property is False or "description" in property or "$ref" in property, f"{where}: {name}")
+                self.assertTrue(
+                    property is False or "description" in property or "$ref" in property, f"{where}: {name}"
+                )
             if "properties" in node:
                 self.assertIn("additionalProperties", node, where)
             for value in node.values():
                 visit(value, where)
+
         for path in SCHEMAS.glob("*.schema.json"):
             parsed = json.loads(path.read_text())
             jsonschema.Draft202012Validator.check_schema(parsed)
@@ -261,5 +330,7 @@ class Coverage(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    suite = unittest.TestSuite(unittest.defaultTestLoader.loadTestsFromTestCase(case) for case in (Answers, Schemas, Coverage))
+    suite = unittest.TestSuite(
+        unittest.defaultTestLoader.loadTestsFromTestCase(case) for case in (Answers, Schemas, Coverage)
+    )
     sys.exit(not unittest.TextTestRunner().run(suite).wasSuccessful())

@@ -21,7 +21,9 @@ class Notebooks(unittest.TestCase):
         for path in paths:
             with self.subTest(path.name):
                 notebook = nbformat.read(path, 4)
-                NotebookClient(notebook, timeout=120, record_timing=False, resources={"metadata": {"path": FOLDER}}).execute()
+                NotebookClient(
+                    notebook, timeout=120, record_timing=False, resources={"metadata": {"path": FOLDER}}
+                ).execute()
                 outputs = [o for cell in notebook.cells if cell.cell_type == "code" for o in cell.outputs]
                 self.assertFalse([o for o in outputs if o.get("name") == "stderr" and "Warning" in o.text], path.name)
                 self.assertTrue([o for o in outputs if "image/png" in o.get("data", {})], path.name)

@@ -40,8 +40,11 @@ def run_page(page, environment):
 
 
 def main(program, python_path, source, *pages):
-    environment = dict(os.environ, PYTHONPATH=str(pathlib.Path(python_path).resolve()),
-                       PATH=f"{pathlib.Path(program).resolve().parent}:{os.environ['PATH']}")
+    environment = dict(
+        os.environ,
+        PYTHONPATH=str(pathlib.Path(python_path).resolve()),
+        PATH=f"{pathlib.Path(program).resolve().parent}:{os.environ['PATH']}",
+    )
     for page in sorted((pathlib.Path(source) / "docs" / "tutorials").glob("*.md")):
         if pages and page.stem not in pages:
             continue

@@ -33,20 +33,51 @@ class Pip(unittest.TestCase):
         environment["PATH"] = f"{home / 'bin'}:{os.environ['PATH']}"
 
         def run(*command):
-            return subprocess.run(command, env=environment, cwd=self.folder, capture_output=True, text=True, check=True).stdout
-        run(home / "bin" / "python3", "-m", "pip", "install", "--no-index", "--no-deps", "--ignore-installed", self.folder / name)
+            return subprocess.run(
+                command, env=environment, cwd=self.folder, capture_output=True, text=True, check=True
+            ).stdout
+
+        run(
+            home / "bin" / "python3",
+            "-m",
+            "pip",
+            "install",
+            "--no-index",
+            "--no-deps",
+            "--ignore-installed",
+            self.folder / name,
+        )
         program = home / "bin" / "frangia"
         self.assertEqual(run(program, "--version").strip(), pip_backend.version())
         self.assertIn("serve", run(program, "--help"))
-        run(program, "--quiet", "simulate", "plate", "--views", "1", "--rig", SOURCE / "tests/data/small-interferometer.toml", "-o",
-            "scan")
-        shown = run(home / "bin" / "python3", "-c", "import frangia; print(frangia.__file__); "
-                    "print(frangia.decode(frangia.read_scan('scan'), 0).phase.phase.shape)")
+        run(
+            program,
+            "--quiet",
+            "simulate",
+            "plate",
+            "--views",
+            "1",
+            "--rig",
+            SOURCE / "tests/data/small-interferometer.toml",
+            "-o",
+            "scan",
+        )
+        shown = run(
+            home / "bin" / "python3",
+            "-c",
+            "import frangia; print(frangia.__file__); "
+            "print(frangia.decode(frangia.read_scan('scan'), 0).phase.phase.shape)",
+        )
         self.assertTrue(shown.startswith(str(home)), shown)
         about = run(home / "bin" / "python3", "-m", "pip", "show", "--files", "frangia")
         self.assertRegex(about, r"bin/frangia")
-        self.assertNotEqual(re.findall(r"Requires-External: libembree", pip_backend.metadata(
-            pip_backend.libraries_of([TREE / "bin" / "frangia"])).decode()), [])
+        self.assertNotEqual(
+            re.findall(
+                r"Requires-External: libembree",
+                pip_backend.metadata(pip_backend.libraries_of([TREE / "bin" / "frangia"])).decode(),
+            ),
+            [],
+        )
 
     def test_the_source_distribution_holds_the_sources_and_the_front_end(self):
         name = pip_backend.build_sdist(self.folder)

@@ -30,8 +30,9 @@ def main():
         print(f"{name}, projectPoints: point, pixel")
         for point, pixel in zip(points, pixels):
             print("    {{%g, %g, %g}, {%.17g, %.17g}}," % (*point, *pixel))
-        rays = cv2.undistortPointsIter(np.array(PIXELS).reshape(-1, 1, 2), MATRIX, distortion, None, None,
-                                       CRITERIA).reshape(-1, 2)
+        rays = cv2.undistortPointsIter(
+            np.array(PIXELS).reshape(-1, 1, 2), MATRIX, distortion, None, None, CRITERIA
+        ).reshape(-1, 2)
         print(f"{name}, undistortPoints: pixel, ray")
         for pixel, ray in zip(PIXELS, rays):
             print("    {{%g, %g}, {%.17g, %.17g}}," % (*pixel, *ray))

@@ -15,11 +15,45 @@ from page import write_section  # noqa: E402
 from study import ROOT, NotMeasured, Study  # noqa: E402
 
 # In the order in which they stand on their pages.
-SECTIONS = ["skull", "balls", "paper_block", "simulated", "sharp_edges", "misaligned_turntable", "large", "views",
-            "edits", "decimation", "calibration", "calibration_doctor", "calibration_angular", "maker_path",
-            "refine_rig", "captured_scan", "gige", "step_control", "polished_blade", "capture_overhead",
-            "import_frames", "batch", "file_readers", "harmonics", "indirect_light", "sequence_faults", "two_cameras",
-            "app", "features", "alignment", "deviation", "blade", "cad", "edit_pictures", "surface_pictures", "phase_plots", "sensitivity"]
+SECTIONS = [
+    "skull",
+    "balls",
+    "paper_block",
+    "simulated",
+    "sharp_edges",
+    "misaligned_turntable",
+    "large",
+    "views",
+    "edits",
+    "decimation",
+    "calibration",
+    "calibration_doctor",
+    "calibration_angular",
+    "maker_path",
+    "refine_rig",
+    "captured_scan",
+    "gige",
+    "step_control",
+    "polished_blade",
+    "capture_overhead",
+    "import_frames",
+    "batch",
+    "file_readers",
+    "harmonics",
+    "indirect_light",
+    "sequence_faults",
+    "two_cameras",
+    "app",
+    "features",
+    "alignment",
+    "deviation",
+    "blade",
+    "cad",
+    "edit_pictures",
+    "surface_pictures",
+    "phase_plots",
+    "sensitivity",
+]
 
 
 def measure(program, name):

@@ -36,8 +36,20 @@ def rendered(study, kind, poses, *options):
     """Poses of a board without noise in 16 bits, rendered once."""
     rig = study.work / "half-rig.toml"
     rig.write_text(HALF_RIG)
-    return study.made(f"{kind}-{poses}-exact", "simulate", "--calibration", kind, "--views", poses, "--rig", rig,
-                      "--no-noise", "--bits", 16, *options)
+    return study.made(
+        f"{kind}-{poses}-exact",
+        "simulate",
+        "--calibration",
+        kind,
+        "--views",
+        poses,
+        "--rig",
+        rig,
+        "--no-noise",
+        "--bits",
+        16,
+        *options,
+    )
 
 
 class Capture:
@@ -45,8 +57,10 @@ class Capture:
 
     def __init__(self, scan):
         self.scan = scan
-        self.frames = {path.relative_to(scan): cv2.imread(str(path), cv2.IMREAD_UNCHANGED).astype(numpy.float32) / 65535
-                       for path in sorted(scan.glob("views/*/*.png"))}
+        self.frames = {
+            path.relative_to(scan): cv2.imread(str(path), cv2.IMREAD_UNCHANGED).astype(numpy.float32) / 65535
+            for path in sorted(scan.glob("views/*/*.png"))
+        }
         self.text = {name: (scan / name).read_text() for name in ("scan.toml", "rig.toml")}
         self.text["rig.toml"] = self.text["rig.toml"].replace("white_level = 65535", "white_level = 255")
         self.truth = tomllib.loads((scan / "truth-rig.toml").read_text())
@@ -62,9 +76,9 @@ class Capture:
         random = numpy.random.default_rng(seed)
         for path, frame in frames.items():
             start = int(random.integers(0, self.noise.size - frame.size))
-            noise = self.noise[start:start + frame.size].reshape(frame.shape)
+            noise = self.noise[start : start + frame.size].reshape(frame.shape)
             electrons = numpy.maximum(frame, 0) * FULL_WELL_E
-            electrons += numpy.sqrt(electrons + READ_E ** 2) * noise
+            electrons += numpy.sqrt(electrons + READ_E**2) * noise
             image = numpy.clip(numpy.rint(electrons * (255 / FULL_WELL_E)), 0, 255).astype(numpy.uint8)
             (folder / path).parent.mkdir(parents=True, exist_ok=True)
             cv2.imwrite(str(folder / path), image, [cv2.IMWRITE_PNG_COMPRESSION, 0])

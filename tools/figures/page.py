@@ -25,7 +25,7 @@ def write_section(path, names, name, text):
             head += end(earlier[-1]) + "\n"
         else:
             first = [page.index(begin(other)) for other in names if begin(other) in page]
-            head, rest = (page[: min(first)], page[min(first):]) if first else (page, "")
+            head, rest = (page[: min(first)], page[min(first) :]) if first else (page, "")
         page = head.rstrip("\n") + "\n\n" + body + ("\n" + rest.lstrip("\n") if rest.strip() else "")
     temporary = path.with_suffix(".tmp")
     temporary.write_text(page)

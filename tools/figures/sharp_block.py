@@ -10,7 +10,9 @@ def write_box(path, half, height):
     quads = [(0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (1, 3, 7, 5), (3, 2, 6, 7), (2, 0, 4, 6)]
     faces = [(a, b, c) for a, b, c, _ in quads] + [(a, c, d) for a, _, c, d in quads]
     text = f"ply\nformat ascii 1.0\nelement vertex 8\nproperty float x\nproperty float y\nproperty float z\nelement face {len(faces)}\nproperty list uchar int vertex_indices\nend_header\n"
-    text += "".join("{} {} {}\n".format(*corner) for corner in corners) + "".join("3 {} {} {}\n".format(*face) for face in faces)
+    text += "".join("{} {} {}\n".format(*corner) for corner in corners) + "".join(
+        "3 {} {} {}\n".format(*face) for face in faces
+    )
     path.write_text(text)
 
 

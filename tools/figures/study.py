@@ -46,7 +46,9 @@ class Study:
 
     def run(self, *arguments):
         """The JSON answer of the program."""
-        result = subprocess.run([self.program, "--json", *map(str, arguments)], check=True, capture_output=True, text=True)
+        result = subprocess.run(
+            [self.program, "--json", *map(str, arguments)], check=True, capture_output=True, text=True
+        )
         return json.loads(result.stdout)
 
     def made(self, name, *arguments):
@@ -86,14 +88,18 @@ class Study:
 
     def build(self, *targets):
         """Builds what the section needs in addition to the program."""
-        subprocess.run(["cmake", "--preset", "release", "-DFRANGIA_BENCHMARKS=ON"], check=True, cwd=ROOT, stdout=subprocess.DEVNULL)
+        subprocess.run(
+            ["cmake", "--preset", "release", "-DFRANGIA_BENCHMARKS=ON"], check=True, cwd=ROOT, stdout=subprocess.DEVNULL
+        )
         subprocess.run(["cmake", "--build", "--preset", "release", "--target", *targets], check=True, cwd=ROOT)
 
     def tested(self, program, test):
         """The JSON that a test prints after the word FIGURE."""
-        result = subprocess.run([self.tests / program, f"--gtest_filter={test}"], check=True, capture_output=True, text=True)
+        result = subprocess.run(
+            [self.tests / program, f"--gtest_filter={test}"], check=True, capture_output=True, text=True
+        )
         line = next(line for line in result.stdout.splitlines() if line.startswith("FIGURE "))
-        return json.loads(line[len("FIGURE "):])
+        return json.loads(line[len("FIGURE ") :])
 
     def shared(self, name):
         """A scan of ../shared/scans."""

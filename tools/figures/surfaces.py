@@ -56,7 +56,10 @@ def box(p, low, high):
 
 
 def cylinder(p, x, y, radius, low, high):
-    q = numpy.stack([numpy.hypot(p[:, 0] - x, p[:, 1] - y) - radius, numpy.abs(p[:, 2] - (low + high) / 2) - (high - low) / 2], axis=1)
+    q = numpy.stack(
+        [numpy.hypot(p[:, 0] - x, p[:, 1] - y) - radius, numpy.abs(p[:, 2] - (low + high) / 2) - (high - low) / 2],
+        axis=1,
+    )
     return numpy.linalg.norm(numpy.maximum(q, 0), axis=1) + numpy.minimum(q.max(axis=1), 0)
 
 
@@ -71,6 +74,7 @@ def vertex_normals(points, triangles):
 
 def distance_to_triangles(points, a, b, c):
     """The distance of each point to its own triangle."""
+
     def to_segment(p, q):
         along = q - p
         t = numpy.clip(((points - p) * along).sum(1) / numpy.maximum((along**2).sum(1), 1e-12), 0, 1)
@@ -83,7 +87,9 @@ def distance_to_triangles(points, a, b, c):
     inside = numpy.ones(len(points), bool)
     for p, q in ((a, b), (b, c), (c, a)):
         inside &= (numpy.cross(q - p, foot - p) * normal).sum(1) >= 0
-    return numpy.where(inside, numpy.abs(off), numpy.minimum(numpy.minimum(to_segment(a, b), to_segment(b, c)), to_segment(c, a)))
+    return numpy.where(
+        inside, numpy.abs(off), numpy.minimum(numpy.minimum(to_segment(a, b), to_segment(b, c)), to_segment(c, a))
+    )
 
 
 def rms(values):

@@ -12,6 +12,7 @@ import sys
 @dataclasses.dataclass
 class Entry:
     """An option, a positional or a verb: its names, its value and one sentence."""
+
     names: list
     value: str
     text: str
@@ -20,6 +21,7 @@ class Entry:
 @dataclasses.dataclass
 class Page:
     """The help of one verb, or of the program."""
+
     verb: list
     summary: str
     usage: str
@@ -31,8 +33,13 @@ class Page:
         return [entry.names[0] for entry in self.groups.get("Subcommands", [])]
 
     def options(self):
-        return [entry for group, entries in self.groups.items() if group not in ("Subcommands", "Positionals")
-                for entry in entries if entry.names[0].startswith("-")]
+        return [
+            entry
+            for group, entries in self.groups.items()
+            if group not in ("Subcommands", "Positionals")
+            for entry in entries
+            if entry.names[0].startswith("-")
+        ]
 
 
 HEAD = re.compile(r"^  (\S.*?)(?:\s{2,}(.*))?$")
@@ -49,9 +56,9 @@ def parse_entry(line):
 def parse(verb, help_text):
     lines = help_text.split("\n")
     begin = next(i for i, line in enumerate(lines) if line.startswith("Usage: "))
-    page = Page(verb, " ".join(lines[:begin]).strip(), lines[begin][len("Usage: "):])
+    page = Page(verb, " ".join(lines[:begin]).strip(), lines[begin][len("Usage: ") :])
     group = None
-    for i, line in enumerate(lines[begin + 1:], begin + 1):
+    for i, line in enumerate(lines[begin + 1 :], begin + 1):
         if re.fullmatch(r"[A-Z][\w ,-]*:", line):
             group = page.groups.setdefault(line[:-1], [])
         elif group is not None and re.match(r"^  \S", line):
@@ -81,19 +88,30 @@ def roff(text):
 
 def man_page(page, version):
     name = "-".join(["frangia", *page.verb])
-    out = [f'.TH {name.upper()} 1 "" "frangia {version}" "User commands"', ".SH NAME",
-           f"{roff(name)} \\- {roff(page.summary.removeprefix('frangia: '))}", ".SH SYNOPSIS", f".B {roff(page.usage)}"]
+    out = [
+        f'.TH {name.upper()} 1 "" "frangia {version}" "User commands"',
+        ".SH NAME",
+        f"{roff(name)} \\- {roff(page.summary.removeprefix('frangia: '))}",
+        ".SH SYNOPSIS",
+        f".B {roff(page.usage)}",
+    ]
     for group, entries in page.groups.items():
         out.append(f".SH {group.upper()}")
         for entry in entries:
-            out += [".TP", f".B {roff(', '.join(entry.names))}" + (f" \\fI{roff(entry.value)}\\fR" if entry.value else ""),
-                    roff(entry.text) or "\\&"]
+            out += [
+                ".TP",
+                f".B {roff(', '.join(entry.names))}" + (f" \\fI{roff(entry.value)}\\fR" if entry.value else ""),
+                roff(entry.text) or "\\&",
+            ]
     if page.footer:
         title, _, rest = page.footer.partition("\n")
         out += [f".SH {title.rstrip(':').upper()}", ".nf", roff(rest), ".fi"]
     if not page.verb:
-        out += [".SH EXIT STATUS", "0 success, 1 out of tolerance, 2 usage, 3 bad input, 4 a device or some of the work failed,",
-                "5 the result cannot be trusted, 130 interrupted."]
+        out += [
+            ".SH EXIT STATUS",
+            "0 success, 1 out of tolerance, 2 usage, 3 bad input, 4 a device or some of the work failed,",
+            "5 the result cannot be trusted, 130 interrupted.",
+        ]
     else:
         parent = "-".join(["frangia", *page.verb[:-1]])
         out += [".SH SEE ALSO", f".BR {roff(parent)} (1)"]
@@ -106,20 +124,24 @@ def bash_completion(pages):
         words = page.verbs + [name for entry in page.options() for name in entry.names]
         cases.append(f'    "{" ".join(page.verb)}") words="{" ".join(words)}" ;;')
     verbs = "|".join(sorted({verb for page in pages for verb in page.verbs}))
-    return f"""# bash completion for frangia
+    return (
+        f"""# bash completion for frangia
 _frangia() {{
   local cur=${{COMP_WORDS[COMP_CWORD]}} path="" words="" i
   for ((i = 1; i < COMP_CWORD; i++)); do
     case ${{COMP_WORDS[i]}} in {verbs}) path="${{path:+$path }}${{COMP_WORDS[i]}}" ;; esac
   done
   case $path in
-""" + "\n".join(cases) + """
+"""
+        + "\n".join(cases)
+        + """
   esac
   COMPREPLY=($(compgen -W "$words" -- "$cur"))
   [ -n "$cur" ] && [[ $cur != -* ]] && COMPREPLY+=($(compgen -f -- "$cur"))
 }
 complete -o filenames -F _frangia frangia
 """
+    )
 
 
 def quoted(text):
@@ -127,16 +149,23 @@ def quoted(text):
 
 
 def zsh_completion(pages):
-    out = ["#compdef frangia", "_frangia() {", "  local -a verbs", "  local path=''", "  local word",
-           "  for word in ${words[2,CURRENT-1]}; do", "    case $word in"]
+    out = [
+        "#compdef frangia",
+        "_frangia() {",
+        "  local -a verbs",
+        "  local path=''",
+        "  local word",
+        "  for word in ${words[2,CURRENT-1]}; do",
+        "    case $word in",
+    ]
     verbs = "|".join(sorted({verb for page in pages for verb in page.verbs}))
-    out += [f"      {verbs}) path=\"${{path:+$path }}$word\" ;;", "    esac", "  done", "  case $path in"]
+    out += [f'      {verbs}) path="${{path:+$path }}$word" ;;', "    esac", "  done", "  case $path in"]
     for page in pages:
         out.append(f"    '{' '.join(page.verb)}')")
         words = [f"'{entry.names[0]}:{quoted(entry.text)}'" for entry in page.groups.get("Subcommands", [])]
         words += [f"'{name}:{quoted(entry.text)}'" for entry in page.options() for name in entry.names]
         out.append("      verbs=(" + " ".join(words) + ") ;;")
-    out += ["  esac", "  _describe 'frangia' verbs", "  _files", "}", "_frangia \"$@\""]
+    out += ["  esac", "  _describe 'frangia' verbs", "  _files", "}", '_frangia "$@"']
     return "\n".join(out) + "\n"
 
 
@@ -146,8 +175,7 @@ def fish_completion(pages):
     for page in pages:
         if len(page.verb) > 1:
             continue
-        where = (f"__fish_seen_subcommand_from {page.verb[0]}" if page.verb
-                 else "not __fish_seen_subcommand_from $verbs")
+        where = f"__fish_seen_subcommand_from {page.verb[0]}" if page.verb else "not __fish_seen_subcommand_from $verbs"
         for entry in page.groups.get("Subcommands", []):
             out.append(f"complete -c frangia -n '{where}' -a {entry.names[0]} -d '{fish(entry.text)}'")
         for entry in page.options():

@@ -42,8 +42,18 @@ def build_tree():
         return (SOURCE / os.environ["FRANGIA_BUILD_DIR"]).resolve()
     tree = SOURCE / "build" / "wheel"
     web = [f"-DFRANGIA_WEB_DIST={SOURCE / WEB}"] if (SOURCE / WEB).is_dir() else []
-    run("cmake", "--preset", "release", "-B", tree, "-DFRANGIA_TESTS=OFF", "-DFRANGIA_BENCHMARKS=OFF", "-DFRANGIA_WERROR=OFF",
-        f"-DPython3_EXECUTABLE={sys.executable}", *web)
+    run(
+        "cmake",
+        "--preset",
+        "release",
+        "-B",
+        tree,
+        "-DFRANGIA_TESTS=OFF",
+        "-DFRANGIA_BENCHMARKS=OFF",
+        "-DFRANGIA_WERROR=OFF",
+        f"-DPython3_EXECUTABLE={sys.executable}",
+        *web,
+    )
     run("cmake", "--build", tree)
     return tree
 
@@ -54,17 +64,27 @@ def libraries_of(files):
     for file in files:
         listing = subprocess.run(["objdump", "-p", file], capture_output=True, text=True, check=True).stdout
         names.update(re.findall(r"NEEDED +(\S+)", listing))
-    found = subprocess.run(["dpkg", "-S", *[f"*/{name}" for name in sorted(names)]], capture_output=True, text=True).stdout
+    found = subprocess.run(
+        ["dpkg", "-S", *[f"*/{name}" for name in sorted(names)]], capture_output=True, text=True
+    ).stdout
     return sorted({line.split(":")[0] for line in found.splitlines() if "diversion" not in line})
 
 
 def metadata(libraries=()):
     project = tomllib.loads((SOURCE / "pyproject.toml").read_text())["project"]
-    lines = ["Metadata-Version: 2.1", "Name: frangia", f"Version: {version()}", f"Summary: {project['description']}",
-             f"License: {project['license']['text']}", f"Requires-Python: {project['requires-python']}",
-             *[f"Requires-Dist: {name}" for name in project["dependencies"]],
-             *[f"Requires-External: {name}" for name in libraries], "Description-Content-Type: text/markdown", "",
-             (SOURCE / "README.md").read_text()]
+    lines = [
+        "Metadata-Version: 2.1",
+        "Name: frangia",
+        f"Version: {version()}",
+        f"Summary: {project['description']}",
+        f"License: {project['license']['text']}",
+        f"Requires-Python: {project['requires-python']}",
+        *[f"Requires-Dist: {name}" for name in project["dependencies"]],
+        *[f"Requires-External: {name}" for name in libraries],
+        "Description-Content-Type: text/markdown",
+        "",
+        (SOURCE / "README.md").read_text(),
+    ]
     return "\n".join(lines).encode()
 
 
@@ -107,8 +127,12 @@ def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
         for path in package:
             wheel.add(f"frangia/{path.name}", stripped(path, folder) if path.suffix == ".so" else path.read_bytes())
         wheel.add(f"frangia-{version()}.data/scripts/frangia", stripped(program, folder), 0o755)
-    wheel.add(f"{info}/METADATA", metadata(libraries_of([program, *[path for path in package if path.suffix == ".so"]])))
-    wheel.add(f"{info}/WHEEL", f"Wheel-Version: 1.0\nGenerator: frangia\nRoot-Is-Purelib: false\nTag: {tag()}\n".encode())
+    wheel.add(
+        f"{info}/METADATA", metadata(libraries_of([program, *[path for path in package if path.suffix == ".so"]]))
+    )
+    wheel.add(
+        f"{info}/WHEEL", f"Wheel-Version: 1.0\nGenerator: frangia\nRoot-Is-Purelib: false\nTag: {tag()}\n".encode()
+    )
     for licence in ("LICENSE", "NOTICE", "tools/package/licences.txt"):
         wheel.add(f"{info}/licenses/{pathlib.Path(licence).name}", (SOURCE / licence).read_bytes())
     wheel.close(info)
@@ -121,8 +145,11 @@ def sources():
         listed = subprocess.run(["git", "ls-files", "-z"], cwd=SOURCE, capture_output=True, check=True).stdout.decode()
         return sorted(name for name in listed.split("\0") if name and (SOURCE / name).is_file())
     left_out = {"build", "out", WEB, "PKG-INFO"}
-    return sorted(str(path.relative_to(SOURCE)) for path in SOURCE.rglob("*")
-                  if path.is_file() and path.relative_to(SOURCE).parts[0] not in left_out and "__pycache__" not in path.parts)
+    return sorted(
+        str(path.relative_to(SOURCE))
+        for path in SOURCE.rglob("*")
+        if path.is_file() and path.relative_to(SOURCE).parts[0] not in left_out and "__pycache__" not in path.parts
+    )
 
 
 def build_sdist(sdist_directory, config_settings=None):
@@ -131,7 +158,9 @@ def build_sdist(sdist_directory, config_settings=None):
     if not (web / "index.html").exists():
         sys.exit(f"{web} does not hold the front end; build the program first: ./run build")
     top = f"frangia-{version()}"
-    with tarfile.open(pathlib.Path(sdist_directory) / f"{top}.tar.gz", "w:gz", format=tarfile.PAX_FORMAT, compresslevel=6) as archive:
+    with tarfile.open(
+        pathlib.Path(sdist_directory) / f"{top}.tar.gz", "w:gz", format=tarfile.PAX_FORMAT, compresslevel=6
+    ) as archive:
         for name in sources():
             archive.add(SOURCE / name, f"{top}/{name}", recursive=False)
         archive.add(web, f"{top}/{WEB}")

@@ -22,18 +22,44 @@ LINK = re.compile(r"\]\(([^)#\s]+)(#[^)\s]*)?\)")
 
 NAV = {
     "Home": "README.md",
-    "Tutorials": {"A stranger: first scan": "docs/tutorials/stranger.md", "A maker: your own rig": "docs/tutorials/maker.md",
-                  "An engineer: is the part right?": "docs/tutorials/engineer.md",
-                  "A researcher: your own algorithm": "docs/tutorials/researcher.md"},
-    "How to": {"Wire a rig": "docs/devices.md", "Calibrate a rig": "docs/calibration.md", "Bring in your own frames": "docs/your-own-frames.md",
-               "Edit a mesh": "docs/editing.md", "Inspect a part": "docs/inspection.md", "Process many scans": "docs/batch.md",
-               "Use Python": "docs/python.md", "Recover from faults": "docs/reliability.md"},
-    "Reference": {"Program": "reference/program/index.md", "Exit codes and JSON": "docs/json.md", "JSON schemas": "reference/json.md",
-                  "Scan folder": "docs/scan-format.md", "Keys of scan.toml and rig.toml": "reference/keys.md",
-                  "Mesh files": "docs/files.md", "Python": "reference/python.md", "C++": "reference/cpp.md",
-                  "Protocol of the app": "docs/service-api.md", "Parameters": "docs/parameters.md", "Terms": "docs/terms.md"},
-    "Explanation": {"Phase": "docs/phase.md", "Surface": "docs/surface.md", "Uncertainty": "docs/uncertainty.md",
-                    "Figures": "docs/figures.md", "Figures of captures": "docs/figures-capture.md", "Coverage": "docs/coverage.md", "Decisions": "docs/decisions.md"},
+    "Tutorials": {
+        "A stranger: first scan": "docs/tutorials/stranger.md",
+        "A maker: your own rig": "docs/tutorials/maker.md",
+        "An engineer: is the part right?": "docs/tutorials/engineer.md",
+        "A researcher: your own algorithm": "docs/tutorials/researcher.md",
+    },
+    "How to": {
+        "Wire a rig": "docs/devices.md",
+        "Calibrate a rig": "docs/calibration.md",
+        "Bring in your own frames": "docs/your-own-frames.md",
+        "Edit a mesh": "docs/editing.md",
+        "Inspect a part": "docs/inspection.md",
+        "Process many scans": "docs/batch.md",
+        "Use Python": "docs/python.md",
+        "Recover from faults": "docs/reliability.md",
+    },
+    "Reference": {
+        "Program": "reference/program/index.md",
+        "Exit codes and JSON": "docs/json.md",
+        "JSON schemas": "reference/json.md",
+        "Scan folder": "docs/scan-format.md",
+        "Keys of scan.toml and rig.toml": "reference/keys.md",
+        "Mesh files": "docs/files.md",
+        "Python": "reference/python.md",
+        "C++": "reference/cpp.md",
+        "Protocol of the app": "docs/service-api.md",
+        "Parameters": "docs/parameters.md",
+        "Terms": "docs/terms.md",
+    },
+    "Explanation": {
+        "Phase": "docs/phase.md",
+        "Surface": "docs/surface.md",
+        "Uncertainty": "docs/uncertainty.md",
+        "Figures": "docs/figures.md",
+        "Figures of captures": "docs/figures-capture.md",
+        "Coverage": "docs/coverage.md",
+        "Decisions": "docs/decisions.md",
+    },
     "Project": {"Contributing": "CONTRIBUTING.md", "Changelog": "CHANGELOG.md"},
 }
 NOT_PAGES = {"api.md"}  # the first page of Doxygen's reference
@@ -55,8 +81,11 @@ def targets(nav):
 
 def missing_from_nav():
     known = set(targets(NAV))
-    return [path.name for path in sorted((SOURCE / "docs").glob("*.md"))
-            if f"docs/{path.name}" not in known and path.name not in NOT_PAGES]
+    return [
+        path.name
+        for path in sorted((SOURCE / "docs").glob("*.md"))
+        if f"docs/{path.name}" not in known and path.name not in NOT_PAGES
+    ]
 
 
 def copy_page(page, pages):
@@ -106,11 +135,17 @@ def write_pages(program, pages, has_api):
 
 def faults_of(site):
     """What a page loads from elsewhere, and links to what is not there; MkDocs does not check anchors."""
-    texts = {page: page.read_text(errors="replace") for page in site.rglob("*.html") if page.relative_to(site).parts[0] != "api"}
+    texts = {
+        page: page.read_text(errors="replace")
+        for page in site.rglob("*.html")
+        if page.relative_to(site).parts[0] != "api"
+    }
     faults = []
     for page, text in texts.items():
-        faults += [f"{page}: loads {url}" for url in
-                   re.findall(r"<(?:script|link|img)[^>]*(?:src|href)=\"((?:https?:)?//[^\"]*)", text)]
+        faults += [
+            f"{page}: loads {url}"
+            for url in re.findall(r"<(?:script|link|img)[^>]*(?:src|href)=\"((?:https?:)?//[^\"]*)", text)
+        ]
         for url in set(re.findall(r"(?:href|src)=\"([^\"]+)\"", text)):
             path, _, anchor = urllib.parse.unquote(html.unescape(url)).partition("#")
             if re.match(r"[a-z]+:|//|/", path) or page.name == "404.html":
@@ -126,17 +161,34 @@ def faults_of(site):
 def build(program, out, api=None):
     left_out = missing_from_nav()
     if left_out:
-        sys.exit(f"tools/site: {', '.join(left_out)} in docs is not in the navigation; add it to NAV in tools/site/__main__.py")
+        sys.exit(
+            f"tools/site: {', '.join(left_out)} in docs is not in the navigation; add it to NAV in tools/site/__main__.py"
+        )
     out = str(pathlib.Path(out).resolve())
     with tempfile.TemporaryDirectory() as folder:
         stage = pathlib.Path(folder)
         write_pages(program, stage / "pages", api is not None)
-        config = ["site_name: Frangia", "docs_dir: pages", f"site_dir: {out}", "use_directory_urls: false",
-                  "strict: true", "theme:", "  name: mkdocs", "  highlightjs: false", "plugins: [search]",
-                  "markdown_extensions: [tables, fenced_code, toc]", "nav:", *nav_lines(NAV)]
+        config = [
+            "site_name: Frangia",
+            "docs_dir: pages",
+            f"site_dir: {out}",
+            "use_directory_urls: false",
+            "strict: true",
+            "theme:",
+            "  name: mkdocs",
+            "  highlightjs: false",
+            "plugins: [search]",
+            "markdown_extensions: [tables, fenced_code, toc]",
+            "nav:",
+            *nav_lines(NAV),
+        ]
         (stage / "mkdocs.yml").write_text("\n".join(config) + "\n")
-        done = subprocess.run(["mkdocs", "build", "--strict", "--clean", "-f", stage / "mkdocs.yml"], stderr=subprocess.PIPE, text=True)
-        sys.stderr.writelines(line for line in done.stderr.splitlines(keepends=True) if line.startswith(("WARNING", "ERROR", "Aborted")))
+        done = subprocess.run(
+            ["mkdocs", "build", "--strict", "--clean", "-f", stage / "mkdocs.yml"], stderr=subprocess.PIPE, text=True
+        )
+        sys.stderr.writelines(
+            line for line in done.stderr.splitlines(keepends=True) if line.startswith(("WARNING", "ERROR", "Aborted"))
+        )
         done.check_returncode()
     if api:
         shutil.copytree(api, pathlib.Path(out) / "api")

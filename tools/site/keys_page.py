@@ -4,13 +4,29 @@ import sys
 
 READERS = {
     "rig.toml": ["src/frangia/rig/read_rig.cpp", "src/frangia/rig/internal/calibration_table.cpp"],
-    "scan.toml": ["src/frangia/dataset/scan_folder.cpp", "src/frangia/dataset/internal/read_board.cpp",
-                  "src/frangia/dataset/internal/read_pattern.cpp"],
+    "scan.toml": [
+        "src/frangia/dataset/scan_folder.cpp",
+        "src/frangia/dataset/internal/read_board.cpp",
+        "src/frangia/dataset/internal/read_pattern.cpp",
+    ],
 }
 EXPLAINED = ["docs/scan-format.md", "docs/calibration.md"]
-CALL = re.compile(r"\.(number|number_or|positive|integer|boolean|text|texts|numbers|rows|table|tables|has)\(\s*\"([a-z_0-9]+)\"")
-KINDS = {"number": "number", "number_or": "number", "positive": "number above 0", "integer": "whole number", "boolean": "true or false",
-         "text": "text", "texts": "texts", "numbers": "numbers", "rows": "rows of numbers", "table": "table", "tables": "tables"}
+CALL = re.compile(
+    r"\.(number|number_or|positive|integer|boolean|text|texts|numbers|rows|table|tables|has)\(\s*\"([a-z_0-9]+)\""
+)
+KINDS = {
+    "number": "number",
+    "number_or": "number",
+    "positive": "number above 0",
+    "integer": "whole number",
+    "boolean": "true or false",
+    "text": "text",
+    "texts": "texts",
+    "numbers": "numbers",
+    "rows": "rows of numbers",
+    "table": "table",
+    "tables": "tables",
+}
 
 
 def keys_of(text):
@@ -32,9 +48,14 @@ def explanation(key, texts):
 
 def page(source):
     texts = {name: (source / name).read_text() for name in EXPLAINED}
-    out = ["# Keys of scan.toml and rig.toml", "", "Every key that the program reads; [scan-format.md](../docs/scan-format.md) and "
-           "[calibration.md](../docs/calibration.md) explain them. The tables `[devices.*]` are those of "
-           "[devices.md](../docs/devices.md). An unknown key is named in a warning.", ""]
+    out = [
+        "# Keys of scan.toml and rig.toml",
+        "",
+        "Every key that the program reads; [scan-format.md](../docs/scan-format.md) and "
+        "[calibration.md](../docs/calibration.md) explain them. The tables `[devices.*]` are those of "
+        "[devices.md](../docs/devices.md). An unknown key is named in a warning.",
+        "",
+    ]
     for file, sources in READERS.items():
         kinds = {}
         for name in sources:
@@ -46,6 +67,8 @@ def page(source):
             if not where:
                 sys.exit(f"tools/site: {file} has the key {key}, which {' and '.join(EXPLAINED)} do not explain")
             comment = explanation(key, texts).replace("|", "\\|").replace("<", "&lt;")
-            out.append(f"| `{key}` | {', '.join(sorted(kinds[key]))} | {comment or f'[{where[0][5:]}](../{where[0]})'} |")
+            out.append(
+                f"| `{key}` | {', '.join(sorted(kinds[key]))} | {comment or f'[{where[0][5:]}](../{where[0]})'} |"
+            )
         out.append("")
     return "\n".join(out) + "\n"

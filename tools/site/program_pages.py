@@ -15,8 +15,14 @@ def name_of(page):
 
 
 def page_text(page):
-    out = [f"# {' '.join(['frangia', *page.verb])}", "", page.summary.removeprefix("frangia: ").capitalize() + ".", "",
-           f"    {page.usage}", ""]
+    out = [
+        f"# {' '.join(['frangia', *page.verb])}",
+        "",
+        page.summary.removeprefix("frangia: ").capitalize() + ".",
+        "",
+        f"    {page.usage}",
+        "",
+    ]
     for group, entries in page.groups.items():
         out += [f"## {'Verbs' if group == 'Subcommands' else group}", "", "| | |", "|---|---|"]
         for entry in entries:

@@ -30,7 +30,9 @@ def class_lines(node):
         out += ["| | | |", "|---|---|---|"]
         for one in properties:
             kind = ast.unparse(one.returns).replace("|", "\\|") if one.returns else ""
-            out.append(f"| `{one.name}` | `{kind}` | {doc(one).replace('|', chr(92) + '|').splitlines()[0] if doc(one) else ''} |")
+            out.append(
+                f"| `{one.name}` | `{kind}` | {doc(one).replace('|', chr(92) + '|').splitlines()[0] if doc(one) else ''} |"
+            )
         out.append("")
     for one in members:
         if is_property(one) or (one.name.startswith("_") and one.name != "__init__"):
@@ -48,5 +50,19 @@ def page(package):
             elif isinstance(node, ast.ClassDef):
                 classes += class_lines(node)
     head = doc(ast.parse((package / "__init__.py").read_text()))
-    return "\n".join(["# Python", "", "[python.md](../docs/python.md) explains the package.", "", head, "", "## Functions", "",
-                      *functions, "## Classes", "", *classes])
+    return "\n".join(
+        [
+            "# Python",
+            "",
+            "[python.md](../docs/python.md) explains the package.",
+            "",
+            head,
+            "",
+            "## Functions",
+            "",
+            *functions,
+            "## Classes",
+            "",
+            *classes,
+        ]
+    )

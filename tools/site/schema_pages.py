@@ -33,8 +33,13 @@ def table(node):
 
 
 def page(folder):
-    out = ["# JSON schemas", "", "Each verb with `--json` prints one document of this form; [json.md](../docs/json.md) explains what "
-           "they have in common. `[]` stands for each item of an array, `*` for each key.", ""]
+    out = [
+        "# JSON schemas",
+        "",
+        "Each verb with `--json` prints one document of this form; [json.md](../docs/json.md) explains what "
+        "they have in common. `[]` stands for each item of an array, `*` for each key.",
+        "",
+    ]
     for path in sorted(folder.glob("*.schema.json")):
         schema = json.loads(path.read_text())
         out += [f"## {schema['title']}", "", f"[{path.name}](../docs/json/{path.name})", ""]

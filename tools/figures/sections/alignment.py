@@ -31,7 +31,11 @@ def write_moved(path, vertices, triangles, rotation, shift):
         moved[axis] = points[:, i]
     types = {"f4": "float", "u1": "uchar", "u2": "ushort", "i4": "int", "u4": "uint"}
     lines = ["ply", "format binary_little_endian 1.0", f"element vertex {len(moved)}"]
-    lines += [f"property {types[moved.dtype[name].str[1:]]} {name}" for name in moved.dtype.names if name not in ("nx", "ny", "nz")]
+    lines += [
+        f"property {types[moved.dtype[name].str[1:]]} {name}"
+        for name in moved.dtype.names
+        if name not in ("nx", "ny", "nz")
+    ]
     lines += [f"element face {len(triangles)}", "property list uchar int vertex_indices", "end_header", ""]
     kept = [name for name in moved.dtype.names if name not in ("nx", "ny", "nz")]
     packed = numpy.empty(len(moved), [(name, moved.dtype[name]) for name in kept])
@@ -46,7 +50,9 @@ def difference(matrix, other, center):
     """Distance at the center, mm, and angle, degrees, between two poses."""
     a, b = numpy.array(matrix), numpy.array(other)
     turn = a[:3, :3] @ b[:3, :3].T
-    angle = numpy.degrees(numpy.linalg.norm([turn[2, 1] - turn[1, 2], turn[0, 2] - turn[2, 0], turn[1, 0] - turn[0, 1]]) / 2)
+    angle = numpy.degrees(
+        numpy.linalg.norm([turn[2, 1] - turn[1, 2], turn[0, 2] - turn[2, 0], turn[1, 0] - turn[0, 1]]) / 2
+    )
     return numpy.linalg.norm((a - b) @ numpy.append(center, 1.0)), angle
 
 
@@ -56,21 +62,44 @@ def cloud_compare(study, mesh, reference):
         return None
     for old in mesh.parent.glob(f"{mesh.stem}_REGISTRATION_MATRIX*.txt"):
         old.unlink()
-    subprocess.run(["xvfb-run", "-a", "CloudCompare", "-SILENT", "-AUTO_SAVE", "OFF", "-O", mesh, "-O", reference, "-ICP",
-                    "-MIN_ERROR_DIFF", "1e-9", "-RANDOM_SAMPLING_LIMIT", "1000000"], check=True, stdout=subprocess.DEVNULL)
+    subprocess.run(
+        [
+            "xvfb-run",
+            "-a",
+            "CloudCompare",
+            "-SILENT",
+            "-AUTO_SAVE",
+            "OFF",
+            "-O",
+            mesh,
+            "-O",
+            reference,
+            "-ICP",
+            "-MIN_ERROR_DIFF",
+            "1e-9",
+            "-RANDOM_SAMPLING_LIMIT",
+            "1000000",
+        ],
+        check=True,
+        stdout=subprocess.DEVNULL,
+    )
     (written,) = mesh.parent.glob(f"{mesh.stem}_REGISTRATION_MATRIX*.txt")
     return numpy.loadtxt(written)
 
 
 def write_plain_shaft(path, facets=512):
     """A turned part without a keyway, as STL."""
-    profile = numpy.array([(0, 0), (18, 0), (18, 20), (26, 20), (26, 38), (18, 38), (18, 80), (14, 80), (14, 100), (0, 100)], float)
+    profile = numpy.array(
+        [(0, 0), (18, 0), (18, 20), (26, 20), (26, 38), (18, 38), (18, 80), (14, 80), (14, 100), (0, 100)], float
+    )
     angle = 2 * numpy.pi * numpy.arange(facets) / facets
     height = numpy.broadcast_to(profile[:, 1, None], (len(profile), facets))
     points = numpy.stack([profile[:, :1] * numpy.cos(angle), profile[:, :1] * numpy.sin(angle), height], -1)
     below, above = points[:-1], points[1:]
     next_below, next_above = numpy.roll(below, -1, axis=1), numpy.roll(above, -1, axis=1)
-    triangles = numpy.concatenate([numpy.stack([below, next_below, next_above], -2), numpy.stack([below, next_above, above], -2)]).reshape(-1, 3, 3)
+    triangles = numpy.concatenate(
+        [numpy.stack([below, next_below, next_above], -2), numpy.stack([below, next_above, above], -2)]
+    ).reshape(-1, 3, 3)
     area = numpy.linalg.norm(numpy.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0]), axis=1)
     records = numpy.zeros((area > 0).sum(), [("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
     records["corners"] = triangles[area > 0]
@@ -89,16 +118,32 @@ def symmetries(study):
         scan = study.made(f"align-{part.replace(' ', '-')}", "simulate", shape)
         mesh = study.work / f"align-{part.replace(' ', '-')}.ply"
         study.run("reconstruct", scan, "-o", mesh)
-        said = subprocess.run([study.program, "--quiet", "inspect", mesh, "--reference", scan / "truth.ply", "--align", "best-fit"],
-                              capture_output=True, text=True)
+        said = subprocess.run(
+            [study.program, "--quiet", "inspect", mesh, "--reference", scan / "truth.ply", "--align", "best-fit"],
+            capture_output=True,
+            text=True,
+        )
         lines = (said.stderr + said.stdout).splitlines()
         told = [line for line in lines if "fits the reference alike" in line or "not determined by the shape" in line]
         study.row(part, f"exit code {said.returncode}: " + " ".join(told).removeprefix("frangia: "))
 
 
 def measure(study):
-    study.add(f"`frangia inspect MESH.ply --reference SCAN/truth.ply --align best-fit` on the mesh of a simulated scan, {STARTS} times in any orientation, 500 mm away. A start is right within 0.005 mm and 0.01 degrees of the pose that the mesh has without a move. The difference of that pose from the frame of the truth holds the registration of the scan; CloudCompare's is that of its ICP, which began at the truth, with all points (package cloudcompare).\n")
-    study.table("part", "right", "largest difference, mm", "largest, degrees", "overlap", "RMS, mm", "from the truth, mm", "degrees", "CloudCompare, mm", "degrees")
+    study.add(
+        f"`frangia inspect MESH.ply --reference SCAN/truth.ply --align best-fit` on the mesh of a simulated scan, {STARTS} times in any orientation, 500 mm away. A start is right within 0.005 mm and 0.01 degrees of the pose that the mesh has without a move. The difference of that pose from the frame of the truth holds the registration of the scan; CloudCompare's is that of its ICP, which began at the truth, with all points (package cloudcompare).\n"
+    )
+    study.table(
+        "part",
+        "right",
+        "largest difference, mm",
+        "largest, degrees",
+        "overlap",
+        "RMS, mm",
+        "from the truth, mm",
+        "degrees",
+        "CloudCompare, mm",
+        "degrees",
+    )
     for part in PARTS:
         scan = study.simulated(part)
         mesh, moved = study.work / f"align-{part}.ply", study.work / "align-moved.ply"
@@ -120,6 +165,20 @@ def measure(study):
             worst = [max(worst[0], off), max(worst[1], angle)]
         frame = difference(plain["matrix"], numpy.eye(4), center)
         other = cloud_compare(study, mesh, scan / "truth.ply")
-        theirs = ("not installed", "") if other is None else (f"{value:.4f}" for value in difference(other, numpy.eye(4), center))
-        study.row(part, f"{right} of {STARTS}", f"{worst[0]:.4f}", f"{worst[1]:.4f}", f"{plain['overlap']:.3f}", f"{plain['rms_mm']:.4f}", f"{frame[0]:.4f}", f"{frame[1]:.4f}", *theirs)
+        theirs = (
+            ("not installed", "")
+            if other is None
+            else (f"{value:.4f}" for value in difference(other, numpy.eye(4), center))
+        )
+        study.row(
+            part,
+            f"{right} of {STARTS}",
+            f"{worst[0]:.4f}",
+            f"{worst[1]:.4f}",
+            f"{plain['overlap']:.3f}",
+            f"{plain['rms_mm']:.4f}",
+            f"{frame[0]:.4f}",
+            f"{frame[1]:.4f}",
+            *theirs,
+        )
     symmetries(study)

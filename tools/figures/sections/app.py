@@ -14,8 +14,12 @@ def by_node(study, script, *arguments):
     path = ROOT / "tests" / "app" / script
     if not path.exists():
         return {}
-    done = subprocess.run(["node", path, study.program, *map(str, arguments)], capture_output=True, text=True,
-                          env={**os.environ, "FRANGIA_WEB": str(study.program.parent.parent / "web")})
+    done = subprocess.run(
+        ["node", path, study.program, *map(str, arguments)],
+        capture_output=True,
+        text=True,
+        env={**os.environ, "FRANGIA_WEB": str(study.program.parent.parent / "web")},
+    )
     if done.returncode == 77:
         raise NotMeasured(done.stdout.strip())
     if done.returncode != 0:
@@ -28,7 +32,9 @@ def previews(study):
     bench = study.program.parent / "bench_service"
     if not bench.exists():
         raise NotMeasured("bench_service is not built: configure with -DFRANGIA_BENCHMARKS=ON")
-    done = subprocess.run([bench, "--benchmark_format=json", "--benchmark_min_time=2"], check=True, capture_output=True, text=True)
+    done = subprocess.run(
+        [bench, "--benchmark_format=json", "--benchmark_min_time=2"], check=True, capture_output=True, text=True
+    )
     return {one["name"].split("/")[0]: one for one in json.loads(done.stdout)["benchmarks"]}
 
 
@@ -40,12 +46,22 @@ def measure(study):
     study.add(f"Measured on {os.cpu_count()} cores, in Debian's Chromium with software rendering.\n")
     study.table("", "measured", "wanted")
     paint = page["first_paint_s"]
-    study.row("first paint after `frangia serve`, in a browser that is running", f"{paint['median']:.2f} s ({paint['least']:.2f} to {paint['most']:.2f})", "1 s")
+    study.row(
+        "first paint after `frangia serve`, in a browser that is running",
+        f"{paint['median']:.2f} s ({paint['least']:.2f} to {paint['most']:.2f})",
+        "1 s",
+    )
     for layer, what in (("depth", "depth"), ("points", "points in 3D")):
         live = page["live"][layer]
-        study.row(f"live preview of recorded frames, 640 x 512, shown as {what}: decoded previews", f"{live['decodes_per_s']:.1f} a second", "5 a second")
-    for name, what, wanted in (("preview_simulated_rig", "12 frames of 640 x 512 to points and message, without a browser", "200 ms"),
-                               ("preview_four_frames_1_3_mpx", "4 frames of 1280 x 1024 to points and message, without a browser", "125 ms")):
+        study.row(
+            f"live preview of recorded frames, 640 x 512, shown as {what}: decoded previews",
+            f"{live['decodes_per_s']:.1f} a second",
+            "5 a second",
+        )
+    for name, what, wanted in (
+        ("preview_simulated_rig", "12 frames of 640 x 512 to points and message, without a browser", "200 ms"),
+        ("preview_four_frames_1_3_mpx", "4 frames of 1280 x 1024 to points and message, without a browser", "125 ms"),
+    ):
         one = decoded[name]
         study.row(what, f"{one['real_time']:.0f} ms, {one['processor_ms']:.0f} ms of processor", wanted)
     large = by_node(study, "large_mesh.mjs", "--json")

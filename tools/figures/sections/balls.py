@@ -11,7 +11,9 @@ def measure(study):
     mesh = study.work / "balls.ply"
     answer = study.run("reconstruct", study.shared("balls"), "-o", mesh)
     points = points_of(read_ply(mesh))
-    study.add("`frangia reconstruct ../shared/scans/balls -o balls.ply`; spheres fitted by least squares to the vertices above z = 47 mm and within 0.5 mm of the nominal sphere.\n")
+    study.add(
+        "`frangia reconstruct ../shared/scans/balls -o balls.ply`; spheres fitted by least squares to the vertices above z = 47 mm and within 0.5 mm of the nominal sphere.\n"
+    )
     study.table("", "measured", "wanted")
     centres = []
     for side in (-35.0, 35.0):

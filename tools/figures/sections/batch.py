@@ -27,8 +27,12 @@ def make_scans(study):
         unfinished = folder.with_name("unfinished-batch-scans")
         shutil.rmtree(unfinished, ignore_errors=True)
         for i in range(SCANS):
-            subprocess.run(["cp", "-rl", made[i % len(made)], unfinished / f"{i:02}"] if i else
-                           ["sh", "-c", f"mkdir -p {unfinished} && cp -rl {made[0]} {unfinished}/00"], check=True)
+            subprocess.run(
+                ["cp", "-rl", made[i % len(made)], unfinished / f"{i:02}"]
+                if i
+                else ["sh", "-c", f"mkdir -p {unfinished} && cp -rl {made[0]} {unfinished}/00"],
+                check=True,
+            )
         unfinished.rename(folder)
     return folder
 
@@ -36,19 +40,30 @@ def make_scans(study):
 def timed(study, folder, name, *options):
     shutil.rmtree(study.work / name, ignore_errors=True)
     begin = time.monotonic()
-    subprocess.run([study.program, "--quiet", *options[2:], "batch", folder, "-o", study.work / name, *options[:2]],
-                   check=False, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    subprocess.run(
+        [study.program, "--quiet", *options[2:], "batch", folder, "-o", study.work / name, *options[:2]],
+        check=False,
+        stdout=subprocess.DEVNULL,
+        stderr=subprocess.DEVNULL,
+    )
     seconds = time.monotonic() - begin
     return seconds, json.loads((study.work / name / "table.json").read_text())
 
 
 def side_by_side(study, folder, lanes):
     """Seconds of bare `reconstruct` of all scans, one process after the other in each lane: the limit of the machine."""
+
     def commands(lane):
-        return " && ".join(f"{study.program} --quiet --threads 1 reconstruct {folder / f'{i:02}'} -o {study.work / f'lane-{lane}.ply'}"
-                           for i in range(lane, SCANS, lanes))
+        return " && ".join(
+            f"{study.program} --quiet --threads 1 reconstruct {folder / f'{i:02}'} -o {study.work / f'lane-{lane}.ply'}"
+            for i in range(lane, SCANS, lanes)
+        )
+
     begin = time.monotonic()
-    running = [subprocess.Popen(["sh", "-c", commands(lane)], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL) for lane in range(lanes)]
+    running = [
+        subprocess.Popen(["sh", "-c", commands(lane)], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        for lane in range(lanes)
+    ]
     if any(process.wait() for process in running):
         raise RuntimeError("a scan cannot be reconstructed")
     return time.monotonic() - begin
@@ -83,7 +98,11 @@ def measure(study):
     study.row("`--jobs 1 --threads 1`, seconds", f"{one:.1f}", "")
     study.row("its ratio to `--jobs 2 --threads 1`", f"{one / two:.2f}", "at least 1.8")
     floor = side_by_side(study, folder, 1) / side_by_side(study, folder, 2)
-    study.row("the same ratio of bare `reconstruct`, one after the other and two beside each other: the limit of the machine", f"{floor:.2f}", "")
+    study.row(
+        "the same ratio of bare `reconstruct`, one after the other and two beside each other: the limit of the machine",
+        f"{floor:.2f}",
+        "",
+    )
     study.row("`--jobs 1 --threads 2` over `--jobs 2 --threads 1`", f"{wide / two:.2f}", "at least 1")
     study.row("most memory of a scan, MB", f"{max(row['memory_mb'] for row in rows):.0f}", "")
     study.row("scans an hour and core", f"{3600 * len(rows) / sum(row['processor_s'] for row in rows):.0f}", "")
@@ -104,8 +123,13 @@ def measure(study):
         kills, requeued = kill_at_random(node, time.monotonic() + 1200)
     table = list(csv.DictReader((out / "table.csv").open()))
     study.row("Slurm: seconds more a scan than `--jobs 2`", f"{(calm - two) / SCANS:.2f}", "below 1")
-    study.row(f"scans done with {kills} kills of the controller and {requeued} tasks requeued",
-              sum(row["state"] == "done" for row in table), SCANS)
-    same = all((out / f"{i:02}" / "mesh.ply").read_bytes() == (study.work / "batch-one" / f"{i:02}" / "mesh.ply").read_bytes()
-               for i in range(SCANS))
+    study.row(
+        f"scans done with {kills} kills of the controller and {requeued} tasks requeued",
+        sum(row["state"] == "done" for row in table),
+        SCANS,
+    )
+    same = all(
+        (out / f"{i:02}" / "mesh.ply").read_bytes() == (study.work / "batch-one" / f"{i:02}" / "mesh.ply").read_bytes()
+        for i in range(SCANS)
+    )
     study.row("meshes with the bytes of the undisturbed ones", "all" if same else "NOT ALL", "all")

@@ -32,12 +32,19 @@ def measured(study, part, seed, nominal):
         study.run("reconstruct", scan, "-o", mesh)
         shutil.rmtree(scan)
     out = study.work / "blade-deviations.ply"
-    return study.run("inspect", mesh, "--reference", nominal, "--align", "none", "--tolerance", TOLERANCE_MM, "-o", out)["deviation"], out
+    return (
+        study.run("inspect", mesh, "--reference", nominal, "--align", "none", "--tolerance", TOLERANCE_MM, "-o", out)[
+            "deviation"
+        ],
+        out,
+    )
 
 
 def measure(study):
     nominal = study.made("blade-nominal", "simulate", "blade", "--views", 1) / "truth.ply"
-    study.add(f"The simulated blade, digital rig; `frangia inspect MESH.ply --reference blade.ply --tolerance {TOLERANCE_MM}`.\n")
+    study.add(
+        f"The simulated blade, digital rig; `frangia inspect MESH.ply --reference blade.ply --tolerance {TOLERANCE_MM}`.\n"
+    )
     found, out = measured(study, bent(study, nominal), 1, nominal)
     vertices = read_ply(out)
     points, deviation, u = points_of(vertices), vertices["deviation_mm"], vertices["u_mm"]
@@ -47,9 +54,16 @@ def measure(study):
     error = deviation[tip] - expected[tip]
     study.table("a blade bent by 0.1 mm at its tip", "measured", "wanted")
     study.row("verdict", found["verdict"], "out")
-    study.row("mean deviation of the tip's faces along their normals, mm", f"{numpy.mean(numpy.sign(vertices['nx'][tip]) * deviation[tip]):.4f}",
-              f"{numpy.mean(numpy.abs(expected[tip])):.4f}")
-    study.row("error of a vertex over its uncertainty, RMS", f"{numpy.sqrt(numpy.mean((error / u[tip]) ** 2)):.2f}", "about 1")
+    study.row(
+        "mean deviation of the tip's faces along their normals, mm",
+        f"{numpy.mean(numpy.sign(vertices['nx'][tip]) * deviation[tip]):.4f}",
+        f"{numpy.mean(numpy.abs(expected[tip])):.4f}",
+    )
+    study.row(
+        "error of a vertex over its uncertainty, RMS", f"{numpy.sqrt(numpy.mean((error / u[tip]) ** 2)):.2f}", "about 1"
+    )
     verdicts = [measured(study, "blade", seed, nominal)[0]["verdict"] for seed in range(1, SEEDS + 1)]
-    study.add(f"\nGood blades, {SEEDS} seeds: {verdicts.count('out')} called out (the rule allows {SEEDS * 5 // 100}), "
-              f"{verdicts.count('undecided')} undecided, {verdicts.count('in')} in.")
+    study.add(
+        f"\nGood blades, {SEEDS} seeds: {verdicts.count('out')} called out (the rule allows {SEEDS * 5 // 100}), "
+        f"{verdicts.count('undecided')} undecided, {verdicts.count('in')} in."
+    )

@@ -23,12 +23,16 @@ def grid_mesh(points):
 
 def surface(part, side):
     """A grid of points on one part, its triangles outward."""
-    u, v = numpy.meshgrid(numpy.linspace(0, 2 * numpy.pi, side), numpy.linspace(0.05, numpy.pi - 0.05, side), indexing="ij")
+    u, v = numpy.meshgrid(
+        numpy.linspace(0, 2 * numpy.pi, side), numpy.linspace(0.05, numpy.pi - 0.05, side), indexing="ij"
+    )
     ball = numpy.stack([numpy.sin(v) * numpy.cos(u), numpy.sin(v) * numpy.sin(u), numpy.cos(v)], -1)
     if part == 0:
         return 15 * ball / abs(ball).max(-1, keepdims=True)
     if part == 1:
-        return ball * numpy.minimum(20 / numpy.hypot(ball[..., :1], ball[..., 1:2]), 20 / numpy.maximum(abs(ball[..., 2:]), 1e-9))
+        return ball * numpy.minimum(
+            20 / numpy.hypot(ball[..., :1], ball[..., 1:2]), 20 / numpy.maximum(abs(ball[..., 2:]), 1e-9)
+        )
     if part in (2, 4):
         return 20 * ball
     w = 2 * v - numpy.pi
@@ -75,8 +79,10 @@ def measure(study):
     answer = study.run("inspect", mesh, "--reference", study.work / "primitives.step", "-o", out)
     vertices = read_ply(out)
     points, deviation = points_of(vertices).astype(float), vertices["deviation_mm"].astype(float)
-    study.add(f"`frangia inspect MESH --reference primitives.step -o OUT.ply`: {len(points)} vertices within 1 % of the size of six parts, against the exact faces of the STEP file. "
-              f"Their deviations take {answer['seconds']['deviation']:.1f} s on two cores (wanted 60).\n")
+    study.add(
+        f"`frangia inspect MESH --reference primitives.step -o OUT.ply`: {len(points)} vertices within 1 % of the size of six parts, against the exact faces of the STEP file. "
+        f"Their deviations take {answer['seconds']['deviation']:.1f} s on two cores (wanted 60).\n"
+    )
     study.table("part", "compared vertices", "largest error, mm", "wanted, mm")
     for part, name in enumerate(PARTS):
         own = numpy.isfinite(deviation) & (numpy.rint(points[:, 0] / SPACING) == part)

@@ -45,8 +45,12 @@ model = "pinhole"
 size_px = [{PROJECTOR_PX[0]}, {PROJECTOR_PX[1]}]
 """
 
-PATTERNS = [("columns-cue", "vertical", 1824), ("columns-fine", "vertical", 114),
-            ("rows-cue", "horizontal", 1140), ("rows-fine", "horizontal", 71.25)]
+PATTERNS = [
+    ("columns-cue", "vertical", 1824),
+    ("columns-fine", "vertical", 114),
+    ("rows-cue", "horizontal", 1140),
+    ("rows-fine", "horizontal", 71.25),
+]
 
 
 def copied(source, folder):
@@ -71,8 +75,10 @@ def write_scan(source, folder):
     copied(source, folder)
     text = SCAN
     for name, direction, period in PATTERNS:
-        text += (f'\n[[pattern]]\nname = "{name}"\nkind = "fringe"\ndirection = "{direction}"\n'
-                 f"period_px = {period}\nshifts_deg = [0, 240, 120]\n")
+        text += (
+            f'\n[[pattern]]\nname = "{name}"\nkind = "fringe"\ndirection = "{direction}"\n'
+            f"period_px = {period}\nshifts_deg = [0, 240, 120]\n"
+        )
     for view in sorted((folder / "views").iterdir()):
         text += f'\n[[view]]\nfolder = "views/{view.name}"\n'
     (folder / "scan.toml").write_text(text)
@@ -83,7 +89,7 @@ def write_scan(source, folder):
 def solve_with_opencv(views):
     """RMS errors of the camera alone, the projector alone and both together, with k1 k2 p1 p2 k3 free; the baseline."""
     board = numpy.zeros((CORNERS[0] * CORNERS[1], 3), numpy.float32)
-    board[:, :2] = numpy.mgrid[:CORNERS[0], :CORNERS[1]].T.reshape(-1, 2) * SQUARE_MM
+    board[:, :2] = numpy.mgrid[: CORNERS[0], : CORNERS[1]].T.reshape(-1, 2) * SQUARE_MM
     objects, camera, projector = [], [], []
     for view in views:
         points = [p for p in view["points"] if None not in p]
@@ -93,8 +99,17 @@ def solve_with_opencv(views):
     rms_c, k_c, d_c, _, _ = cv2.calibrateCamera(objects, camera, CAMERA_PX, None, None)
     rms_p, k_p, d_p, _, _ = cv2.calibrateCamera(objects, projector, PROJECTOR_PX, None, None)
     rms, _, _, _, _, _, t, _, _ = cv2.stereoCalibrate(
-        objects, camera, projector, k_c, d_c, k_p, d_p, CAMERA_PX, flags=cv2.CALIB_USE_INTRINSIC_GUESS,
-        criteria=(cv2.TERM_CRITERIA_COUNT + cv2.TERM_CRITERIA_EPS, 300, 1e-9))
+        objects,
+        camera,
+        projector,
+        k_c,
+        d_c,
+        k_p,
+        d_p,
+        CAMERA_PX,
+        flags=cv2.CALIB_USE_INTRINSIC_GUESS,
+        criteria=(cv2.TERM_CRITERIA_COUNT + cv2.TERM_CRITERIA_EPS, 300, 1e-9),
+    )
     return rms_c, rms_p, rms, float(numpy.linalg.norm(t))
 
 
@@ -136,7 +151,9 @@ def project(points, matrix, distortion, rotation=numpy.eye(3), shift=numpy.zeros
 
 def triangulated(rig, pixels, columns, depth):
     """Where the rays of camera pixels meet the sheets of light of projector columns; `depth` is a start."""
-    rays = numpy.c_[cv2.undistortPoints(pixels.reshape(-1, 1, 2).astype(float), rig[0], rig[1])[:, 0], numpy.ones(len(pixels))]
+    rays = numpy.c_[
+        cv2.undistortPoints(pixels.reshape(-1, 1, 2).astype(float), rig[0], rig[1])[:, 0], numpy.ones(len(pixels))
+    ]
     z, step = numpy.broadcast_to(depth, len(rays)).astype(float), 1e-3
     for _ in range(15):
         here, there = (project(rays * (z + d)[:, None], *rig[2:])[:, 0] - columns for d in (0.0, step))
@@ -176,11 +193,15 @@ def reconstructed(study, scan):
 def measure_real(study):
     poses = write_scan(study.shared("skull-calibration"), study.work / "skull-poses")
     rigs = {"frangia": study.work / "skull-rig.toml", "frangia --flat-board": study.work / "skull-rig-flat.toml"}
-    study.add("`frangia calibrate rig poses -o rig.toml` on the poses of a real rig, and OpenCV on the same points. OpenCV's error of both is over all points of camera and projector.\n")
+    study.add(
+        "`frangia calibrate rig poses -o rig.toml` on the poses of a real rig, and OpenCV on the same points. OpenCV's error of both is over all points of camera and projector.\n"
+    )
     study.table("solved by", "camera RMS, px", "projector RMS, px", "baseline, mm")
     for name, rig in rigs.items():
         result = study.run("calibrate", "rig", poses, "-o", rig, *name.split()[1:])
-        study.row(name, f"{result['camera_rms_px']:.3f}", f"{result['projector_rms_px']:.3f}", f"{result['baseline_mm']:.2f}")
+        study.row(
+            name, f"{result['camera_rms_px']:.3f}", f"{result['projector_rms_px']:.3f}", f"{result['baseline_mm']:.2f}"
+        )
     rms_c, rms_p, rms, baseline = solve_with_opencv(result["views"])
     study.row("OpenCV calibrateCamera, each alone", f"{rms_c:.3f}", f"{rms_p:.3f}", "")
     study.row("OpenCV stereoCalibrate, both", f"{rms:.3f}", f"{rms:.3f}", f"{baseline:.2f}")
@@ -188,7 +209,9 @@ def measure_real(study):
     rigs = {"given": skull / "rig.toml", **rigs}
     solved = {name: rig_of(rig) for name, rig in rigs.items()}
     baseline = {name: numpy.linalg.norm(rig[-1]) for name, rig in solved.items()}
-    study.add("\nThe six boards, triangulated by each rig from the camera's corners and the phases of the columns alone. A rig that is right measures the sides of the board alike in all poses.\n")
+    study.add(
+        "\nThe six boards, triangulated by each rig from the camera's corners and the phases of the columns alone. A rig that is right measures the sides of the board alike in all poses.\n"
+    )
     study.table("rig", "sides of the board, over their mean", "median distance from a plane, of a square")
     for name, rig in solved.items():
         lengths, height = board_lengths(rig, result["views"], 2.4 * baseline[name])
@@ -196,8 +219,16 @@ def measure_real(study):
     reference = points_of(read_ply(skull / "reference.ply"))
     given = solved["given"]
     pixels, columns = project(reference, *given[:2]), project(reference, *given[2:])[:, 0]
-    study.add("\nThe skull, reconstructed with each rig, after the best similarity; the square of the board is not recorded, so the scale is open. `reference.ply` was itself triangulated with the given rig and carries its errors. The last column compares with the same measurement of the reference, triangulated with the rig of the row.\n")
-    study.table("rig", "median distance from reference.ply, mm", "90 %, mm", "scale", "median distance from the reference triangulated by the rig, mm")
+    study.add(
+        "\nThe skull, reconstructed with each rig, after the best similarity; the square of the board is not recorded, so the scale is open. `reference.ply` was itself triangulated with the given rig and carries its errors. The last column compares with the same measurement of the reference, triangulated with the rig of the row.\n"
+    )
+    study.table(
+        "rig",
+        "median distance from reference.ply, mm",
+        "90 %, mm",
+        "scale",
+        "median distance from the reference triangulated by the rig, mm",
+    )
     for name, rig in rigs.items():
         scan = copied(skull, study.work / "skull-scan")
         copy_rig(rig, scan)
@@ -215,7 +246,9 @@ def values_of(rig):
     for device in ("camera", "projector"):
         (fx, fy), (cx, cy) = rig[device]["focal_px"], rig[device]["principal_point_px"]
         names = ("focal_px", "focal_ratio", "principal_x_px", "principal_y_px", "k1", "k2", "p1", "p2", "k3")
-        values |= {f"{device}.{name}": value for name, value in zip(names, (fx, fy / fx, cx, cy, *rig[device]["distortion"]))}
+        values |= {
+            f"{device}.{name}": value for name, value in zip(names, (fx, fy / fx, cx, cy, *rig[device]["distortion"]))
+        }
     rotation = numpy.array(rig["projector"]["rotation"])
     shift = -rotation @ numpy.array(rig["projector"]["position_mm"])
     for axis, turn, move in zip("xyz", cv2.Rodrigues(rotation)[0].ravel(), shift):
@@ -242,9 +275,21 @@ def error_of_seed(study, capture, seed):
         scale = numpy.sqrt(numpy.diag(covariance))
         normalized = error / scale
         square = normalized @ numpy.linalg.solve(covariance / numpy.outer(scale, scale), normalized)
-        log.write_text(json.dumps({"square": square, "count": len(names), "errors": dict(zip(names, error)), "normalized": dict(zip(names, normalized)),
-                                   "baseline_mm": numpy.linalg.norm(found["projector"]["position_mm"]) - numpy.linalg.norm(capture.truth["projector"]["position_mm"]),
-                                   "focal": [found[d]["focal_px"][0] / capture.truth[d]["focal_px"][0] - 1 for d in ("camera", "projector")]}))
+        log.write_text(
+            json.dumps(
+                {
+                    "square": square,
+                    "count": len(names),
+                    "errors": dict(zip(names, error)),
+                    "normalized": dict(zip(names, normalized)),
+                    "baseline_mm": numpy.linalg.norm(found["projector"]["position_mm"])
+                    - numpy.linalg.norm(capture.truth["projector"]["position_mm"]),
+                    "focal": [
+                        found[d]["focal_px"][0] / capture.truth[d]["focal_px"][0] - 1 for d in ("camera", "projector")
+                    ],
+                }
+            )
+        )
     return json.loads(log.read_text())
 
 
@@ -256,19 +301,29 @@ def measure_seeds(study, seeds=SEEDS):
     study.add(f"\n{POSES} poses of 640 × 512 pixels, rendered once and calibrated with {seeds} seeds of the noise.\n")
     study.table("figure", "value")
     study.row("errors of the estimated parameters, normalized by their full covariance, RMS", f"{pooled:.2f}")
-    study.row("largest relative error of a focal length", f"{100 * max(abs(f) for e in errors for f in e['focal']):.4f} %")
+    study.row(
+        "largest relative error of a focal length", f"{100 * max(abs(f) for e in errors for f in e['focal']):.4f} %"
+    )
     points = [(abs(e["errors"][n]), abs(e["normalized"][n])) for e in errors for n in e["errors"] if "principal" in n]
-    study.row("largest error of a principal point, px; over its standard deviation", f"{max(p[0] for p in points):.3f}; {max(p[1] for p in points):.2f}")
+    study.row(
+        "largest error of a principal point, px; over its standard deviation",
+        f"{max(p[0] for p in points):.3f}; {max(p[1] for p in points):.2f}",
+    )
     study.row("largest error of the baseline, mm", f"{max(abs(e['baseline_mm']) for e in errors):.4f}")
 
 
 def measure_simulated(study):
     """Errors of a simulated rig, and a ball bar reconstructed with the true and with the found rig."""
-    scan, file = study.made("poses", "simulate", "--calibration", "checkerboard", "--views", POSES, "--samples", 4), study.work / "rig-simulated.toml"
+    scan, file = (
+        study.made("poses", "simulate", "--calibration", "checkerboard", "--views", POSES, "--samples", 4),
+        study.work / "rig-simulated.toml",
+    )
     study.run("calibrate", "rig", scan, "-o", file)
     truth, found = (tomllib.loads(f.read_text()) for f in (scan / "truth-rig.toml", file))
     sigma = found["calibration"]["sigma"]
-    study.add(f"\n`frangia simulate --calibration checkerboard --views {POSES}`, calibrated, against the rig that rendered the poses.\n")
+    study.add(
+        f"\n`frangia simulate --calibration checkerboard --views {POSES}`, calibrated, against the rig that rendered the poses.\n"
+    )
     study.table("parameter", "true", "found", "error over sigma")
     for device in ("camera", "projector"):
         for index, axis in enumerate("xy"):
@@ -282,8 +337,10 @@ def measure_simulated(study):
     study.row("baseline, mm", f"{a:.4f}", f"{b:.4f}", "")
     bar = copied(study.simulated("ball-bar"), study.work / "ball-bar-calibrated")
     table = truth["turntable"]
-    rigs = {"true rig": (bar / "rig.toml").read_text(),
-            "found rig": file.read_text() + f"\n[turntable]\npoint_mm = {table['point_mm']}\naxis = {table['axis']}\n"}
+    rigs = {
+        "true rig": (bar / "rig.toml").read_text(),
+        "found rig": file.read_text() + f"\n[turntable]\npoint_mm = {table['point_mm']}\naxis = {table['axis']}\n",
+    }
     study.add("\nA ball bar, rendered by the true rig and reconstructed with each.\n")
     copy_rig(file, bar)
     study.table("reconstructed with", "spacing, mm (70)", "diameters, mm (40)")

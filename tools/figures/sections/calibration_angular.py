@@ -39,13 +39,19 @@ def theta0(rig):
 def errors_of(found, truth):
     """Names and errors of the parameters."""
     table, true_table = found["turntable"], truth["turntable"]
-    shift = across(found["projector"]["position_mm"], truth["projector"]["position_mm"], truth["projector"]["rotation"][1])
+    shift = across(
+        found["projector"]["position_mm"], truth["projector"]["position_mm"], truth["projector"]["rotation"][1]
+    )
     return {
         "focal length, px": found["camera"]["focal_px"][0] - truth["camera"]["focal_px"][0],
-        "principal point, px": max(abs(a - b) for a, b in zip(found["camera"]["principal_point_px"], truth["camera"]["principal_point_px"])),
+        "principal point, px": max(
+            abs(a - b) for a, b in zip(found["camera"]["principal_point_px"], truth["camera"]["principal_point_px"])
+        ),
         "theta0, degrees": theta0(found) - theta0(truth),
         "pitch, %": 100 * (found["projector"].get("pitch_scale", 1) / truth["projector"].get("pitch_scale", 1) - 1),
-        "direction of the fringes, degrees": degrees_between(found["projector"]["rotation"][1], truth["projector"]["rotation"][1]),
+        "direction of the fringes, degrees": degrees_between(
+            found["projector"]["rotation"][1], truth["projector"]["rotation"][1]
+        ),
         "place of the projector across its fringes, mm": shift,
         "axis of the turntable, degrees": degrees_between(table["axis"], true_table["axis"]),
         "axis of the turntable, mm": across(table["point_mm"], true_table["point_mm"], true_table["axis"]),
@@ -56,7 +62,18 @@ def errors_of(found, truth):
 def captures(study, seed):
     """Screen, plate and ball bar of the built-in angular rig."""
     made = lambda kind, views, *more: study.made(
-        f"angular-{kind}-{seed}", "simulate", "--calibration", kind, "--rig", "angular", "--views", views, "--seed", seed, *more)
+        f"angular-{kind}-{seed}",
+        "simulate",
+        "--calibration",
+        kind,
+        "--rig",
+        "angular",
+        "--views",
+        views,
+        "--seed",
+        seed,
+        *more,
+    )
     return made("screen", POSES), made("plate", ANGLES, "--samples", 4), made("ball-bar", STATIONS, "--samples", 4)
 
 
@@ -69,15 +86,19 @@ def measure_wavefront(study):
     scans = captures(study, SEEDS[0])
     lines = (scans[1] / "truth-rig.toml").read_text().splitlines()
     at = next(i for i, line in enumerate(lines) if line.startswith("field_deg"))
-    truth.write_text("\n".join([*lines[: at + 1], f"wavefront_deg = {list(WAVEFRONT_DEG)}", *lines[at + 1:], ""]))
-    made = [study.made(f"wavefront-{kind}", "simulate", "--calibration", kind, "--rig", truth, "--views", views)
-            for kind, views in (("screen", POSES), ("plate", ANGLES), ("ball-bar", STATIONS))]
+    truth.write_text("\n".join([*lines[: at + 1], f"wavefront_deg = {list(WAVEFRONT_DEG)}", *lines[at + 1 :], ""]))
+    made = [
+        study.made(f"wavefront-{kind}", "simulate", "--calibration", kind, "--rig", truth, "--views", views)
+        for kind, views in (("screen", POSES), ("plate", ANGLES), ("ball-bar", STATIONS))
+    ]
     rig = study.work / "angular-wavefront-found.toml"
     study.run("calibrate", "rig", *made, "-o", rig)
     points = numpy.random.default_rng(1).uniform((-50, -50, 440), (50, 50, 540), (10000, 3))
     off = fringe_angles(rig_of(rig), points) - fringe_angles(rig_of(truth), points)
     deviation = fringe_angles(rig_of(truth), points) - fringe_angles(rig_of(scans[1] / "truth-rig.toml"), points)
-    study.add(f"\nA wavefront that deviates by {numpy.sqrt((deviation ** 2).mean()):.4f} degrees RMS in the measuring volume: found with an error of {numpy.sqrt((off ** 2).mean()):.5f} degrees RMS, {abs(off).max():.5f} at most.")
+    study.add(
+        f"\nA wavefront that deviates by {numpy.sqrt((deviation ** 2).mean()):.4f} degrees RMS in the measuring volume: found with an error of {numpy.sqrt((off ** 2).mean()):.5f} degrees RMS, {abs(off).max():.5f} at most."
+    )
 
 
 def fringe_angles(rig, points):
@@ -89,7 +110,7 @@ def fringe_angles(rig, points):
     half = (high - low) / 2
     u, v = (psi - (low + high) / 2) / half, numpy.degrees(y / numpy.hypot(x, z)) / half
     a, b, c, d, e, f = projector.get("wavefront_deg", [0] * 6)
-    bend = a * u ** 2 + b * v ** 2 + c * u ** 3 + d * u ** 2 * v + e * u * v ** 2 + f * v ** 3
+    bend = a * u**2 + b * v**2 + c * u**3 + d * u**2 * v + e * u * v**2 + f * v**3
     return (psi + bend) / projector.get("pitch_scale", 1)
 
 
@@ -119,7 +140,9 @@ def knocked(rig, degrees, shift_mm):
 
 
 def measure(study):
-    study.add(f"`frangia calibrate rig screen plate ball-bar -o rig.toml`: a screen in {POSES} poses, a plate on the turntable at {ANGLES} angles over 120 degrees, a ball bar at {STATIONS}; the built-in angular rig, 512 × 512 pixels, started 5 % and 3 degrees off. Largest error over {len(SEEDS)} seeds of noise and start.\n")
+    study.add(
+        f"`frangia calibrate rig screen plate ball-bar -o rig.toml`: a screen in {POSES} poses, a plate on the turntable at {ANGLES} angles over 120 degrees, a ball bar at {STATIONS}; the built-in angular rig, 512 × 512 pixels, started 5 % and 3 degrees off. Largest error over {len(SEEDS)} seeds of noise and start.\n"
+    )
     errors, starts = [], []
     for seed in SEEDS:
         scans = captures(study, seed)
@@ -133,7 +156,9 @@ def measure(study):
         start = "" if "px" in name else f"{max(abs(s[name]) for s in starts):.3g}"
         study.row(name, start, f"{max(abs(e[name]) for e in errors):.4f}")
     measure_wavefront(study)
-    study.add("\n`frangia calibrate check rig.toml SCAN`, with the found rig and with one whose projector was turned by 0.1 degrees and moved by 0.5 mm afterwards.\n")
+    study.add(
+        "\n`frangia calibrate check rig.toml SCAN`, with the found rig and with one whose projector was turned by 0.1 degrees and moved by 0.5 mm afterwards.\n"
+    )
     study.table("scan", "rig", "figure", "deviation, mm", "limit, mm", "")
     plate, bar = scans[1], scans[2]
     moved = study.work / "angular-rig-moved.toml"
@@ -142,4 +167,11 @@ def measure(study):
     for name, scan in (("ball-bar", bar), ("plate", plate), ("part (bracket)", part)):
         for state, file in (("as found", rig), ("moved", moved)):
             for item in check(study, file, scan)["items"]:
-                study.row(name, state, item["name"], f"{item['deviation_mm']:+.4f}", f"{item['limit_mm']:.4f}", "passed" if item["passed"] else "failed")
+                study.row(
+                    name,
+                    state,
+                    item["name"],
+                    f"{item['deviation_mm']:+.4f}",
+                    f"{item['limit_mm']:.4f}",
+                    "passed" if item["passed"] else "failed",
+                )

@@ -37,18 +37,27 @@ def scaled(factor):
 
 def hidden(frames, seed):
     """No board in six of the eight views."""
-    return {path: frame if (int(view_of(path)) + seed) % POSES < 2 else numpy.full_like(frame, frame.mean()) for path, frame in frames.items()}
+    return {
+        path: frame if (int(view_of(path)) + seed) % POSES < 2 else numpy.full_like(frame, frame.mean())
+        for path, frame in frames.items()
+    }
 
 
 def gamma(frames, seed):
     """A display with a gamma of 2.2; the white frame is the light of a pixel at full level."""
     white = {view_of(path): frame for path, frame in frames.items() if not is_fringe(path)}
-    return {path: white[view_of(path)] * numpy.clip(frame / numpy.maximum(white[view_of(path)], 1e-6), 0, 1) ** 2.2 if is_fringe(path) else frame
-            for path, frame in frames.items()}
+    return {
+        path: white[view_of(path)] * numpy.clip(frame / numpy.maximum(white[view_of(path)], 1e-6), 0, 1) ** 2.2
+        if is_fringe(path)
+        else frame
+        for path, frame in frames.items()
+    }
 
 
 def swap(frames, view, pattern, first, second):
-    for path in [path for path in frames if (view is None or view_of(path) == view) and path.name == f"{pattern}-{first}.png"]:
+    for path in [
+        path for path in frames if (view is None or view_of(path) == view) and path.name == f"{pattern}-{first}.png"
+    ]:
         other = path.with_name(f"{pattern}-{second}.png")
         frames[path], frames[other] = frames[other], frames[path]
     return frames
@@ -81,12 +90,19 @@ def moved(frames, seed):
     """All frames of the rows of one view are shifted by 1.2 px, as a board that slips between the two directions shows them."""
     angle = numpy.random.default_rng(seed).uniform(0, 2 * numpy.pi)
     shift = numpy.float32([[1, 0, 1.2 * numpy.cos(angle)], [0, 1, 1.2 * numpy.sin(angle)]])
-    return {path: cv2.warpAffine(frame, shift, frame.shape[::-1], flags=cv2.INTER_CUBIC, borderMode=cv2.BORDER_REPLICATE)
-            if view_of(path) == chosen(seed) and path.name.startswith("rows") else frame for path, frame in frames.items()}
+    return {
+        path: cv2.warpAffine(frame, shift, frame.shape[::-1], flags=cv2.INTER_CUBIC, borderMode=cv2.BORDER_REPLICATE)
+        if view_of(path) == chosen(seed) and path.name.startswith("rows")
+        else frame
+        for path, frame in frames.items()
+    }
 
 
 def blurred(frames, seed):
-    return {path: cv2.GaussianBlur(frame, None, 4.0) if view_of(path) == chosen(seed) else frame for path, frame in frames.items()}
+    return {
+        path: cv2.GaussianBlur(frame, None, 4.0) if view_of(path) == chosen(seed) else frame
+        for path, frame in frames.items()
+    }
 
 
 def parallel(frames, seed):
@@ -103,6 +119,7 @@ def replaced(old, new, file="scan.toml", count=0):
         assert re.search(old, text[file]), (old, file)
         text[file] = re.sub(old, new, text[file], count=count)
         return text
+
     return change
 
 
@@ -117,7 +134,11 @@ def reversed_columns(text):
     parts = re.split(r"(?=^\[)", text["scan.toml"], flags=re.M)
     for i, part in enumerate(parts):
         if 'name = "columns' in part:
-            parts[i] = re.sub(r"shifts_deg = \[(.*)\]", lambda m: "shifts_deg = [" + ", ".join(str(-float(v) % 360) for v in m[1].split(",")) + "]", part)
+            parts[i] = re.sub(
+                r"shifts_deg = \[(.*)\]",
+                lambda m: "shifts_deg = [" + ", ".join(str(-float(v) % 360) for v in m[1].split(",")) + "]",
+                part,
+            )
     text["scan.toml"] = "".join(parts)
     return text
 
@@ -162,18 +183,42 @@ FAULTS = [
     ("all poses parallel", parallel, None, "parallel", "checkerboard"),
     ("board too dark", scaled(0.03), None, "too dark", "checkerboard"),
     ("board overexposed", scaled(4.0), None, "overexposed", "checkerboard"),
-    ("wrong number of corners", None, replaced(r"corners = \[10, 7\]", "corners = [9, 7]"), r"set corners = \[10, 7\]", "checkerboard"),
+    (
+        "wrong number of corners",
+        None,
+        replaced(r"corners = \[10, 7\]", "corners = [9, 7]"),
+        r"set corners = \[10, 7\]",
+        "checkerboard",
+    ),
     ("wrong square, baseline stated", None, wrong_square, r"board.square_mm is", "checkerboard"),
     ("mirrored board (ChArUco)", mirrored_image, None, "markers of the board mirrored", "charuco"),
     ("mirrored projector", None, reversed_columns, "mirrored", "checkerboard"),
     ("rows and columns exchanged", None, exchanged, "rows and columns of the projector are exchanged", "checkerboard"),
     ("no horizontal fringes", None, without_rows, "no horizontal fringes", "checkerboard"),
-    ("rig.toml of another camera", None, replaced(r"size_px = \[640, 512\]", "size_px = [1280, 1024]", "rig.toml"), "640", "checkerboard"),
+    (
+        "rig.toml of another camera",
+        None,
+        replaced(r"size_px = \[640, 512\]", "size_px = [1280, 1024]", "rig.toml"),
+        "640",
+        "checkerboard",
+    ),
     ("projector with a gamma of 2.2", gamma, None, "projector is not linear", "checkerboard"),
     ("frames of a pattern swapped, all views", swapped, None, "do not follow its shifts", "checkerboard"),
-    ("frames swapped in one view", swapped_once, None, r"frames of pattern .* in views/{view} do not follow", "checkerboard"),
+    (
+        "frames swapped in one view",
+        swapped_once,
+        None,
+        r"frames of pattern .* in views/{view} do not follow",
+        "checkerboard",
+    ),
     ("frames half a period apart swapped, one view", opposite_once, None, r"views/{view}", "checkerboard"),
-    ("frames of a pattern exchanged between two views", exchanged_views, None, r"views/{view}.*exchanged", "checkerboard"),
+    (
+        "frames of a pattern exchanged between two views",
+        exchanged_views,
+        None,
+        r"views/{view}.*exchanged",
+        "checkerboard",
+    ),
     ("board moved within one view by 1.2 px", moved, None, r"moved during the capture of views/{view}", "checkerboard"),
     ("one view out of focus", blurred, None, r"out of focus or moving in views/{view}", "checkerboard"),
     ("none, circles", None, None, None, "circles"),
@@ -184,7 +229,9 @@ FAULTS = [
 
 def first_message(study, scan):
     """The first warning or error of a calibration; None without one."""
-    result = subprocess.run([study.program, "--json", "calibrate", "rig", scan, "-o", scan / "found.toml"], capture_output=True, text=True)
+    result = subprocess.run(
+        [study.program, "--json", "calibrate", "rig", scan, "-o", scan / "found.toml"], capture_output=True, text=True
+    )
     messages = [line.replace(f"{scan}/", "") for line in result.stderr.splitlines() if line.strip()]
     if messages:
         return messages[0]
@@ -199,7 +246,9 @@ def measure_fault(study, captures, fault, seeds):
         key = f"{name} {seed}"
         if key in known:
             continue
-        scan = captures[board].write(study.work / "doctor-scan", 1000 + seed, (lambda frames: change(frames, seed)) if change else None, text)
+        scan = captures[board].write(
+            study.work / "doctor-scan", 1000 + seed, (lambda frames: change(frames, seed)) if change else None, text
+        )
         known[key] = first_message(study, scan)
         log.write_text(json.dumps(known, indent=1))
     return [known[f"{name} {seed}"] for seed in range(seeds)]
@@ -207,7 +256,9 @@ def measure_fault(study, captures, fault, seeds):
 
 def measure(study, seeds=SEEDS):
     captures = {kind: Capture(rendered(study, kind, POSES)) for kind in ("checkerboard", "charuco", "circles")}
-    study.add(f"`frangia calibrate rig` on {POSES} simulated poses of 640 × 512 pixels, {seeds} seeds of the noise. A fault is named if the first warning or error names it; without a fault there must be none.\n")
+    study.add(
+        f"`frangia calibrate rig` on {POSES} simulated poses of 640 × 512 pixels, {seeds} seeds of the noise. A fault is named if the first warning or error names it; without a fault there must be none.\n"
+    )
     study.table("fault", "named first", "message")
     for fault in FAULTS:
         messages = measure_fault(study, captures, fault, seeds)
@@ -216,7 +267,13 @@ def measure(study, seeds=SEEDS):
             named = sum(message is None for message in messages)
             wrong = next((message for message in messages if message is not None), "")
         else:
-            hits = [message is not None and re.search(words.format(view=chosen(seed)) if "{view}" in words else words, message) for seed, message in enumerate(messages)]
+            hits = [
+                message is not None
+                and re.search(words.format(view=chosen(seed)) if "{view}" in words else words, message)
+                for seed, message in enumerate(messages)
+            ]
             named = sum(map(bool, hits))
             wrong = next((message for message, hit in zip(messages, hits) if not hit), messages[0])
-        study.row(fault[0], f"{named} of {seeds}" if words else f"nothing in {named} of {seeds}", str(wrong).replace("|", "/"))
+        study.row(
+            fault[0], f"{named} of {seeds}" if words else f"nothing in {named} of {seeds}", str(wrong).replace("|", "/")
+        )

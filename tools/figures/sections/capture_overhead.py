@@ -8,11 +8,18 @@ TITLE = "Overhead of a capture"
 def measure(study):
     rig = study.work / "overhead.toml"
     text = (ROOT / "examples" / "simulated-digital.toml").read_text()
-    for small, large in (("[960, 768]", "[1280, 1024]"), ("[1800, 1800]", "[2400, 2400]"), ("[490.45, 377.35]", "[653.9, 503.1]"), ("samples = 4", "samples = 1")):
+    for small, large in (
+        ("[960, 768]", "[1280, 1024]"),
+        ("[1800, 1800]", "[2400, 2400]"),
+        ("[490.45, 377.35]", "[653.9, 503.1]"),
+        ("samples = 4", "samples = 1"),
+    ):
         text = text.replace(small, large)
     rig.write_text(text)
     answer = study.run_in_new_folder("overhead", "scan", rig, "--views", 4)
-    study.add("`frangia scan` at 1280 x 1024 pixels, 4 views of 12 frames: the time of the program alone, without the devices (exposing, settling, moving; here rendering) and without waiting for the disk.\n")
+    study.add(
+        "`frangia scan` at 1280 x 1024 pixels, 4 views of 12 frames: the time of the program alone, without the devices (exposing, settling, moving; here rendering) and without waiting for the disk.\n"
+    )
     study.table("", "measured", "wanted")
     study.row("ms per frame", f"{answer['overhead_ms_per_frame']:.1f}", "at most 20")
     study.row("s in the devices", f"{answer['device_s']:.1f}", "")

@@ -8,10 +8,17 @@ from study import ROOT, NotMeasured
 
 TITLE = "Decimation, measured by MeshLab"
 
-HAUSDORFF = [("RichMesh", "SampledMesh", 0), ("RichMesh", "TargetMesh", 1), ("RichBool", "SaveSample", "false"),
-             ("RichBool", "SampleVert", "true"), ("RichBool", "SampleEdge", "true"),
-             ("RichBool", "SampleFauxEdge", "false"), ("RichBool", "SampleFace", "true"),
-             ("RichInt", "SampleNum", 1000000), ("RichAbsPerc", "MaxDist", 5)]
+HAUSDORFF = [
+    ("RichMesh", "SampledMesh", 0),
+    ("RichMesh", "TargetMesh", 1),
+    ("RichBool", "SaveSample", "false"),
+    ("RichBool", "SampleVert", "true"),
+    ("RichBool", "SampleEdge", "true"),
+    ("RichBool", "SampleFauxEdge", "false"),
+    ("RichBool", "SampleFace", "true"),
+    ("RichInt", "SampleNum", 1000000),
+    ("RichAbsPerc", "MaxDist", 5),
+]
 
 
 def distance(sampled, target):
@@ -29,10 +36,15 @@ def measure(study):
         raise NotMeasured(f"missing {', '.join(missing)}")
     study.build("bench_mesh")
     data = ROOT / "out" / "bench" / "data"
-    subprocess.run([ROOT / "build/release/bin/bench_mesh", "--benchmark_filter=^decimate_to"], check=True,
-                   env=dict(os.environ, FRANGIA_BENCH_DATA=str(data)))
+    subprocess.run(
+        [ROOT / "build/release/bin/bench_mesh", "--benchmark_filter=^decimate_to"],
+        check=True,
+        env=dict(os.environ, FRANGIA_BENCH_DATA=str(data)),
+    )
     scan = data / "scan.ply"
-    study.add("A scan of two million triangles, decimated to a tenth (`bench_mesh` writes both meshes). Distances from all vertices, a million points on the edges and about as many on the triangles of one mesh to the other; wanted: no larger than those of CGAL.\n")
+    study.add(
+        "A scan of two million triangles, decimated to a tenth (`bench_mesh` writes both meshes). Distances from all vertices, a million points on the edges and about as many on the triangles of one mesh to the other; wanted: no larger than those of CGAL.\n"
+    )
     study.table("", "maximum from mesh to scan, mm", "RMS", "maximum from scan to mesh, mm", "RMS")
     for name, mesh in {"frangia": data / "tenth.ply", "CGAL, Garland-Heckbert": data / "tenth-by-cgal.ply"}.items():
         (there, there_rms), (back, back_rms) = distance(mesh, scan), distance(scan, mesh)

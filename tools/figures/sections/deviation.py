@@ -18,7 +18,9 @@ def write_surface(path, around, along, noise_mm, seed):
     u, v = numpy.meshgrid(u, v, indexing="ij")
     radius = 50 * (1 + 0.15 * numpy.sin(3 * u) * numpy.sin(v) ** 2 + 0.1 * numpy.cos(5 * v))
     radius = radius + numpy.random.default_rng(seed).normal(0, noise_mm, radius.shape)
-    points = numpy.stack([radius * numpy.sin(v) * numpy.cos(u), radius * numpy.sin(v) * numpy.sin(u), radius * numpy.cos(v)], -1)
+    points = numpy.stack(
+        [radius * numpy.sin(v) * numpy.cos(u), radius * numpy.sin(v) * numpy.sin(u), radius * numpy.cos(v)], -1
+    )
     i, k = numpy.arange(around)[:, None], numpy.arange(along - 1)[None, :]
     a, b = (i * along + k).ravel(), ((i + 1) % around * along + k).ravel()
     triangles = numpy.concatenate([numpy.stack([a, a + 1, b], 1), numpy.stack([b, a + 1, b + 1], 1)])
@@ -39,8 +41,30 @@ def cloud_compare(study, points, reference):
     head += "".join(f"property float {axis}\n" for axis in "xyz") + "end_header\n"
     cloud.write_bytes(head.encode() + points.astype("<f4").tobytes())
     begin = time.monotonic()
-    subprocess.run(["xvfb-run", "-a", "CloudCompare", "-SILENT", "-AUTO_SAVE", "OFF", "-C_EXPORT_FMT", "ASC", "-PREC", "9",
-                    "-O", cloud, "-O", reference, "-C2M_DIST", "-SAVE_CLOUDS", "FILE", out], check=True, stdout=subprocess.DEVNULL)
+    subprocess.run(
+        [
+            "xvfb-run",
+            "-a",
+            "CloudCompare",
+            "-SILENT",
+            "-AUTO_SAVE",
+            "OFF",
+            "-C_EXPORT_FMT",
+            "ASC",
+            "-PREC",
+            "9",
+            "-O",
+            cloud,
+            "-O",
+            reference,
+            "-C2M_DIST",
+            "-SAVE_CLOUDS",
+            "FILE",
+            out,
+        ],
+        check=True,
+        stdout=subprocess.DEVNULL,
+    )
     return numpy.loadtxt(out)[:, -1], time.monotonic() - begin
 
 
@@ -53,8 +77,10 @@ def measure(study):
     vertices = read_ply(out)
     deviation = vertices["deviation_mm"]
     seconds = min(answer["seconds"]["deviation"] for answer in answers)
-    study.add("`frangia inspect MESH --reference REFERENCE -o OUT.ply`, 2 000 000 vertices against 1 000 000 triangles; seconds "
-              "without reading and the search tree of the reference, the best of three.\n")
+    study.add(
+        "`frangia inspect MESH --reference REFERENCE -o OUT.ply`, 2 000 000 vertices against 1 000 000 triangles; seconds "
+        "without reading and the search tree of the reference, the best of three.\n"
+    )
     study.table("program", "seconds", "largest difference, mm", "compared vertices")
     study.row("frangia", f"{seconds:.2f}", "", int(numpy.isfinite(deviation).sum()))
     other = cloud_compare(study, points_of(vertices), reference)
@@ -63,4 +89,9 @@ def measure(study):
         return
     distances, their_seconds = other
     both = numpy.isfinite(deviation) & numpy.isfinite(distances)
-    study.row("CloudCompare, C2M, with reading", f"{their_seconds:.2f}", f"{abs(deviation - distances)[both].max():.6f}", int(both.sum()))
+    study.row(
+        "CloudCompare, C2M, with reading",
+        f"{their_seconds:.2f}",
+        f"{abs(deviation - distances)[both].max():.6f}",
+        int(both.sum()),
+    )

@@ -6,4 +6,7 @@ from study import ROOT
 
 
 def measure(study):
-    subprocess.run([sys.executable, ROOT / "tools" / "edit_pictures.py", study.program, ROOT / "docs" / "images" / "editing"], check=True)
+    subprocess.run(
+        [sys.executable, ROOT / "tools" / "edit_pictures.py", study.program, ROOT / "docs" / "images" / "editing"],
+        check=True,
+    )

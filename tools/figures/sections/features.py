@@ -40,13 +40,19 @@ def modelled(diameter):
 
 def cylinder_at(features, diameter, low, high):
     """The cylinder of a nominal size whose center lies between two heights."""
-    found = [f for f in features if f["kind"] == "cylinder" and low < f["center_mm"][2] < high and abs(f["diameter_mm"] - diameter) < 1]
+    found = [
+        f
+        for f in features
+        if f["kind"] == "cylinder" and low < f["center_mm"][2] < high and abs(f["diameter_mm"] - diameter) < 1
+    ]
     return max(found, key=lambda f: f["points"], default=None)
 
 
 def write_fine_shaft(path, step_mm=0.13, noise_mm=0.005):
     """A turned part of 2 million triangles with noise, without sigma."""
-    corners = numpy.array([(0.2, 0), (18, 0), (18, 20), (26, 20), (26, 38), (18, 38), (18, 80), (14, 80), (14, 100), (0.2, 100)], float)
+    corners = numpy.array(
+        [(0.2, 0), (18, 0), (18, 20), (26, 20), (26, 38), (18, 38), (18, 80), (14, 80), (14, 100), (0.2, 100)], float
+    )
     profile = [corners[:1]]
     for begin, end in zip(corners[:-1], corners[1:]):
         steps = int(round(numpy.linalg.norm(end - begin) / step_mm))
@@ -58,11 +64,20 @@ def write_fine_shaft(path, step_mm=0.13, noise_mm=0.005):
     points = numpy.stack([profile[:, :1] * numpy.cos(angle), profile[:, :1] * numpy.sin(angle), height], -1)
     points += numpy.random.default_rng(1).normal(0, noise_mm, points.shape)
     index = numpy.arange(points.shape[0] * around).reshape(-1, around)
-    below, above, next_below, next_above = index[:-1], index[1:], numpy.roll(index, -1, axis=1)[:-1], numpy.roll(index, -1, axis=1)[1:]
-    triangles = numpy.concatenate([numpy.stack([below, next_below, next_above], -1), numpy.stack([below, next_above, above], -1)]).reshape(-1, 3)
+    below, above, next_below, next_above = (
+        index[:-1],
+        index[1:],
+        numpy.roll(index, -1, axis=1)[:-1],
+        numpy.roll(index, -1, axis=1)[1:],
+    )
+    triangles = numpy.concatenate(
+        [numpy.stack([below, next_below, next_above], -1), numpy.stack([below, next_above, above], -1)]
+    ).reshape(-1, 3)
     faces = numpy.empty(len(triangles), [("n", "u1"), ("v", "<i4", 3)])
     faces["n"], faces["v"] = 3, triangles
-    head = f"ply\nformat binary_little_endian 1.0\nelement vertex {index.size}\n" + "".join(f"property float {axis}\n" for axis in "xyz")
+    head = f"ply\nformat binary_little_endian 1.0\nelement vertex {index.size}\n" + "".join(
+        f"property float {axis}\n" for axis in "xyz"
+    )
     head += f"element face {len(triangles)}\nproperty list uchar int vertex_indices\nend_header\n"
     path.write_bytes(head.encode() + points.reshape(-1, 3).astype("<f4").tobytes() + faces.tobytes())
     return len(triangles)
@@ -81,12 +96,25 @@ def measure_misaligned(study):
         intervals += [feature["u95_mm"] for _, feature in found if feature]
     error, u95 = numpy.array(errors), numpy.array(intervals)
     inside = int((abs(error) <= u95).sum())
-    study.add(f"\nWith a turntable that is not where rig.toml states (`simulate {' '.join(map(str, MISALIGNED))}`), {MISALIGNED_SEEDS} seeds: errors of the diameters {numpy.sqrt(numpy.mean(error**2)):.4f} mm RMS, mean U95 {u95.mean():.4f} mm; {inside} of {len(error)} within their intervals ({100 * inside / max(len(error), 1):.1f} %), wanted 92 % or more.")
+    study.add(
+        f"\nWith a turntable that is not where rig.toml states (`simulate {' '.join(map(str, MISALIGNED))}`), {MISALIGNED_SEEDS} seeds: errors of the diameters {numpy.sqrt(numpy.mean(error**2)):.4f} mm RMS, mean U95 {u95.mean():.4f} mm; {inside} of {len(error)} within their intervals ({100 * inside / max(len(error), 1):.1f} %), wanted 92 % or more."
+    )
 
 
 def measure(study):
-    study.add(f"`frangia simulate shaft --seed N -o SCAN`, `frangia reconstruct SCAN -o MESH.ply`, `frangia inspect MESH.ply --features`; {SEEDS} seeds. The truth of a diameter is the cylinder that fits the facets of the simulated part.\n")
-    study.table("size, mm", "found", f"within its interval, first {FIRST}", "within its interval", "mean error, mm", "spread, mm", "mean U95, mm", "U95 over 1.96 spread")
+    study.add(
+        f"`frangia simulate shaft --seed N -o SCAN`, `frangia reconstruct SCAN -o MESH.ply`, `frangia inspect MESH.ply --features`; {SEEDS} seeds. The truth of a diameter is the cylinder that fits the facets of the simulated part.\n"
+    )
+    study.table(
+        "size, mm",
+        "found",
+        f"within its interval, first {FIRST}",
+        "within its interval",
+        "mean error, mm",
+        "spread, mm",
+        "mean U95, mm",
+        "U95 over 1.96 spread",
+    )
     errors, intervals = {size: [] for size in SHAFT + DISTANCES}, {size: [] for size in SHAFT + DISTANCES}
     for seed in range(1, SEEDS + 1):
         mesh = study.work / f"shaft-{seed}.ply"
@@ -111,11 +139,25 @@ def measure(study):
         inside = int(held.sum())
         covered, total = covered + inside, total + len(error)
         spread = error.std(ddof=1)
-        name = f"diameter {size[0]:.0f} at z = {size[1]} to {size[2]}" if size in SHAFT else f"distance of the faces at z = {size[0]:.0f} and {size[1]:.0f}"
-        study.row(name, len(error), f"{int(held[:FIRST].sum())} of {len(held[:FIRST])}", f"{inside} of {len(error)}", f"{error.mean():+.4f}",
-                  f"{spread:.4f}", f"{u95.mean():.4f}", f"{u95.mean() / (1.96 * spread):.2f}")
+        name = (
+            f"diameter {size[0]:.0f} at z = {size[1]} to {size[2]}"
+            if size in SHAFT
+            else f"distance of the faces at z = {size[0]:.0f} and {size[1]:.0f}"
+        )
+        study.row(
+            name,
+            len(error),
+            f"{int(held[:FIRST].sum())} of {len(held[:FIRST])}",
+            f"{inside} of {len(error)}",
+            f"{error.mean():+.4f}",
+            f"{spread:.4f}",
+            f"{u95.mean():.4f}",
+            f"{u95.mean() / (1.96 * spread):.2f}",
+        )
     ratio = numpy.mean([numpy.mean(intervals[c]) / (1.96 * numpy.std(errors[c], ddof=1)) for c in SHAFT + DISTANCES])
-    study.add(f"\nPooled: {covered} of {total} ({100 * covered / max(total, 1):.1f} %), wanted 92 to 98 %; intervals {ratio:.2f} times those from the spread, wanted at most 1.2.")
+    study.add(
+        f"\nPooled: {covered} of {total} ({100 * covered / max(total, 1):.1f} %), wanted 92 to 98 %; intervals {ratio:.2f} times those from the spread, wanted at most 1.2."
+    )
     measure_misaligned(study)
 
     mesh = study.work / "balls-features.ply"
@@ -138,4 +180,6 @@ def measure(study):
     searches = [study.run("inspect", fine, "--features") for _ in range(3)]
     kinds = [feature["kind"] for feature in searches[0]["features"]]
     seconds = min(search["seconds"]["features"] for search in searches)
-    study.add(f"\nA turned part of {triangles} triangles with noise of 0.005 mm: {kinds.count('cylinder')} of 4 cylinders and {kinds.count('plane')} of 5 planes in {seconds:.1f} s, wanted 5 s; the best of three.")
+    study.add(
+        f"\nA turned part of {triangles} triangles with noise of 0.005 mm: {kinds.count('cylinder')} of 4 cylinders and {kinds.count('plane')} of 5 planes in {seconds:.1f} s, wanted 5 s; the best of three."
+    )

@@ -6,4 +6,6 @@ from study import ROOT
 
 
 def measure(study):
-    subprocess.run([sys.executable, ROOT / "tools" / "check_files.py", study.program, ROOT / "docs" / "files.md"], check=True)
+    subprocess.run(
+        [sys.executable, ROOT / "tools" / "check_files.py", study.program, ROOT / "docs" / "files.md"], check=True
+    )

@@ -31,17 +31,33 @@ class Scans:
     def mesh(self, part, sequence, *options, ignore=False):
         """The comparison with the true surface, and what the program says about indirect light."""
         name = f"{part}-{sequence}-{'-'.join(map(str, options))}".replace(" ", "").replace(",", "_")
-        scan = self.study.made(name, "simulate", part, "--rig", self.rig, "--views", VIEWS, *self.sequences[sequence], *options)
+        scan = self.study.made(
+            name, "simulate", part, "--rig", self.rig, "--views", VIEWS, *self.sequences[sequence], *options
+        )
         mesh = self.study.work / "indirect.ply"
         found = self.study.run("reconstruct", scan, "-o", mesh, *(("--ignore-indirect-light",) if ignore else ()))
-        return self.study.run("inspect", mesh, "--reference", scan / "truth.ply", "--scan", scan), found.get("indirect_light")
+        return self.study.run("inspect", mesh, "--reference", scan / "truth.ply", "--scan", scan), found.get(
+            "indirect_light"
+        )
 
 
 def measure(study):
     scans, failures = Scans(study), []
     fringes = ", ".join(f"{count:g}" for count in scans.plan["fringes"])
-    study.add(f"Bracket and groove of 90°, {VIEWS} views, digital rig with half the pixels of its camera on a side, rendered without and with one diffuse bounce (`--bounces 1 --albedo {ALBEDO}`). The proposed sequence is that of `frangia plan --indirect --sigma 0.05`: {fringes} fringes, probability of a wrong order {scans.plan['wrong_order']:.0e}. Errors of the vertices in mm; `frangia reconstruct` finds the reflectance and corrects what the surface predicts; the ignored error is that of `--ignore-indirect-light`. Wanted: error over sigma at most {MOST_OVER_SIGMA}; RMS of the proposed sequence at most {MOST_OVER_DIRECT} times that without the bounce.\n")
-    study.table("part", "sequence", "RMS direct", "ignored", "RMS with bounce", "ratio", "99 %", "error over sigma", "reflectance found")
+    study.add(
+        f"Bracket and groove of 90°, {VIEWS} views, digital rig with half the pixels of its camera on a side, rendered without and with one diffuse bounce (`--bounces 1 --albedo {ALBEDO}`). The proposed sequence is that of `frangia plan --indirect --sigma 0.05`: {fringes} fringes, probability of a wrong order {scans.plan['wrong_order']:.0e}. Errors of the vertices in mm; `frangia reconstruct` finds the reflectance and corrects what the surface predicts; the ignored error is that of `--ignore-indirect-light`. Wanted: error over sigma at most {MOST_OVER_SIGMA}; RMS of the proposed sequence at most {MOST_OVER_DIRECT} times that without the bounce.\n"
+    )
+    study.table(
+        "part",
+        "sequence",
+        "RMS direct",
+        "ignored",
+        "RMS with bounce",
+        "ratio",
+        "99 %",
+        "error over sigma",
+        "reflectance found",
+    )
     for part in ("groove", "bracket"):
         for sequence in scans.sequences:
             direct, none = scans.mesh(part, sequence)
@@ -49,7 +65,17 @@ def measure(study):
             ignored = scans.mesh(part, sequence, "--bounces", 1, "--albedo", ALBEDO, ignore=True)[0]
             ratio, over = bounced["rms_mm"] / direct["rms_mm"], bounced["sigma_ratio"]
             found = f"{light['reflectance']:.2f}" if light else "none"
-            study.row(part, sequence, f"{direct['rms_mm']:.4f}", f"{ignored['rms_mm']:.4f}", f"{bounced['rms_mm']:.4f}", f"{ratio:.2f}", f"{bounced['p99_mm']:.4f}", f"{over:.2f} ({direct['sigma_ratio']:.2f} direct)", found)
+            study.row(
+                part,
+                sequence,
+                f"{direct['rms_mm']:.4f}",
+                f"{ignored['rms_mm']:.4f}",
+                f"{bounced['rms_mm']:.4f}",
+                f"{ratio:.2f}",
+                f"{bounced['p99_mm']:.4f}",
+                f"{over:.2f} ({direct['sigma_ratio']:.2f} direct)",
+                found,
+            )
             if over > MOST_OVER_SIGMA:
                 failures.append(f"error over sigma of {part}, {sequence}")
             if none:

@@ -28,7 +28,9 @@ def draw(study, report):
 
 
 def write_picture(name, svg):
-    svg = svg.replace("<svg ", '<svg xmlns="http://www.w3.org/2000/svg" style="background:#f6f6f6;border:1px solid #ccc" ', 1)
+    svg = svg.replace(
+        "<svg ", '<svg xmlns="http://www.w3.org/2000/svg" style="background:#f6f6f6;border:1px solid #ccc" ', 1
+    )
     (ROOT / "docs" / "images" / f"calibration-{name}.svg").write_text(svg + "\n")
 
 
@@ -38,10 +40,19 @@ def measure(study):
     folder.mkdir()
     for rig in ("simulated-maker.toml", "simulated-digital.toml"):
         shutil.copy(ROOT / "examples" / rig, folder)
-    study.add("The commands of [calibration.md](calibration.md), on [examples/simulated-maker.toml](../examples/simulated-maker.toml), with Enter for each pose:\n")
+    study.add(
+        "The commands of [calibration.md](calibration.md), on [examples/simulated-maker.toml](../examples/simulated-maker.toml), with Enter for each pose:\n"
+    )
     for command in COMMANDS.splitlines():
         study.add(f"    {command}")
-        subprocess.run([study.program, "--quiet", *command.split()[1:]], check=True, cwd=folder, input="\n" * 20, text=True, stderr=subprocess.DEVNULL)
+        subprocess.run(
+            [study.program, "--quiet", *command.split()[1:]],
+            check=True,
+            cwd=folder,
+            input="\n" * 20,
+            text=True,
+            stderr=subprocess.DEVNULL,
+        )
     errors, spacing = balls(folder / "ball-bar.ply")
     study.add()
     study.table("", "measured", "true")

@@ -5,7 +5,9 @@ ERRORS = ("--axis-offset", 0.5, "--axis-tilt", 0.3, "--angle-error", 0.15)
 
 
 def measure(study):
-    study.add("The axis 0.5 mm and 0.3 degrees from the one in rig.toml, the angles with errors of 0.15 degrees RMS (`--axis-offset 0.5 --axis-tilt 0.3 --angle-error 0.15`), digital rig, 8 views; wanted: at most 15 % worse than with the exact rig.\n")
+    study.add(
+        "The axis 0.5 mm and 0.3 degrees from the one in rig.toml, the angles with errors of 0.15 degrees RMS (`--axis-offset 0.5 --axis-tilt 0.3 --angle-error 0.15`), digital rig, 8 views; wanted: at most 15 % worse than with the exact rig.\n"
+    )
     study.table("part", "exact rig, RMS mm", "misaligned, registered", "ratio of the two", "misaligned, not registered")
     mesh = study.work / "misaligned.ply"
     for part in ("bust", "bracket", "shaft"):

@@ -17,7 +17,9 @@ def measure(study):
     answer = study.run("reconstruct", study.shared("block"), "-o", mesh)
     vertices = read_ply(mesh)
     distance = distance_to_block(points_of(vertices))
-    study.add("`frangia reconstruct ../shared/scans/block -o block.ply`; distances of the vertices to the analytic block. One fringe order corresponds to 28 mm of depth.\n")
+    study.add(
+        "`frangia reconstruct ../shared/scans/block -o block.ply`; distances of the vertices to the analytic block. One fringe order corresponds to 28 mm of depth.\n"
+    )
     study.table("", "measured", "wanted")
     study.row("RMS, mm", f"{rms(distance):.4f}", "at most 0.08")
     study.row("99 %, mm", f"{numpy.percentile(numpy.abs(distance), 99):.4f}", "")

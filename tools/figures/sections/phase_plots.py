@@ -10,4 +10,6 @@ def measure(study):
     if not (bench / "phase.json").exists():
         raise NotMeasured("the plots of times need out/bench; run `./run bench` first")
     subprocess.run([sys.executable, ROOT / "tools" / "plot_phase.py", study.program, bench, docs / "phase"], check=True)
-    subprocess.run([sys.executable, ROOT / "tools" / "plot_fusion.py", bench, docs / "images" / "surface-time.svg"], check=True)
+    subprocess.run(
+        [sys.executable, ROOT / "tools" / "plot_fusion.py", bench, docs / "images" / "surface-time.svg"], check=True
+    )

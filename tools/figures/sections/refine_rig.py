@@ -82,7 +82,9 @@ def oriented_vertices(mesh):
     corners = points[triangles]
     normals = numpy.zeros_like(points)
     for corner in range(3):
-        numpy.add.at(normals, triangles[:, corner], numpy.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]))
+        numpy.add.at(
+            normals, triangles[:, corner], numpy.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+        )
     length = numpy.linalg.norm(normals, axis=1)
     return points[length > 0], normals[length > 0] / length[length > 0, None]
 
@@ -118,12 +120,25 @@ def shape_error(mesh, truth):
 
 
 def measure(study):
-    study.add(f"The projector of rig.toml turned by {TURN_DEG} degrees and moved by {SHIFT_MM} mm, each in a random direction, after a scan by the simulated digital rig (8 views, 4 rays a pixel). The spheres of the ball bar after `frangia reconstruct`; wanted: with `--refine-rig` at most 1.3 times the form error of the exact rig.\n")
-    study.table("rig", "form error of the spheres, RMS mm", "with `--refine-rig`", "over the exact rig", "spacing 70 mm, refined", "with `--length 70mm`", "changes determined", "seconds of the refinement")
+    study.add(
+        f"The projector of rig.toml turned by {TURN_DEG} degrees and moved by {SHIFT_MM} mm, each in a random direction, after a scan by the simulated digital rig (8 views, 4 rays a pixel). The spheres of the ball bar after `frangia reconstruct`; wanted: with `--refine-rig` at most 1.3 times the form error of the exact rig.\n"
+    )
+    study.table(
+        "rig",
+        "form error of the spheres, RMS mm",
+        "with `--refine-rig`",
+        "over the exact rig",
+        "spacing 70 mm, refined",
+        "with `--length 70mm`",
+        "changes determined",
+        "seconds of the refinement",
+    )
     mesh = study.work / "refined.ply"
     scan = study.simulated("ball-bar")
     exact = None
-    for name, folder in [("exact", scan)] + [(f"drifted, seed {seed}", drifted(study, scan, seed)) for seed in (1, 2, 3)]:
+    for name, folder in [("exact", scan)] + [
+        (f"drifted, seed {seed}", drifted(study, scan, seed)) for seed in (1, 2, 3)
+    ]:
         untrusted = not reconstruct(study, folder, mesh)["trustworthy"]
         given, _ = balls(mesh)
         answer = reconstruct(study, folder, mesh, "--refine-rig")
@@ -132,11 +147,21 @@ def measure(study):
         _, scaled = balls(mesh)
         exact = exact or given
         found = answer["refinement"]
-        study.row(name, ", ".join(f"{error:.4f}" for error in given) + (" (not trusted)" if untrusted else ""), ", ".join(f"{error:.4f}" for error in refined),
-                  ", ".join(f"{error / best:.2f}" for error, best in zip(refined, exact)), f"{spacing:.3f}", f"{scaled:.3f}",
-                  "kept" if found["kept_rig"] else f"{found['directions'] - found['held_directions']} of {found['directions']}",
-                  f"{answer['seconds']['rig']:.0f}" if "rig" in answer.get("seconds", {}) else "")
-    study.add("\nOther parts, seed 1: RMS distance from the true surface after the similarity that fits best, and in brackets the error of the scale, which no part determines.\n")
+        study.row(
+            name,
+            ", ".join(f"{error:.4f}" for error in given) + (" (not trusted)" if untrusted else ""),
+            ", ".join(f"{error:.4f}" for error in refined),
+            ", ".join(f"{error / best:.2f}" for error, best in zip(refined, exact)),
+            f"{spacing:.3f}",
+            f"{scaled:.3f}",
+            "kept"
+            if found["kept_rig"]
+            else f"{found['directions'] - found['held_directions']} of {found['directions']}",
+            f"{answer['seconds']['rig']:.0f}" if "rig" in answer.get("seconds", {}) else "",
+        )
+    study.add(
+        "\nOther parts, seed 1: RMS distance from the true surface after the similarity that fits best, and in brackets the error of the scale, which no part determines.\n"
+    )
     study.table("part", "exact rig, mm", "drifted", "drifted, `--refine-rig`", "exact, `--refine-rig`")
     for part in ("bust", "bracket", "shaft"):
         scan = study.simulated(part)

@@ -7,5 +7,14 @@ from study import ROOT
 
 def measure(study):
     study.build("fusion_sensitivity")
-    subprocess.run([sys.executable, ROOT / "tools" / "sensitivity.py", study.program, ROOT / "build/release/bin/fusion_sensitivity",
-                    ROOT / "docs" / "parameters.md", study.work / "sensitivity"], check=True)
+    subprocess.run(
+        [
+            sys.executable,
+            ROOT / "tools" / "sensitivity.py",
+            study.program,
+            ROOT / "build/release/bin/fusion_sensitivity",
+            ROOT / "docs" / "parameters.md",
+            study.work / "sensitivity",
+        ],
+        check=True,
+    )

@@ -34,7 +34,11 @@ def small_rig(study):
     numbers = lambda values: [float(value) for value in values.split(",")]
     camera = re.sub(r"size_px = \[(.*?)\]", "size_px = [320, 256]", camera)
     camera = re.sub(r"focal_px = \[(.*?)\]", lambda m: f"focal_px = {[v / 3 for v in numbers(m[1])]}", camera)
-    camera = re.sub(r"principal_point_px = \[(.*?)\]", lambda m: f"principal_point_px = {[(v + 0.5) / 3 - 0.5 for v in numbers(m[1])]}", camera)
+    camera = re.sub(
+        r"principal_point_px = \[(.*?)\]",
+        lambda m: f"principal_point_px = {[(v + 0.5) / 3 - 0.5 for v in numbers(m[1])]}",
+        camera,
+    )
     path = study.work / "small-rig.toml"
     path.write_text(camera + "[camera.noise]" + rest)
     return path
@@ -47,9 +51,28 @@ class Scene:
     """
 
     def __init__(self, study, rig, part):
-        folder = study.made(f"clean-{part}", "simulate", part, "--rig", rig, "--views", 1, "--samples", 1, "--no-noise",
-                            "--bits", 16, "--periods", FIELD, 160, 20)
-        frames = lambda name: [cv2.imread(str(folder / "views" / "000" / f"{name}-{k}.png"), cv2.IMREAD_UNCHANGED).astype(float) / 257 for k in range(4)]
+        folder = study.made(
+            f"clean-{part}",
+            "simulate",
+            part,
+            "--rig",
+            rig,
+            "--views",
+            1,
+            "--samples",
+            1,
+            "--no-noise",
+            "--bits",
+            16,
+            "--periods",
+            FIELD,
+            160,
+            20,
+        )
+        frames = lambda name: [
+            cv2.imread(str(folder / "views" / "000" / f"{name}-{k}.png"), cv2.IMREAD_UNCHANGED).astype(float) / 257
+            for k in range(4)
+        ]
         column = None
         for period in (FIELD, 160, 20):
             i = frames(f"p{period}")
@@ -75,7 +98,10 @@ def wall(generator):
     """A bumpy wall that fills nearly the whole field, so that the borders of the widest stripes are seen."""
     scene = Scene.__new__(Scene)
     y, x = np.mgrid[0:256, 0:320]
-    bumps = sum(generator.uniform(5, 15) * np.sin(x * generator.uniform(0.01, 0.04) + y * generator.uniform(0.01, 0.04)) for _ in range(3))
+    bumps = sum(
+        generator.uniform(5, 15) * np.sin(x * generator.uniform(0.01, 0.04) + y * generator.uniform(0.01, 0.04))
+        for _ in range(3)
+    )
     scene.column = 20 + 1240 * x / 319 + bumps
     scene.modulation = 60 + 20 * np.sin(0.02 * y)
     scene.mean = 1.2 * scene.modulation + 20
@@ -85,14 +111,21 @@ def wall(generator):
 def fringes(counts, steps=4):
     """Declared patterns and what is really shown: the same."""
     shifts = [360 * k / steps for k in range(steps)]
-    return [{"keys": {"name": f"f{count}", "kind": "fringe", "period_px": FIELD / count, "shifts_deg": list(shifts)},
-             "shown": {"period": FIELD / count, "shifts": list(shifts)}} for count in counts]
+    return [
+        {
+            "keys": {"name": f"f{count}", "kind": "fringe", "period_px": FIELD / count, "shifts_deg": list(shifts)},
+            "shown": {"period": FIELD / count, "shifts": list(shifts)},
+        }
+        for count in counts
+    ]
 
 
 def gray():
     """Fringes of 40 px with a Gray code of 20 px stripes."""
-    code = {"keys": {"name": "gray", "kind": "gray", "bits": 6, "stripe_px": 20},
-            "shown": {"frames": [(bit, False, False) for bit in range(6)]}}
+    code = {
+        "keys": {"name": "gray", "kind": "gray", "bits": 6, "stripe_px": 20},
+        "shown": {"frames": [(bit, False, False) for bit in range(6)]},
+    }
     return fringes([32]) + [code]
 
 
@@ -106,14 +139,26 @@ def write_scan(folder, scene, patterns, rig, generator):
         if "shifts" in shown:
             clean = [scene.fringe(shown["period"], shift) for shift in shown["shifts"]]
         else:
-            clean = [scene.mean - scene.modulation if one is None else scene.stripes(6, 20, one[0], one[1], one[2]) for one in shown["frames"]]
+            clean = [
+                scene.mean - scene.modulation if one is None else scene.stripes(6, 20, one[0], one[1], one[2])
+                for one in shown["frames"]
+            ]
         for k, image in enumerate(clean):
             sigma = np.sqrt(np.maximum(image, 0) / GAIN_E + (READ_E / GAIN_E) ** 2)
             noisy = np.clip(np.rint(image + sigma * generator.normal(size=image.shape)), 0, 255).astype(np.uint8)
-            cv2.imwrite(str(folder / "views" / "000" / f"{pattern['keys']['name']}-{k}.png"), noisy, [cv2.IMWRITE_PNG_COMPRESSION, 1])
+            cv2.imwrite(
+                str(folder / "views" / "000" / f"{pattern['keys']['name']}-{k}.png"),
+                noisy,
+                [cv2.IMWRITE_PNG_COMPRESSION, 1],
+            )
 
 
-SEQUENCES = [lambda: fringes([1, 8, 64]), lambda: fringes([53, 58, 64]), lambda: fringes([1, 8, 40], 5), lambda: fringes([1, 4, 16, 64])]
+SEQUENCES = [
+    lambda: fringes([1, 8, 64]),
+    lambda: fringes([53, 58, 64]),
+    lambda: fringes([1, 8, 40], 5),
+    lambda: fringes([1, 4, 16, 64]),
+]
 
 
 def start(i, patterns, generator):
@@ -237,7 +282,9 @@ GRAY_FAULTS = [gray_exchanged, gray_inverted, gray_missing, gray_order, gray_bin
 
 
 def decode(study, folder):
-    result = subprocess.run([study.program, "--json", "decode", folder, "-o", study.work / "fault-stages"], capture_output=True, text=True)
+    result = subprocess.run(
+        [study.program, "--json", "decode", folder, "-o", study.work / "fault-stages"], capture_output=True, text=True
+    )
     if result.returncode not in (0, 5):
         raise RuntimeError(result.stderr)
     return json.loads(result.stdout)
@@ -260,9 +307,11 @@ def is_named(answer, kind, names, what):
 
 
 def faults(study, rig, scenes):
-    study.add(f"`./run figures sequence_faults`: {', '.join(PARTS)}, rendered at 320 x 256 pixels; {SCANS} scans of each fault, over the parts, "
-              "sequences of 1, 8, 64; 53, 58, 64; 1, 8, 40 (five frames); and 1, 4, 16, 64 fringes, and a Gray code of six bits, on walls "
-              "that fill the field; noise as in the sample scans.\n")
+    study.add(
+        f"`./run figures sequence_faults`: {', '.join(PARTS)}, rendered at 320 x 256 pixels; {SCANS} scans of each fault, over the parts, "
+        "sequences of 1, 8, 64; 53, 58, 64; 1, 8, 40 (five frames); and 1, 4, 16, 64 fringes, and a Gray code of six bits, on walls "
+        "that fill the field; noise as in the sample scans.\n"
+    )
     study.table("fault", "named, and nothing else", "wanted")
     for fault in FRINGE_FAULTS + GRAY_FAULTS:
         named = 0
@@ -305,8 +354,10 @@ def wrong_orders(study, rig, scenes):
         measured = np.isfinite(phase) & (scene.modulation > 20)
         kept += int(measured.sum())
         wrong += int((np.abs(error[measured]) > math.pi).sum())
-    study.add(f"\nHeterodyne, 64, 58 and 53 fringes, four steps: {wrong} wrong orders among {kept} well-modulated pixels of ten scans "
-              f"({wrong / kept:.1e}; wanted: below 1e-4).")
+    study.add(
+        f"\nHeterodyne, 64, 58 and 53 fringes, four steps: {wrong} wrong orders among {kept} well-modulated pixels of ten scans "
+        f"({wrong / kept:.1e}; wanted: below 1e-4)."
+    )
 
 
 def tilted_plate(study):
@@ -315,7 +366,8 @@ def tilted_plate(study):
     angle = math.atan2(200, 500)
     c, s = math.cos(angle), math.sin(angle)
     rig = study.work / "plate-rig.toml"
-    rig.write_text(f'''format = "frangia-rig"
+    rig.write_text(
+        f"""format = "frangia-rig"
 version = 1
 [camera]
 size_px = [{width}, {height}]
@@ -331,7 +383,8 @@ rotation = [[{c:.12f}, 0, {s:.12f}], [0, 1, 0], [{-s:.12f}, 0, {c:.12f}]]
 size_px = [640, 480]
 focal_px = [900, 900]
 principal_point_px = [320, 400]
-''')
+"""
+    )
     x, y = np.meshgrid((np.arange(width) - 80) / 300, (np.arange(height) - 60) / 300)
     z = 500 / (1 - 0.35 * x - 0.25 * y)  # the plane z = 500 + 0.35 X + 0.25 Y
     px, py = z * x - 200, z * y - 90
@@ -348,8 +401,16 @@ principal_point_px = [320, 400]
             scene.column = coordinates[way]
             patterns = []
             for one in (side, 80, 20):
-                pattern = {"keys": {"name": f"{way[0]}{one}", "kind": "fringe", "direction": way, "period_px": one, "shifts_deg": [0, 90, 180, 270]},
-                           "shown": {"period": one, "shifts": [0, 90, 180, 270]}}
+                pattern = {
+                    "keys": {
+                        "name": f"{way[0]}{one}",
+                        "kind": "fringe",
+                        "direction": way,
+                        "period_px": one,
+                        "shifts_deg": [0, 90, 180, 270],
+                    },
+                    "shown": {"period": one, "shifts": [0, 90, 180, 270]},
+                }
                 patterns.append(pattern)
             if run == 0:
                 write_scan(folder, scene, patterns, rig, generator)
@@ -368,11 +429,13 @@ principal_point_px = [320, 400]
     better = np.minimum(rms["vertical"], rms["horizontal"])
     ratio = rms["fused"] / better
     noise = 1 / math.sqrt(2 * seeds)  # relative standard error of each RMS
-    study.add(f"\nA tilted plate with both directions of fringes, {seeds} seeds, RMS depth error: vertical {np.nanmean(rms['vertical']):.4f} mm, "
-              f"horizontal {np.nanmean(rms['horizontal']):.4f} mm, the better one of each pixel {np.nanmean(better):.4f} mm, best "
-              f"{np.nanmean(rms['best']):.4f} mm, fused {np.nanmean(rms['fused']):.4f} mm. Fused over the better direction, pixel by pixel: median "
-              f"{np.nanmedian(ratio):.3f}, 99 % below {np.nanpercentile(ratio, 99):.3f} (an RMS of {seeds} seeds is uncertain by {100 * noise:.0f} %; wanted: no "
-              "worse).")
+    study.add(
+        f"\nA tilted plate with both directions of fringes, {seeds} seeds, RMS depth error: vertical {np.nanmean(rms['vertical']):.4f} mm, "
+        f"horizontal {np.nanmean(rms['horizontal']):.4f} mm, the better one of each pixel {np.nanmean(better):.4f} mm, best "
+        f"{np.nanmean(rms['best']):.4f} mm, fused {np.nanmean(rms['fused']):.4f} mm. Fused over the better direction, pixel by pixel: median "
+        f"{np.nanmedian(ratio):.3f}, 99 % below {np.nanpercentile(ratio, 99):.3f} (an RMS of {seeds} seeds is uncertain by {100 * noise:.0f} %; wanted: no "
+        "worse)."
+    )
 
 
 def measure(study):

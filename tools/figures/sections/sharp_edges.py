@@ -16,10 +16,15 @@ def measure(study):
     edges = sharp_block.sharp_edges(half, height)
     corners = [vertices[triangles[:, i]] for i in range(3)]
     near = cKDTree(sum(corners) / 3).query(edges, k=24)[1]
-    distance = numpy.min([distance_to_triangles(edges, *(corner[near[:, k]] for corner in corners)) for k in range(near.shape[1])], axis=0)
+    distance = numpy.min(
+        [distance_to_triangles(edges, *(corner[near[:, k]] for corner in corners)) for k in range(near.shape[1])],
+        axis=0,
+    )
     inner = numpy.sort(numpy.abs(numpy.stack([vertices - low, vertices - high], axis=2)).min(axis=2), axis=1)
     flat = vertices[(inner[:, 1] > 1.0) & (vertices[:, 2] > 2.0)]
-    study.add("A box of 50 x 36 x 30 mm, digital rig, 8 views: `frangia reconstruct block --voxel 0.3 -o block.ply`. Measured on its 4 vertical and 4 upper edges, which the views see, and on the faces at more than 1 mm from every edge.\n")
+    study.add(
+        "A box of 50 x 36 x 30 mm, digital rig, 8 views: `frangia reconstruct block --voxel 0.3 -o block.ply`. Measured on its 4 vertical and 4 upper edges, which the views see, and on the faces at more than 1 mm from every edge.\n"
+    )
     study.table("", "measured", "wanted")
     study.row("share of the edge length with mesh within 0.06 mm", f"{100 * numpy.mean(distance < 0.06):.2f} %", "99 %")
     study.row("99 % of the edge length has mesh within, mm", f"{numpy.percentile(distance, 99):.3f}", "0.06")

@@ -13,7 +13,9 @@ def measure(study):
     answer = study.run("reconstruct", study.shared("skull"), "-o", mesh)
     reference = points_of(read_ply(study.shared("skull") / "reference.ply"))
     distance = cKDTree(reference).query(points_of(read_ply(mesh)))[0]
-    study.add("`frangia reconstruct ../shared/scans/skull -o skull.ply`; distances to the nearest point of its `reference.ply`, which is itself coarse.\n")
+    study.add(
+        "`frangia reconstruct ../shared/scans/skull -o skull.ply`; distances to the nearest point of its `reference.ply`, which is itself coarse.\n"
+    )
     study.table("", "measured", "wanted")
     study.row("points", answer["points"], "at least 300 000")
     study.row("vertices, triangles", f"{answer['vertices']}, {answer['triangles']}", "")

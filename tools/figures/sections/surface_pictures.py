@@ -6,4 +6,6 @@ from study import ROOT
 
 
 def measure(study):
-    subprocess.run([sys.executable, ROOT / "tools" / "surface_pictures.py", study.program, ROOT / "docs" / "images"], check=True)
+    subprocess.run(
+        [sys.executable, ROOT / "tools" / "surface_pictures.py", study.program, ROOT / "docs" / "images"], check=True
+    )

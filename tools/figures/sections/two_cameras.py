@@ -38,9 +38,11 @@ def turned(text, degrees):
     return text.replace(found.group(2), str(rotation.tolist()))
 
 
-METHODS = (("one camera and the projector", lambda text: RIG_CAMERAS.sub("", text)),
-           ("two cameras and the projector", lambda text: text),
-           ("two cameras, projector as a label", lambda text: text.replace('model = "pinhole"', 'model = "label"')))
+METHODS = (
+    ("one camera and the projector", lambda text: RIG_CAMERAS.sub("", text)),
+    ("two cameras and the projector", lambda text: text),
+    ("two cameras, projector as a label", lambda text: text.replace('model = "pinhole"', 'model = "label"')),
+)
 
 
 def measured(study, scan, true_scan, *options):
@@ -60,9 +62,29 @@ def measured(study, scan, true_scan, *options):
 
 def measure(study):
     failures = []
-    study.add(f"`frangia simulate {PART} --rig binocular --samples 4 --views {VIEWS}`: the digital rig with a second camera on the other side of the projector, three fringe periods of four steps; then `frangia reconstruct` with the rig.toml of each row. Completeness is that of the surface that the cameras of the row can measure; gamma is not corrected. Wanted: two cameras below one; under gamma a label much better than one camera; error over sigma {LEAST} to {MOST}, and at most {MOST} under gamma, whose systematic part is an upper bound.\n")
-    study.table("fault", "method", "points", "triangles", "RMS mm", "95 % mm", "99 % mm", "mean mm", "completeness", "median sigma mm", "error over sigma", "cameras apart, mm", "over their noise")
-    for fault, options in (("none", ()), ("gamma 2.2", ("--display-gamma", 2.2)), ("gamma 2.2, three steps", ("--display-gamma", 2.2, "--shifts", 3))):
+    study.add(
+        f"`frangia simulate {PART} --rig binocular --samples 4 --views {VIEWS}`: the digital rig with a second camera on the other side of the projector, three fringe periods of four steps; then `frangia reconstruct` with the rig.toml of each row. Completeness is that of the surface that the cameras of the row can measure; gamma is not corrected. Wanted: two cameras below one; under gamma a label much better than one camera; error over sigma {LEAST} to {MOST}, and at most {MOST} under gamma, whose systematic part is an upper bound.\n"
+    )
+    study.table(
+        "fault",
+        "method",
+        "points",
+        "triangles",
+        "RMS mm",
+        "95 % mm",
+        "99 % mm",
+        "mean mm",
+        "completeness",
+        "median sigma mm",
+        "error over sigma",
+        "cameras apart, mm",
+        "over their noise",
+    )
+    for fault, options in (
+        ("none", ()),
+        ("gamma 2.2", ("--display-gamma", 2.2)),
+        ("gamma 2.2, three steps", ("--display-gamma", 2.2, "--shifts", 3)),
+    ):
         name = "two-cameras-" + fault.replace(" ", "-").replace(",", "")
         scan = study.made(name, "simulate", PART, "--rig", "binocular", "--samples", 4, "--views", VIEWS, *options)
         p95 = {}
@@ -75,9 +97,21 @@ def measure(study):
             cameras = answer.get("cameras", {})
             apart, over = cameras.get("disagreement_mm"), cameras.get("over_noise")
             p95[method] = error["p95_mm"]
-            study.row(fault, method, answer["points"], answer["triangles"], f"{error['rms_mm']:.4f}", f"{error['p95_mm']:.4f}", f"{error['p99_mm']:.4f}", f"{error['mean_mm']:+.4f}",
-                      f"{100 * error['completeness']:.1f} %", f"{answer['median_sigma']['combined_mm']:.4f}", f"{error['sigma_ratio']:.2f}",
-                      "-" if apart is None else f"{apart:.4f}", "-" if over is None else f"{over:.2f}")
+            study.row(
+                fault,
+                method,
+                answer["points"],
+                answer["triangles"],
+                f"{error['rms_mm']:.4f}",
+                f"{error['p95_mm']:.4f}",
+                f"{error['p99_mm']:.4f}",
+                f"{error['mean_mm']:+.4f}",
+                f"{100 * error['completeness']:.1f} %",
+                f"{answer['median_sigma']['combined_mm']:.4f}",
+                f"{error['sigma_ratio']:.2f}",
+                "-" if apart is None else f"{apart:.4f}",
+                "-" if over is None else f"{over:.2f}",
+            )
             if not (LEAST if fault == "none" else 0.0) < error["sigma_ratio"] < MOST:
                 failures.append(f"error over sigma of {method}, {fault}")
         one, two, label = p95.values()
@@ -92,7 +126,9 @@ def measure(study):
     for degrees in (0.01, 0.2):
         answer, error = measured(study, changed(study, scan, "two-cameras", lambda text: turned(text, degrees)), scan)
         cameras = answer["cameras"]
-        result = ("not trustworthy", "-") if error is None else (f"{error['rms_mm']:.4f}", f"{error['sigma_ratio']:.2f}")
+        result = (
+            ("not trustworthy", "-") if error is None else (f"{error['rms_mm']:.4f}", f"{error['sigma_ratio']:.2f}")
+        )
         study.row(f"{degrees}°", *result, f"{cameras['disagreement_mm']:.4f}", f"{cameras['over_noise']:.1f}")
         if cameras["over_noise"] < 2:
             failures.append(f"the camera turned by {degrees}°")

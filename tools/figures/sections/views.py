@@ -18,8 +18,11 @@ MOST_MB = 300.0
 
 def reconstruct(program, scan, mesh, *options):
     """The program's answer, its processor time in seconds and its largest resident memory in MB."""
-    process = subprocess.Popen([program, "--json", "reconstruct", scan, "-o", mesh, *options], stdout=subprocess.PIPE,
-                               stderr=subprocess.DEVNULL)
+    process = subprocess.Popen(
+        [program, "--json", "reconstruct", scan, "-o", mesh, *options],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.DEVNULL,
+    )
     output = process.stdout.read()
     _, status, usage = os.wait4(process.pid, 0)
     process.returncode = os.waitstatus_to_exitcode(status)
@@ -30,9 +33,18 @@ def reconstruct(program, scan, mesh, *options):
 
 def measure(study):
     rig, mesh = half_rig(study.program, study.work), study.work / "bracket-views.ply"
-    study.add(f"The bracket on a misaligned turntable (`{' '.join(map(str, ERRORS))}`), digital rig with half its pixels on a side, 480 x 384; wanted: 96 views take at most {MOST_TIMES:.0f} times the processor time of 6, and at most {MOST_MB:.0f} MB.\n")
-    study.table("views", "registration", "processor s", "peak MB", f"axis moved, of {AXIS_OFFSET_MM} mm",
-                f"axis turned, of {AXIS_TILT_DEG} degrees", "RMS mm")
+    study.add(
+        f"The bracket on a misaligned turntable (`{' '.join(map(str, ERRORS))}`), digital rig with half its pixels on a side, 480 x 384; wanted: 96 views take at most {MOST_TIMES:.0f} times the processor time of 6, and at most {MOST_MB:.0f} MB.\n"
+    )
+    study.table(
+        "views",
+        "registration",
+        "processor s",
+        "peak MB",
+        f"axis moved, of {AXIS_OFFSET_MM} mm",
+        f"axis turned, of {AXIS_TILT_DEG} degrees",
+        "RMS mm",
+    )
     times, peaks = {}, {}
     for views in VIEWS:
         scan = study.made(f"bracket-{views}-views", "simulate", "bracket", "--rig", rig, "--views", views, *ERRORS)
@@ -40,9 +52,18 @@ def measure(study):
             answer, times[views], peaks[views] = reconstruct(study.program, scan, mesh, *options)
             found = answer.get("registration") or {}
             rms_mm = study.run("inspect", mesh, "--reference", scan / "truth.ply")["rms_mm"]
-            study.row(views, "no" if options else "yes", f"{times[views]:.1f}", f"{peaks[views]:.0f}",
-                      f"{found['axis_moved_mm']:.4f}" if found else "", f"{found['axis_turned_deg']:.5f}" if found else "", f"{rms_mm:.4f}")
+            study.row(
+                views,
+                "no" if options else "yes",
+                f"{times[views]:.1f}",
+                f"{peaks[views]:.0f}",
+                f"{found['axis_moved_mm']:.4f}" if found else "",
+                f"{found['axis_turned_deg']:.5f}" if found else "",
+                f"{rms_mm:.4f}",
+            )
     ratio = times[VIEWS[-1]] / times[VIEWS[0]]
     study.add(f"\nWith registration, {VIEWS[-1]} views take {ratio:.1f} times the processor time of {VIEWS[0]}.")
     if ratio > MOST_TIMES or peaks[VIEWS[-1]] > MOST_MB:
-        sys.exit(f"figures: {VIEWS[-1]} views take more than {MOST_TIMES:.0f} times the processor time of {VIEWS[0]}, or more than {MOST_MB:.0f} MB")
+        sys.exit(
+            f"figures: {VIEWS[-1]} views take more than {MOST_TIMES:.0f} times the processor time of {VIEWS[0]}, or more than {MOST_MB:.0f} MB"
+        )
