@@ -51,6 +51,26 @@ TEST_F(HardwareDrivers, ATurntableAndALaserShareTheirBoard) {
   port.with<EmulatedGrbl>([](auto& grbl) { EXPECT_FALSE(grbl.spindle || grbl.coolant); });
 }
 
+TEST_F(HardwareDrivers, ATableDrivesItsAxisOfABoardThatALampOpenedFirst) {
+  EmulatedPort port(std::make_unique<EmulatedGrbl>());
+  port.with<EmulatedGrbl>([](auto& grbl) {
+    grbl.axis = 'A';
+    grbl.settings = {{20, 0}, {100, 250}, {103, 250}};
+  });
+  const std::string line = "driver = \"grbl\"\nport = \"" + port.path() + "\"\nboot_s = 0.3\n";
+  RigDevices devices = open("[devices.light]\n" + line + "[devices.turntable]\n" + line +
+                            "axis = \"A\"\nsteps_per_degree = 88.889\n");
+  const Deadline deadline = Deadline::in(3.0);
+  devices.turntable->enable(true, deadline);
+  devices.turntable->home(deadline);
+  devices.turntable->move_to(0.5, deadline);
+  port.with<EmulatedGrbl>([](auto& grbl) {
+    EXPECT_NEAR(grbl.position(), 0.5 * 180.0 / 3.14159265358979, 1e-3);
+    EXPECT_DOUBLE_EQ(grbl.settings[100], 250.0);
+    EXPECT_NEAR(grbl.settings[103], 88.889, 1e-6);
+  });
+}
+
 TEST_F(HardwareDrivers, AMissingPortIsNamed) {
   const std::string sentence = error_of([&] {
     static_cast<void>(open("[devices.turntable]\ndriver = \"marlin\"\nport = \"/dev/x\"\n"));

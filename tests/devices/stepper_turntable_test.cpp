@@ -205,6 +205,71 @@ TEST_F(GrblTurntable, WritesStepsOnlyWhenDifferentAndLosesNoCommand) {
   });
 }
 
+TEST_F(GrblTurntable, TakesTheSettingsOfARotaryAxis) {
+  EmulatedPort port(std::make_unique<EmulatedGrbl>());
+  port.with<EmulatedGrbl>([](auto& grbl) {
+    grbl.axis = 'A';
+    grbl.settings = {{20, 0}, {100, 250}, {103, 88.889}, {110, 500}, {113, 3000}, {123, 200}};
+  });
+  MotionControllerSettings settings = quick();
+  settings.axis = 'A';
+  settings.steps_per_unit = 88.889;
+  const auto firmware = ready(make_grbl(open_serial({port.path()}), settings));
+  firmware->enable_motor(true, soon());
+  EXPECT_EQ(firmware->take_change(), "") << "$103 is right already";
+  EXPECT_NEAR(firmware->move_time_s(100.0, 1000.0), 100.0 / 50.0 + 50.0 / 200.0, 1e-9);
+  port.with<EmulatedGrbl>([](auto& grbl) {
+    EXPECT_EQ(grbl.settings_written, 0);
+    EXPECT_DOUBLE_EQ(grbl.settings[100], 250.0) << "of axis X";
+    grbl.settings[103] = 44.4;
+  });
+  StepperTurntable table(firmware, options_with(0.0));
+  static_cast<void>(table.test(soon()));
+  const auto differing = table.take_warnings();
+  ASSERT_EQ(differing.size(), 1U);
+  EXPECT_EQ(differing[0], "its $103 is 44.4; a scan sets it to the 88.889 steps of the rig");
+  port.with<EmulatedGrbl>([](auto& grbl) { EXPECT_EQ(grbl.settings_written, 0); });
+  start(table);
+  const auto changed = table.take_warnings();
+  ASSERT_EQ(changed.size(), 1U);
+  EXPECT_NE(changed[0].find("its $103 was 44.4 and is now 88.889"), std::string::npos);
+  table.move_to(0.5, soon());
+  port.with<EmulatedGrbl>([](auto& grbl) {
+    EXPECT_NEAR(grbl.settings[103], 88.889, 1e-9);
+    EXPECT_DOUBLE_EQ(grbl.settings[100], 250.0);
+    EXPECT_NEAR(grbl.position(), deg_from_rad(0.5), 1e-3);
+  });
+}
+
+TEST_F(GrblTurntable, NamesAnAxisThatTheBoardDoesNotHave) {
+  EmulatedPort port(std::make_unique<EmulatedGrbl>());
+  MotionControllerSettings settings = quick();
+  settings.axis = 'A';
+  settings.steps_per_unit = 88.889;
+  const auto firmware = ready(make_grbl(open_serial({port.path()}), settings));
+  EXPECT_NE(error_of([&] {
+              firmware->enable_motor(true, soon());
+            }).find("does not report its $103, the steps of axis A"),
+            std::string::npos);
+}
+
+TEST_F(GrblTurntable, AcceptsTheGreetingsOfItsKin) {
+  for (const char* version : {"GrblHAL 1.1f ['$' or '$HELP' for help]",
+                              "Grbl 3.7 [FluidNC v3.7.10 (wifi) '$' for help]",
+                              "Grbl 1.3a ['$' for help]"}) {
+    auto board = std::make_unique<EmulatedGrbl>();
+    board->version = version;
+    EmulatedPort port(std::move(board));
+    const auto firmware = ready(grbl_at(port));
+    EXPECT_NE(firmware->identify(soon()).find("Idle"), std::string::npos) << version;
+    firmware->enable_motor(true, soon());
+    port.with<EmulatedGrbl>([](auto& grbl) { grbl.reset_in_next_move = true; });
+    EXPECT_NE(error_of([&] { firmware->move_to(5.0, 10.0, soon()); }).find("restarted"),
+              std::string::npos)
+        << version;
+  }
+}
+
 TEST_F(GrblTurntable, ConnectingAndIdentifyingWriteNothingToTheBoard) {
   EmulatedPort port(std::make_unique<EmulatedGrbl>());
   MotionControllerSettings settings = quick();

@@ -4,6 +4,8 @@
 #include <cerrno>
 #include <cstring>
 #include <deque>
+#include <map>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -60,14 +62,25 @@ class FakeWebcam final : public V4l2System {
         return set_format(static_cast<v4l2_format*>(argument)->fmt.pix);
       case VIDIOC_QUERYCTRL: {
         auto* answer = static_cast<v4l2_queryctrl*>(argument);
+        if (controls.count(answer->id) == 0) return refuse(EINVAL);
         answer->minimum = 1;
         answer->maximum = 5000;
         return 0;
       }
+      case VIDIOC_G_CTRL: {
+        auto* setting = static_cast<v4l2_control*>(argument);
+        if (controls.count(setting->id) == 0) return refuse(EINVAL);
+        setting->value = controls[setting->id];
+        return 0;
+      }
       case VIDIOC_S_CTRL: {
         const auto* setting = static_cast<v4l2_control*>(argument);
-        if (setting->id == V4L2_CID_EXPOSURE_ABSOLUTE) exposure = setting->value;
-        if (setting->id == V4L2_CID_EXPOSURE_AUTO) manual = setting->value == V4L2_EXPOSURE_MANUAL;
+        if (controls.count(setting->id) == 0) return refuse(EINVAL);
+        const bool is_exposure = setting->id == V4L2_CID_EXPOSURE_ABSOLUTE;
+        if (setting->id == fixed) return refuse(EACCES);
+        if (is_exposure && controls[V4L2_CID_EXPOSURE_AUTO] != V4L2_EXPOSURE_MANUAL)
+          return refuse(EACCES);  // as the driver of USB cameras
+        if (setting->id != stubborn) controls[setting->id] = setting->value;
         return 0;
       }
       case VIDIOC_QUERYBUF: {
@@ -94,13 +107,22 @@ class FakeWebcam final : public V4l2System {
   }
 
   std::vector<unsigned> formats = {V4L2_PIX_FMT_YUYV};
-  bool manual = false;
+  std::map<unsigned, int> controls = {
+      ///< as many a webcam has when it is plugged in
+      {V4L2_CID_EXPOSURE_AUTO, V4L2_EXPOSURE_APERTURE_PRIORITY},
+      {V4L2_CID_EXPOSURE_AUTO_PRIORITY, 1},
+      {V4L2_CID_EXPOSURE_ABSOLUTE, 156},
+      {V4L2_CID_AUTO_WHITE_BALANCE, 1},
+      {V4L2_CID_FOCUS_AUTO, 1},
+      {V4L2_CID_BACKLIGHT_COMPENSATION, 2},
+      {V4L2_CID_POWER_LINE_FREQUENCY, V4L2_CID_POWER_LINE_FREQUENCY_60HZ}};
+  unsigned fixed = 0;     ///< a control that is refused
+  unsigned stubborn = 0;  ///< a control that is accepted and keeps its value
   bool gone = false;
   bool silent = false;
   bool broken = false;
   bool closed = false;
   int unmapped = 0;
-  int exposure = 0;
   int frame = 0;
   int quality = 75;  ///< of compressed frames
 
@@ -179,14 +201,51 @@ V4l2Settings settings() {
 TEST(V4l2Camera, AFrameIsExposedAfterTheRequestWithManualExposure) {
   const auto webcam = std::make_shared<FakeWebcam>();
   const auto camera = open_v4l2_camera(settings(), webcam);
-  EXPECT_TRUE(webcam->manual);
+  EXPECT_EQ(webcam->controls[V4L2_CID_EXPOSURE_AUTO], V4L2_EXPOSURE_MANUAL);
   EXPECT_DOUBLE_EQ(camera->configure({20.0, 0.0, 0.0}, at_once()).exposure_ms, 20.0);
-  EXPECT_EQ(webcam->exposure, 200);
+  EXPECT_EQ(webcam->controls[V4L2_CID_EXPOSURE_ABSOLUTE], 200);
   static_cast<void>(webcam->wait_readable(7, 0));
   const int before = webcam->frame;
   const CapturedFrame captured = camera->capture({}, at_once());
   ASSERT_TRUE(captured.complete);
   EXPECT_GE(static_cast<int>(captured.id), before + 2) << "one is skipped";
+}
+
+TEST(V4l2Camera, SwitchesOffWhatChangesFramesAndRestoresItAtTheEnd) {
+  const auto webcam = std::make_shared<FakeWebcam>();
+  const std::map<unsigned, int> before = webcam->controls;
+  {
+    const auto camera = open_v4l2_camera(settings(), webcam);
+    static_cast<void>(camera->configure({20.0, 0.0, 0.0}, at_once()));
+    for (const int id : {V4L2_CID_EXPOSURE_AUTO_PRIORITY,
+                         V4L2_CID_AUTO_WHITE_BALANCE,
+                         V4L2_CID_FOCUS_AUTO,
+                         V4L2_CID_BACKLIGHT_COMPENSATION,
+                         V4L2_CID_POWER_LINE_FREQUENCY})
+      EXPECT_EQ(webcam->controls[static_cast<unsigned>(id)], 0) << id;
+    const std::vector<std::string> said = camera->take_warnings();
+    ASSERT_EQ(said.size(), 1U) << "the focus stays as it is calibrated";
+    EXPECT_NE(said.front().find("autofocus was on and is now off"), std::string::npos);
+    EXPECT_TRUE(camera->take_warnings().empty());
+  }
+  std::map<unsigned, int> after = webcam->controls;
+  EXPECT_EQ(std::exchange(after[V4L2_CID_FOCUS_AUTO], 1), 0);
+  EXPECT_EQ(after, before);
+}
+
+TEST(V4l2Camera, NamesWhatStaysAutomatic) {
+  const auto webcam = std::make_shared<FakeWebcam>();
+  webcam->controls[V4L2_CID_FOCUS_AUTO] = 0;
+  webcam->fixed = V4L2_CID_BACKLIGHT_COMPENSATION;
+  webcam->stubborn = V4L2_CID_POWER_LINE_FREQUENCY;
+  const auto camera = open_v4l2_camera(settings(), webcam);
+  const std::vector<std::string> said = camera->take_warnings();
+  ASSERT_EQ(said.size(), 2U);
+  EXPECT_NE(said[0].find("backlight compensation cannot be switched off"), std::string::npos)
+      << said[0];
+  EXPECT_NE(said[1].find("flicker of lamps cannot be switched off (it keeps its value)"),
+            std::string::npos)
+      << said[1];
 }
 
 TEST(V4l2Camera, ReadsLuminanceFromGreyAndYuyv) {

@@ -25,8 +25,10 @@ class EmulatedGrbl : public EmulatedDevice {
   bool limit_in_next_move = false;  ///< a limit switch is hit
   bool garbage = false;             ///< another baud rate
   bool starts_locked = false;       ///< $22=1: locked until homed
-  double speed_factor = 50.0;       ///< moves are faster than commanded by this factor
-  double travel = 1000.0;           ///< soft limits at ± this
+  std::string version = "Grbl 1.1h ['$' for help]";
+  char axis = 'X';             ///< that the motor is on
+  double speed_factor = 50.0;  ///< moves are faster than commanded by this factor
+  double travel = 1000.0;      ///< soft limits at ± this
   std::map<int, double> settings = {{20, 1}, {22, 1}, {100, 250}};
   std::vector<double> targets;  ///< of all moves, machine coordinates
   std::vector<std::string> commands;
@@ -81,7 +83,7 @@ class EmulatedGrbl : public EmulatedDevice {
     Clock::time_point ends = {};
   };
 
-  static std::string greeting() { return "\r\nGrbl 1.1h ['$' for help]\r\n"; }
+  [[nodiscard]] std::string greeting() const { return "\r\n" + version + "\r\n"; }
 
   std::string receive(char c) {
     switch (c) {
@@ -165,7 +167,7 @@ class EmulatedGrbl : public EmulatedDevice {
       return {};
     }
     if (line.find("G1") == std::string::npos) return "ok\r\n";
-    const double target = number_after(line, 'X') + offset_;
+    const double target = number_after(line, axis) + offset_;
     if (settings[20] != 0 && std::abs(target) > travel) {
       alarm = true;
       return "ALARM:2\r\n[MSG:Reset to continue]\r\n";

@@ -3,6 +3,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "frangia/core/error.h"
 #include "frangia/devices/deadline.h"
@@ -31,6 +32,10 @@ class Device {
   ///
   /// @errors   Error(Device) when it does not answer or reports a fault
   [[nodiscard]] virtual std::string test(const Deadline& deadline) = 0;
+
+  /// Sentences that the user must know and that no call has returned yet: a setting that the device
+  /// cannot take, or one that was changed in its memory. Ask after opening, enabling and testing.
+  [[nodiscard]] virtual std::vector<std::string> take_warnings() { return {}; }
 
   /// Switches light off and stops and disables motion as fast as possible. Called on any fault, on
   /// a signal and at the end, in parallel with the other devices of the rig; never throws.

@@ -175,6 +175,11 @@ void RigDevices::make_dark() noexcept {
   frangia::make_safe(devices);
 }
 
+void warn_of(Device& device, const Run& run) {
+  for (const std::string& sentence : device.take_warnings())
+    run.warn(fmt::format("{}: {}", device.name(), sentence));
+}
+
 RigDevices open_devices(const std::filesystem::path& rig_file,
                         const Rig& rig,
                         const std::vector<Driver>& drivers,
@@ -190,6 +195,7 @@ RigDevices open_devices(const std::filesystem::path& rig_file,
         further ? driver.open(settings, rig_of_camera(rig, 1 + *further), deadline)
                 : driver.open(settings, rig, deadline);
     settings.warn_of_unused_keys(run);
+    warn_of(*device, run);
     if (const auto how = device->safe_off(); how && guardian != nullptr)
       devices.watches.push_back(guardian->watch(*how));
     if (further) {

@@ -21,6 +21,9 @@ namespace frangia {
 /// are made safe by the calling thread, which owns their windows.
 void make_safe(std::span<Device* const> devices) noexcept;
 
+/// Passes on what the device has to say, with its name; see `Device::take_warnings`.
+void warn_of(Device& device, const Run& run);
+
 /// The devices of a rig, null where it has none. On destruction and on any fault all are made safe.
 struct RigDevices {
   RigDevices() = default;

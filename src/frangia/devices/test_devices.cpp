@@ -27,6 +27,7 @@ std::vector<DeviceTest> test_devices(const std::filesystem::path& rig_file,
       settings.warn_of_unused_keys(run);
       test.name = opened.back()->name();
       test.answer = opened.back()->test(Deadline::in(timeout_s, run.stop));
+      warn_of(*opened.back(), run);
     } catch (const Error& error) {
       if (error.kind() == ErrorKind::Cancelled) throw;
       test.fault = error.what();

@@ -56,6 +56,7 @@ void CaptureDevices::turn_to(double angle_rad) {
   const Stopwatch watch(seconds_);
   TurntableDevice& table = *devices_.turntable;
   if (!enabled_) table.enable(true, deadline(options_.timeout_s));
+  warn_of(table, run_);
   enabled_ = true;
   if (!table.angle_rad() && standing_rad_ && !table.info().can_home) {
     // A fault of another device did not turn it.

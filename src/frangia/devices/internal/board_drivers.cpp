@@ -29,11 +29,12 @@ struct Firmware {
 /// The open boards by the names of their lines.
 using Boards = std::map<std::string, std::weak_ptr<MotionController>>;
 
-MotionControllerSettings read_firmware(DeviceSettings& settings) {
+/// Only a table has an axis.
+MotionControllerSettings read_firmware(DeviceSettings& settings, bool has_axis) {
   MotionControllerSettings firmware;
-  const std::string axis = settings.choice("axis", {"X", "Y", "Z", "A"});
-  firmware.axis = axis.front();
   firmware.boot_s = settings.number_or("boot_s", 2.5, 0.0, 30.0);
+  if (!has_axis) return firmware;
+  firmware.axis = settings.choice("axis", {"X", "Y", "Z", "A"}).front();
   firmware.steps_per_unit = settings.number_or("steps_per_degree", 0.0, 0.0, 1e6) /
                             settings.number_or("units_per_degree", 1.0, 1e-6, 1e6);
   return firmware;
@@ -42,11 +43,13 @@ MotionControllerSettings read_firmware(DeviceSettings& settings) {
 std::shared_ptr<MotionController> open_board(Boards& boards,
                                              const Firmware& firmware,
                                              DeviceSettings& settings,
+                                             bool has_axis,
                                              const Deadline& deadline) {
-  const MotionControllerSettings wanted = read_firmware(settings);
+  const MotionControllerSettings wanted = read_firmware(settings, has_axis);
   std::weak_ptr<MotionController>& known = boards[configured_transport_name(settings)];
   if (auto board = known.lock()) {
     static_cast<void>(settings.integer_or("baud", firmware.baud, 50, 4'000'000));
+    if (has_axis) board->use(wanted);
     return board;
   }
   std::shared_ptr<MotionController> board =
@@ -99,8 +102,8 @@ Driver table_driver(const Firmware& firmware, const std::shared_ptr<Boards>& boa
                                    const Rig& /*rig*/,
                                    const Deadline& deadline) -> std::unique_ptr<Device> {
     const StepperTurntableOptions options = read_table(settings, firmware.name != "horus");
-    return std::make_unique<StepperTurntable>(open_board(*boards, firmware, settings, deadline),
-                                              options);
+    return std::make_unique<StepperTurntable>(
+        open_board(*boards, firmware, settings, true, deadline), options);
   };
   if (firmware.name == "grbl") {
     driver.find = [](const Deadline& /*deadline*/) { return find_ports("grbl"); };
@@ -120,7 +123,7 @@ Driver switch_driver(const Firmware& firmware,
                                    const Deadline& deadline) -> std::unique_ptr<Device> {
     const std::string on = settings.text_or("on", firmware.on);
     const std::string off = settings.text_or("off", firmware.off);
-    auto board = open_board(*boards, firmware, settings, deadline);
+    auto board = open_board(*boards, firmware, settings, false, deadline);
     auto light = std::make_unique<BoardSwitch>(std::move(board), on, off);
     light->set(false, deadline);
     return light;

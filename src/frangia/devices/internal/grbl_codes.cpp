@@ -14,7 +14,7 @@ const char* meaning_of_alarm(int code) {
     case 1:
       return "a limit switch was hit";
     case 2:
-      return "the target is beyond the travel set in $130 to $132";
+      return "the target is beyond the travel of the axis, set in $130 to $133";
     case 3:
       return "it was reset while it moved";
     case 6:

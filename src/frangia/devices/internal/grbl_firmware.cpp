@@ -1,7 +1,9 @@
+// Above 250 lines: one board, whose motion, settings and faults share one line.
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <map>
+#include <string_view>
 #include <utility>
 
 #include <fmt/format.h>
@@ -19,8 +21,21 @@ constexpr double kDrain_s = 0.3;   ///< for the answers after a reset, also when
 constexpr double kWrite_s = 0.2;
 constexpr double kRestart_s = 0.1;  ///< from a soft reset until GRBL accepts commands
 
+/// Numbers of the settings of an axis: each is that of X plus the index of the axis.
+enum AxisSetting : int { kSteps = 100, kMaxRate = 110, kAcceleration = 120, kTravel = 130 };
+
+/// The index of an axis among the settings; A is the first rotary axis of boards with more than
+/// three.
+///
+/// @source   github.com/gnea/grbl/wiki, Grbl v1.1 Configuration; github.com/grblHAL/core/wiki
+int index_of_axis(char axis) {
+  constexpr std::string_view kAxes = "XYZA";
+  return static_cast<int>(kAxes.find(axis));
+}
+
+/// "Grbl 1.1h ['$' for help]"; grblHAL says "GrblHAL 1.1f ['$' or '$HELP' for help]".
 bool is_greeting(const std::string& line) {
-  return line.rfind("Grbl ", 0) == 0;
+  return line.starts_with("Grbl ") || line.starts_with("GrblHAL ");
 }
 
 class Grbl final : public MotionController {
@@ -52,6 +67,19 @@ class Grbl final : public MotionController {
       if (!answer.empty() && answer.front() == '<') return "GRBL, " + printable(answer);
     }
   }
+
+  void use(const MotionControllerSettings& settings) override { settings_ = settings; }
+
+  [[nodiscard]] std::string difference(const Deadline& deadline) override {
+    if (!(settings_.steps_per_unit > 0.0)) return {};
+    values_ = answer_to("$$", deadline);
+    if (!steps_differ()) return {};
+    return fmt::format("its ${} is {:.6g}; a scan sets it to the {:.6g} steps of the rig",
+                       kSteps + axis_index(),
+                       setting(kSteps),
+                       settings_.steps_per_unit);
+  }
+  [[nodiscard]] std::string take_change() override { return std::exchange(change_, {}); }
 
   // GRBL holds its motor according to $1; there is no command for it.
   // The settings of the board are written here and not in `connect`: connecting and identifying
@@ -114,23 +142,23 @@ class Grbl final : public MotionController {
             .off = off_commands("\n")};
   }
 
-  /// By $110 and $120: the highest rate in units per minute and the acceleration in units per s².
+  /// By $110 and $120 (X): the highest rate in units per minute, the acceleration in units per s².
   [[nodiscard]] double move_time_s(double distance, double units_per_s) const override {
-    const double rate = setting(110 + axis_index()) / 60.0;
+    const double rate = setting(kMaxRate) / 60.0;
     const double speed = rate > 0.0 ? std::min(rate, units_per_s) : units_per_s;
-    const double acceleration = setting(120 + axis_index());
+    const double acceleration = setting(kAcceleration);
     return distance / speed + (acceleration > 0.0 ? speed / acceleration : 0.0);
   }
 
   /// GRBL searches the switch over 1.5 times $130, the travel, at the rate $25, then approaches it
   /// again from $27 units at the rate $24.
   [[nodiscard]] double home_time_s() const override {
-    const double seek = setting(25) / 60.0;
-    const double feed = setting(24) / 60.0;
+    const double seek = value_of(25) / 60.0;
+    const double feed = value_of(24) / 60.0;
     if (!(seek > 0.0 && feed > 0.0)) return 0.0;
     constexpr double kSearch = 1.5;
     constexpr double kPasses = 4.0;  // two approaches and two retreats
-    return kSearch * setting(130 + axis_index()) / seek + kPasses * setting(27) / feed;
+    return kSearch * setting(kTravel) / seek + kPasses * value_of(27) / feed;
   }
 
  private:
@@ -195,28 +223,47 @@ class Grbl final : public MotionController {
     return locked && !alarm_.empty() ? explained_alarm(alarm_) + "; " + text : text;
   }
 
-  [[nodiscard]] int axis_index() const {
-    return settings_.axis == 'Y' ? 1 : settings_.axis == 'Z' ? 2 : 0;
-  }
-  /// A setting of the board; 0 when it does not report it.
-  [[nodiscard]] double setting(int key) const {
+  [[nodiscard]] int axis_index() const { return index_of_axis(settings_.axis); }
+  /// A value that the board reports by its number; 0 when it does not.
+  [[nodiscard]] double value_of(int key) const {
     const auto found = values_.find(key);
     return found == values_.end() ? 0.0 : found->second;
   }
+  /// A setting of the axis that is driven; 0 when the board does not report it.
+  [[nodiscard]] double setting(AxisSetting which) const { return value_of(which + axis_index()); }
+
+  [[nodiscard]] bool steps_differ() const {
+    const int key = kSteps + axis_index();
+    if (values_.count(key) == 0) {
+      fail_device(
+          name(),
+          fmt::format("does not report its ${0}, the steps of axis {1}; choose an axis that "
+                      "the board has, or leave out steps_per_degree",
+                      key,
+                      settings_.axis));
+    }
+    constexpr double kResolution = 1e-3;  // GRBL reports three digits
+    return std::abs(value_of(key) - settings_.steps_per_unit) >= kResolution;
+  }
 
   void set_steps(const Deadline& deadline) {
-    const int key = 100 + axis_index();
-    const auto found = values_.find(key);
-    if (found == values_.end()) fail_device(name(), fmt::format("does not report its ${}", key));
-    if (std::abs(found->second - settings_.steps_per_unit) < 1e-3) return;
+    if (!steps_differ()) return;
+    const int key = kSteps + axis_index();
     // Write only when different: the EEPROM wears, and the board loses bytes that arrive while it
     // writes, so wait for "ok" before sending more.
     command(fmt::format("${}={:.3f}", key, settings_.steps_per_unit), deadline);
+    change_ = fmt::format(
+        "its ${} was {:.6g} and is now {:.6g}, the steps of the rig; the board keeps it",
+        key,
+        value_of(key),
+        settings_.steps_per_unit);
+    values_[key] = settings_.steps_per_unit;
   }
 
   std::unique_ptr<Transport> transport_;
   MotionControllerSettings settings_;
   std::map<int, double> values_;  ///< settings of the board by their numbers
+  std::string change_;            ///< of them, not told yet
   std::string last_line_;
   std::string alarm_;     ///< the last one, until it is cleared
   bool stopped_ = false;  ///< nothing was sent since the last stop

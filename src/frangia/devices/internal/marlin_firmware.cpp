@@ -20,6 +20,8 @@ class Marlin final : public MotionController {
   Marlin(std::unique_ptr<Transport> transport, const MotionControllerSettings& settings)
       : transport_(std::move(transport)), settings_(settings) {}
 
+  void use(const MotionControllerSettings& settings) override { settings_ = settings; }
+
   [[nodiscard]] const std::string& name() const override { return transport_->name(); }
 
   void connect(const Deadline& deadline) override {

@@ -10,6 +10,8 @@
 
 namespace frangia {
 
+struct MotionControllerSettings;
+
 /// A motion board, in the board's own units along its axis. Call `connect` first. A call of
 /// `move_to` that throws leaves the board stopped and its position unknown.
 class MotionController {
@@ -26,6 +28,13 @@ class MotionController {
   virtual void connect(const Deadline& deadline) = 0;
   /// A description from the board, without motion.
   [[nodiscard]] virtual std::string identify(const Deadline& deadline) = 0;
+  /// Sets the axis that the board drives from now on: a lamp may have opened the board before.
+  virtual void use(const MotionControllerSettings& /*settings*/) {}
+  /// What differs between the memory of the board and what the rig states, without a change.
+  /// Empty: nothing.
+  [[nodiscard]] virtual std::string difference(const Deadline& /*deadline*/) { return {}; }
+  /// What was changed in the memory of the board since the last call; empty: nothing.
+  [[nodiscard]] virtual std::string take_change() { return {}; }
   /// Enables or disables the motor, on boards that support it.
   virtual void enable_motor(bool on, const Deadline& deadline) = 0;
   /// Moves to the home switch; the position is 0 afterwards.
@@ -73,12 +82,12 @@ class MotionController {
 };
 
 struct MotionControllerSettings {
-  char axis = 'X';
+  char axis = 'X';              ///< that turns the table: X, Y, Z or A
   double boot_s = 2.5;          ///< boot time of a board that resets when its port is opened
   double steps_per_unit = 0.0;  ///< GRBL: written when the motor is enabled; 0 keeps the board's
 };
 
-/// GRBL 1.1 and derived firmware.
+/// GRBL 1.1 and derived firmware: grblHAL, FluidNC, Grbl_ESP32.
 ///
 /// @source   github.com/gnea/grbl/wiki, Grbl v1.1 Interface
 [[nodiscard]] std::unique_ptr<MotionController> make_grbl(

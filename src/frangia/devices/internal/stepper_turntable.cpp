@@ -18,7 +18,10 @@ StepperTurntable::~StepperTurntable() {
 }
 
 std::string StepperTurntable::test(const Deadline& deadline) {
-  return board_->identify(deadline);
+  const std::string answer = board_->identify(deadline);
+  if (std::string differs = board_->difference(deadline); !differs.empty())
+    warnings_.push_back(std::move(differs));
+  return answer;
 }
 
 void StepperTurntable::make_safe() noexcept {
@@ -32,6 +35,8 @@ void StepperTurntable::enable(bool on, const Deadline& deadline) {
   enabled_ = false;
   if (!on) angle_rad_.reset();
   board_->enable_motor(on, deadline);
+  if (std::string changed = board_->take_change(); !changed.empty())
+    warnings_.push_back(std::move(changed));
   enabled_ = on;
 }
 

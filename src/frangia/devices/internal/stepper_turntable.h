@@ -3,6 +3,8 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "frangia/devices/internal/motion_controller.h"
 #include "frangia/devices/turntable_device.h"
@@ -35,6 +37,9 @@ class StepperTurntable final : public TurntableDevice {
 
   [[nodiscard]] std::string name() const override { return "turntable at " + board_->name(); }
   [[nodiscard]] std::string test(const Deadline& deadline) override;
+  [[nodiscard]] std::vector<std::string> take_warnings() override {
+    return std::exchange(warnings_, {});
+  }
   void make_safe() noexcept override;
   [[nodiscard]] std::optional<SafeOff> safe_off() const override { return board_->safe_off(); }
   [[nodiscard]] const TurntableInfo& info() const override { return options_.info; }
@@ -52,6 +57,7 @@ class StepperTurntable final : public TurntableDevice {
 
   std::shared_ptr<MotionController> board_;
   StepperTurntableOptions options_;
+  std::vector<std::string> warnings_;
   std::optional<double> angle_rad_;
   double zero_deg_ = 0.0;  ///< angle at the board's position 0
   int stop_count_ = 0;     ///< of the board when the angle was found

@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 #include <linux/videodev2.h>
 
+#include "frangia/devices/internal/v4l2_automatics.h"
 #include "frangia/frames/decode_mjpeg.h"
 
 namespace frangia {
@@ -66,6 +67,9 @@ class V4l2Camera final : public CameraDevice {
                        : format_ == V4L2_PIX_FMT_YUYV
                            ? "YUYV"
                            : fmt::format("JPEG of quality {}", info_.jpeg_quality.value_or(0)));
+  }
+  [[nodiscard]] std::vector<std::string> take_warnings() override {
+    return std::exchange(warnings_, {});
   }
   void make_safe() noexcept override { stop(); }
 
@@ -157,13 +161,11 @@ class V4l2Camera final : public CameraDevice {
       fail("is not a camera; run 'frangia devices' to list the cameras");
     choose_format();
     // Webcams meter automatically, but a scan needs equal exposures.
-    v4l2_control manual{V4L2_CID_EXPOSURE_AUTO, V4L2_EXPOSURE_MANUAL};
-    static_cast<void>(system_->ioctl(file_, VIDIOC_S_CTRL, &manual));
-    for (const std::uint32_t automatic :
-         {std::uint32_t{V4L2_CID_AUTOGAIN}, std::uint32_t{V4L2_CID_AUTO_WHITE_BALANCE}}) {
-      v4l2_control off{automatic, 0};
-      static_cast<void>(system_->ioctl(file_, VIDIOC_S_CTRL, &off));
-    }
+    V4l2Automatics automatics = switch_off_automatics(*system_, file_);
+    before_ = std::move(automatics.before);
+    warnings_ = std::move(automatics.warnings);
+    V4l2Control exposure{V4L2_CID_EXPOSURE_ABSOLUTE, 0};
+    if (get_control(*system_, file_, exposure)) before_.push_back(exposure);
     auto range = zeroed<v4l2_queryctrl>();
     range.id = V4L2_CID_EXPOSURE_ABSOLUTE;
     control("report its exposure range", VIDIOC_QUERYCTRL, range);
@@ -249,6 +251,7 @@ class V4l2Camera final : public CameraDevice {
     for (const MappedBuffer& mapped : mapped_)
       system_->unmap(mapped.memory, mapped.length);
     mapped_.clear();
+    restore_controls(*system_, file_, before_);
     system_->close(file_);
   }
 
@@ -318,6 +321,8 @@ class V4l2Camera final : public CameraDevice {
   double exposure_ms_ = 10.0;
   bool streaming_ = false;
   std::vector<MappedBuffer> mapped_;
+  std::vector<V4l2Control> before_;  ///< as another program left them
+  std::vector<std::string> warnings_;
 };
 
 }  // namespace
