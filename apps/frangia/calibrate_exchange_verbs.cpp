@@ -51,7 +51,7 @@ void import_calibration(const ImportArguments& arguments, Terminal& terminal) {
   if (!arguments.unit.empty()) options.mm_per_unit = parse_length_mm("1" + arguments.unit);
   if (!arguments.base.empty())
     options.base = read_rig(arguments.base, run, RigContent::StartValues);
-  const ForeignCalibration calibration = read_calibration_files(arguments.files);
+  const ForeignCalibration calibration = read_calibration_files(arguments.files, run);
   const Rig rig = rig_from_calibration(calibration, options, run);
   write_rig(arguments.output, rig, Durability::Synced, arguments.base);
   terminal.finish();

@@ -1,13 +1,18 @@
 // Files that OpenCV and scipy wrote, against pixels that OpenCV projected; and the way back.
+#include <cstdint>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <stop_token>
 #include <string>
 #include <vector>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
+#include <sys/resource.h>
+#include <zlib.h>
 
 #include "frangia/core/error.h"
 #include "frangia/exchange/read_calibration_file.h"
@@ -221,6 +226,133 @@ TEST(CalibrationFiles, SurviveEveryDamagedByteOfXml) {
     refused += error_of([&] { return read_calibration_files(damaged); }).empty() ? 0 : 1;
   }
   EXPECT_GT(refused, 50);
+}
+
+/// An element of a .mat: its type, its size and its content.
+std::string mat_element(std::uint32_t type, const std::string& content) {
+  const auto size = static_cast<std::uint32_t>(content.size());
+  std::string bytes(8, '\0');
+  std::memcpy(bytes.data(), &type, 4);
+  std::memcpy(bytes.data() + 4, &size, 4);
+  bytes += content;
+  constexpr std::uint32_t kCompressed = 15;
+  return type == kCompressed ? bytes : bytes + std::string((8 - size % 8) % 8, '\0');
+}
+
+std::string deflated(const std::string& content) {
+  std::string bytes(::compressBound(content.size()), '\0');
+  uLongf size = bytes.size();
+  EXPECT_EQ(::compress2(reinterpret_cast<Bytef*>(bytes.data()),
+                        &size,
+                        reinterpret_cast<const Bytef*>(content.data()),
+                        content.size(),
+                        9),
+            Z_OK);
+  bytes.resize(size);
+  return bytes;
+}
+
+/// A .mat with these elements.
+std::filesystem::path mat_file(const TemporaryFolder& folder, const std::string& elements) {
+  const std::filesystem::path file = folder.path() / "a.mat";
+  std::ofstream(file, std::ios::binary)
+      << "MATLAB 5.0 MAT-file" << std::string(105, ' ') << std::string("\0\1IM", 4) << elements;
+  return file;
+}
+
+/// A .mat array of a class with its dimensions and name, before its content.
+std::string mat_array_head(std::uint32_t array_class, const std::string& name) {
+  const std::string flags{static_cast<char>(array_class), 0, 0, 0, 0, 0, 0, 0};
+  const std::string one{1, 0, 0, 0};
+  return mat_element(6, flags) + mat_element(5, one + one) + mat_element(1, name);
+}
+
+/// Pages that the system gave to this process so far.
+long pages_so_far() {
+  rusage usage{};
+  EXPECT_EQ(::getrusage(RUSAGE_SELF, &usage), 0);
+  return usage.ru_minflt;
+}
+
+TEST(CalibrationFiles, TakeNoMoreMemoryThanAMatFileHolds) {
+  const TemporaryFolder folder;
+  const std::string small = mat_element(15, deflated(std::string("\2\0\0\0\0\0\0\0", 8)));
+  std::string many;
+  for (int i = 0; i < 50'000; ++i)
+    many += small;
+  const Files files{mat_file(folder, many)};
+  const long before = pages_so_far();
+  EXPECT_NE(error_of([&] { return read_calibration_files(files); }).find("states no calibration"),
+            std::string::npos);
+  EXPECT_LT(pages_so_far() - before, 20'000) << "the file has 250 pages";
+}
+
+TEST(CalibrationFiles, StopInTheMiddleOfAMatFile) {
+  const TemporaryFolder folder;
+  const Files files{mat_file(folder, mat_element(14, mat_array_head(6, "a")))};
+  std::stop_source stop;
+  Run run;
+  run.stop = stop.get_token();
+  stop.request_stop();
+  try {
+    static_cast<void>(read_calibration_files(files, run));
+    ADD_FAILURE() << "it was not stopped";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::Cancelled);
+  }
+}
+
+TEST(CalibrationFiles, RefuseAMatFileThatExpandsWithoutEnd) {
+  const TemporaryFolder folder;
+  // A structure with one field whose name has 40 MB, in 40 kB; two of them are too many.
+  constexpr std::uint32_t kNameBytes = 40'000'000;
+  std::string length(4, '\0');
+  std::memcpy(length.data(), &kNameBytes, 4);
+  const std::string structure =
+      mat_element(14,
+                  mat_array_head(2, "s") + mat_element(5, length) +
+                      mat_element(1, std::string(kNameBytes, 'x')) + mat_element(14, ""));
+  const std::string packed = mat_element(15, deflated(structure));
+  EXPECT_NE(error_of([&] {
+              return read_calibration_files(Files{mat_file(folder, packed + packed)});
+            }).find("structures hold more than 64 MB"),
+            std::string::npos);
+  // A matrix that is larger than any calibration is passed over without its content.
+  const std::string matrix =
+      mat_element(14, mat_array_head(6, "large") + mat_element(9, std::string(8'000'000, '\0')));
+  std::string matrices;
+  for (int i = 0; i < 100; ++i)
+    matrices += mat_element(15, deflated(matrix).substr(0, 5000));  // also cut off
+  EXPECT_NE(error_of([&] {
+              return read_calibration_files(Files{mat_file(folder, matrices)});
+            }).find("states no calibration"),
+            std::string::npos);
+}
+
+TEST(CalibrationFiles, AllocateNoMatrixThatAJsonFileOnlyNames) {
+  const TemporaryFolder folder;
+  const Files files{folder.path() / "a.json"};
+  std::string row = "[0";
+  for (int i = 0; i < 500'000; ++i)
+    row += ",0";
+  std::string rows = row + "]";
+  for (int i = 0; i < 500'000; ++i)
+    rows += ",[]";
+  std::ofstream(files[0]) << "{\"K\": [" << rows << "]}";
+  EXPECT_NE(error_of([&] { return read_calibration_files(files); }).find("states no calibration"),
+            std::string::npos);
+}
+
+TEST(CalibrationFiles, RefuseMoreValuesThanACalibrationHas) {
+  const TemporaryFolder folder;
+  const Files files{folder.path() / "a.json"};
+  std::ofstream out(files[0]);
+  out << "{\"a\": 1";
+  for (int i = 0; i < 20'000; ++i)
+    out << ",\"" << i << "\": 1";
+  out << "}" << std::flush;
+  EXPECT_NE(error_of([&] { return read_calibration_files(files); }).find("more than 10000 values"),
+            std::string::npos);
 }
 
 TEST(CalibrationFiles, RefuseImpossibleValues) {

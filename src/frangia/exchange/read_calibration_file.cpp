@@ -13,11 +13,11 @@
 namespace frangia {
 namespace {
 
-ForeignCalibration read_one(const std::filesystem::path& file) {
+ForeignCalibration read_one(const std::filesystem::path& file, const Run& run) {
   const std::string ending = lowercase_extension(file);
   if (ending == ".yml" || ending == ".yaml" || ending == ".xml")
     return interpret_opencv_values(read_opencv_values(file));
-  if (ending == ".mat") return interpret_matlab_values(read_mat_values(file));
+  if (ending == ".mat") return interpret_matlab_values(read_mat_values(file, run));
   if (ending == ".txt") return read_colmap_cameras(file);
   if (ending == ".json") {
     const NamedValues values = read_json_values(file);
@@ -48,11 +48,13 @@ void complete(ForeignCalibration& all, const ForeignCalibration& more) {
 
 }  // namespace
 
-ForeignCalibration read_calibration_files(std::span<const std::filesystem::path> files) {
+ForeignCalibration read_calibration_files(std::span<const std::filesystem::path> files,
+                                          const Run& run) {
   require(!files.empty(), "there is no calibration file to read; name at least one");
   ForeignCalibration all;
   for (const std::filesystem::path& file : files) {
-    const ForeignCalibration one = read_one(file);
+    run.check();
+    const ForeignCalibration one = read_one(file, run);
     if (one.camera.empty() && one.projector.empty() && !one.rotation && !one.translation) {
       throw Error(
           ErrorKind::Input,

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <span>
 
+#include "frangia/core/run.h"
 #include "frangia/exchange/foreign_calibration.h"
 
 namespace frangia {
@@ -21,11 +22,11 @@ namespace frangia {
 ///
 /// @missing  what no file states is empty
 /// @errors   Error(Input) that names the file: it is unreadable, of another kind, or states no
-///          calibration
+///          calibration; Error(Cancelled)
 /// @source   OpenCV, samples/cpp/stereo_calib.cpp; SLStudio, src/calibrator/CalibrationData.cpp;
 ///          scan3d-capture, src/CalibrationData.cpp; MATLAB, stereoParameters; Bouguet, Camera
 ///          Calibration Toolbox; COLMAP, src/colmap/sensor/models.h
 [[nodiscard]] ForeignCalibration read_calibration_files(
-    std::span<const std::filesystem::path> files);
+    std::span<const std::filesystem::path> files, const Run& run = {});
 
 }  // namespace frangia

@@ -20,6 +20,9 @@ Eigen::MatrixXd json_matrix_of(const json& value) {
   const bool nested = value.front().is_array();
   const std::size_t columns = nested ? value.front().size() : value.size();
   const std::size_t rows = nested ? value.size() : 1;
+  // Each is compared alone, too: one long row and many short ones name terabytes.
+  if (rows > kMaxValueNumbers || columns > kMaxValueNumbers || rows * columns > kMaxValueNumbers)
+    return {};
   Eigen::MatrixXd matrix(static_cast<Eigen::Index>(rows), static_cast<Eigen::Index>(columns));
   for (std::size_t row = 0; row < rows; ++row) {
     const json& list = nested ? value[row] : value;
@@ -43,9 +46,14 @@ Eigen::MatrixXd opencv_matrix_of(const json& value) {
                       value["cols"].get<Eigen::Index>());
 }
 
-void collect_object(const json& object, const std::string& prefix, NamedValues& values) {
+void collect_object(const json& object,
+                    const std::string& prefix,
+                    const std::filesystem::path& file,
+                    NamedValues& values) {
   for (const auto& [key, value] : object.items()) {
+    if (prefix.size() + key.size() > kMaxNameBytes) continue;
     const std::string name = prefix + key;
+    check_count(values, file);
     if (value.is_string()) {
       values.texts.emplace(name, value.get<std::string>());
     } else if (value.is_object()) {
@@ -53,7 +61,7 @@ void collect_object(const json& object, const std::string& prefix, NamedValues& 
       if (matrix.size() > 0) {
         values.matrices.emplace(name, std::move(matrix));
       } else {
-        collect_object(value, name + ".", values);
+        collect_object(value, name + ".", file, values);
       }
     } else {
       Eigen::MatrixXd matrix = json_matrix_of(value);
@@ -75,7 +83,7 @@ NamedValues read_json_values(const std::filesystem::path& file) {
                             file.string()));
   }
   NamedValues values;
-  collect_object(document, "", values);
+  collect_object(document, "", file, values);
   return values;
 }
 

@@ -18,7 +18,6 @@ namespace {
 
 constexpr std::uint64_t kMaxStorageBytes = 1'000'000;  // a calibration has some kilobytes
 constexpr std::size_t kMaxStorageDepth = 64;           // FileStorage recurses, with 4 kB a level
-constexpr std::size_t kMaxStorageNumbers = 1000;       // of a matrix that is kept
 
 /// Values within values on one line, "a: b: c: 1" or "- - - 1", are levels, too. Brackets are
 /// counted by `check_json_nesting`.
@@ -53,7 +52,7 @@ void check_lines(std::string_view text, const std::filesystem::path& file) {
 }
 
 Eigen::MatrixXd storage_list_of(const cv::FileNode& node) {
-  if (node.size() > kMaxStorageNumbers) return {};
+  if (node.size() > kMaxValueNumbers) return {};
   Eigen::MatrixXd list(1, static_cast<Eigen::Index>(node.size()));
   Eigen::Index column = 0;
   for (const cv::FileNode& item : node) {
