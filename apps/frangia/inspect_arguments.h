@@ -7,6 +7,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "frangia/cad/read_cad.h"
 #include "frangia/files/read_mesh.h"
 #include "frangia/inspect/render_mesh.h"
 #include "frangia/uncertainty/conformity.h"
@@ -41,7 +42,8 @@ struct InspectArguments {
   double expansion_ppm_per_k = 0.0;
   double temperature_u_k = 0.0;
   std::vector<std::filesystem::path> outputs;
-  std::optional<double> unit_mm;  ///< of the reference; none: not stated
+  std::optional<double> unit_mm;                    ///< of the reference; none: not stated
+  double allow_time_s = CadOptions{}.allow_time_s;  ///< for reading a CAD file
   int width_px = RenderOptions{}.width_px;
   int height_px = RenderOptions{}.height_px;
   ReadOptions read;

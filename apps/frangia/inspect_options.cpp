@@ -176,6 +176,12 @@ void add_inspect_options(CLI::App& verb, InspectArguments& arguments) {
   add_measure_options(verb, arguments);
   add_picture_options(verb, arguments);
   add_allow_memory(verb, arguments.read);
+  verb.add_option("--allow-time",
+                  arguments.allow_time_s,
+                  "processor time that reading a CAD reference may take, s; a large one may take "
+                  "20 s for each MB")
+      ->check(above_zero())
+      ->capture_default_str();
 }
 
 }  // namespace frangia

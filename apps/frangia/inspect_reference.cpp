@@ -14,7 +14,8 @@ std::optional<Reference> read_reference(const InspectArguments& arguments, const
   if (arguments.reference.empty()) return std::nullopt;
   if (is_cad_file(arguments.reference)) {
     const CadOptions options{.units = arguments.unit_mm,
-                             .allow_memory = arguments.read.allow_memory_bytes};
+                             .allow_memory = arguments.read.allow_memory_bytes,
+                             .allow_time_s = arguments.allow_time_s};
     auto cad = read_cad(arguments.reference, options, run);
     RayScene scene(cad->mesh(), run);
     return Reference{std::move(cad), std::move(scene)};

@@ -79,5 +79,22 @@ TEST_F(CadInspectProgram, TakesTheNominalOfAPlannedFeatureFromItsFace) {
       << answer.output;
 }
 
+TEST_F(CadInspectProgram, RefusesADamagedReferenceInASentence) {
+  const std::string data = FRANGIA_SOURCE_DIR "/tests/data/cad/";
+  const auto inspect = [&](const std::string& reference, const std::string& more = "") {
+    return testing::run_program("inspect " + at("ball.ply") + " --align none --reference " +
+                                reference + more);
+  };
+  for (const char* name : {"step-one-token-changed.stp", "step-nan.step"}) {
+    const auto answer = inspect(data + name);
+    EXPECT_EQ(answer.exit_code, 3) << answer.output;
+    EXPECT_NE(answer.output.find(std::string(name) + ": its shape is damaged"), std::string::npos)
+        << answer.output;
+  }
+  const auto late = inspect(at("primitives.step"), " --allow-time 0.001");
+  EXPECT_EQ(late.exit_code, 3);
+  EXPECT_NE(late.output.find("raise --allow-time"), std::string::npos) << late.output;
+}
+
 }  // namespace
 }  // namespace frangia

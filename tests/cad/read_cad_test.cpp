@@ -193,6 +193,34 @@ TEST_F(ReadCad, SurvivesDamagedFiles) {
   }
 }
 
+TEST_F(ReadCad, NamesAnEdgeWhoseIndexPointsNowhere) {
+  const std::filesystem::path file =
+      std::filesystem::path(FRANGIA_SOURCE_DIR) / "tests/data/cad/step-one-token-changed.stp";
+  const std::string sentence = refusal(file);
+  EXPECT_NE(sentence.find("its shape is damaged: an edge of its face"), std::string::npos)
+      << sentence;
+}
+
+TEST_F(ReadCad, NamesACoordinateThatIsNoNumber) {
+  const std::filesystem::path file =
+      std::filesystem::path(FRANGIA_SOURCE_DIR) / "tests/data/cad/step-nan.step";
+  EXPECT_NE(refusal(file).find("has a coordinate that is no number"), std::string::npos)
+      << refusal(file);
+}
+
+TEST_F(ReadCad, RefusesWhatTakesMoreTimeOrMemoryThanAllowed) {
+  for (const char* name : {"primitives.step", "rounded-inch.iges"}) {
+    const std::string late = refusal(at(name), {.allow_time_s = 1e-3});
+    EXPECT_NE(late.find("of processor time to read; export it again, or raise `allow_time_s`"),
+              std::string::npos)
+        << late;
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+    const std::string large = refusal(at(name), {.allow_memory = 1});
+    EXPECT_NE(large.find("or raise `allow_memory`"), std::string::npos) << large;
+#endif
+  }
+}
+
 TEST_F(ReadCad, StopsWhenItIsAskedTo) {
   std::stop_source stop;
   stop.request_stop();

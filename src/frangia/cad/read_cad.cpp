@@ -83,8 +83,11 @@ std::unique_ptr<CadModel> read_cad(const std::filesystem::path& path,
   const bool step = lowercase_extension(path).starts_with(".st");
   step ? check_step(path, ends) : check_iges(path, ends);
 #ifdef FRANGIA_WITH_CAD
-  const MemoryBudget budget(path, ends.bytes, options.allow_memory);
-  TranslatedCad translated = translate_in_process(path, options.units, budget, run);
+  constexpr double kSecondsPerByte = 20e-6;
+  const ProcessLimits limits{
+      MemoryBudget(path, ends.bytes, options.allow_memory),
+      std::max(options.allow_time_s, kSecondsPerByte * static_cast<double>(ends.bytes))};
+  TranslatedCad translated = translate_in_process(path, options.units, limits, run);
   for (const std::string& warning : translated.said.warnings)
     run.warn(fmt::format("{}: {}", path.string(), warning));
   if (!translated.said.error.empty()) refuse(path, translated.said.error);

@@ -28,6 +28,14 @@ struct CadModel::Faces {
 };
 
 /// Loads what `translate_cad` wrote.
+///
+/// @errors   Error(Input) without the name of the file, when it is damaged; Error(Cancelled)
 [[nodiscard]] std::unique_ptr<CadModel::Faces> load_faces(std::istream& shape, const Run& run);
+
+/// Does in the second process what `load_faces` and queries will do in the first one with the same
+/// bytes, on one thread: what crashes, does not end or needs too much memory does so there.
+///
+/// @errors   Error(Input) without the name of the file
+void rehearse_faces(std::istream& shape);
 
 }  // namespace frangia

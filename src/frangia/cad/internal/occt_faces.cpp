@@ -4,6 +4,7 @@
 #include <istream>
 #include <limits>
 #include <mutex>
+#include <new>
 
 #include <BRepTopAdaptor_FClass2d.hxx>
 #include <BRep_Tool.hxx>
@@ -14,16 +15,19 @@
 #include <Poly_Triangulation.hxx>
 #include <Precision.hxx>
 #include <Standard_Failure.hxx>
+#include <Standard_OutOfMemory.hxx>
 #include <TopExp.hxx>
 #include <TopTools_IndexedDataMapOfShapeListOfShape.hxx>
 #include <TopTools_IndexedMapOfShape.hxx>
 #include <TopoDS.hxx>
 #include <TopoDS_Edge.hxx>
 #include <TopoDS_Face.hxx>
+#include <fmt/format.h>
 
 #include "frangia/cad/internal/faces.h"
 #include "frangia/cad/internal/nominal_shape.h"
 #include "frangia/cad/internal/occt_foot.h"
+#include "frangia/cad/internal/shape_checks.h"
 #include "frangia/cad/internal/shared_nodes.h"
 #include "frangia/geometry/aabb_tree.h"
 
@@ -74,6 +78,7 @@ Vector3d weights_in(const Mesh& mesh, std::uint32_t triangle, const Vector3d& po
 class OcctFaces final : public CadModel::Faces {
  public:
   OcctFaces(const TopoDS_Shape& shape, const Run& run) {
+    check_geometry(shape);
     SharedNodes shared(shape, mesh);
     TopTools_IndexedMapOfShape all;
     TopExp::MapShapes(shape, TopAbs_FACE, all);
@@ -82,18 +87,58 @@ class OcctFaces final : public CadModel::Faces {
       add_face(TopoDS::Face(all(i)), shared);
     }
     add_edges(shape, all, run);
-    Mesh boxes;  // one triangle spans the box of a face
-    for (const FaceData& data : faces_) {
+  }
+
+  /// Prepares queries, on all cores.
+  void build_trees(const Run& run) {
+    Mesh boxes;  // one triangle spans the box of a face; that of a face without area is a point
+    for (FaceData& data : faces_) {
+      run.check();
+      if (!data.uvs.empty()) data.triangles = std::make_unique<RayScene>(triangles_of(data));
       const auto at = static_cast<std::uint32_t>(boxes.vertices_mm.size());
-      boxes.vertices_mm.emplace_back(data.box.min().cast<float>());
-      boxes.vertices_mm.emplace_back(data.box.max().cast<float>());
+      const bool has_box = !data.box.isEmpty();
+      boxes.vertices_mm.emplace_back(has_box ? data.box.min().cast<float>()
+                                             : Eigen::Vector3f(0, 0, 0));
+      boxes.vertices_mm.emplace_back(has_box ? data.box.max().cast<float>()
+                                             : Eigen::Vector3f(0, 0, 0));
       boxes.triangles.push_back({at, at + 1, at});
     }
     tree_ = std::make_unique<AabbTree>(boxes);
   }
 
+  /// Does once on each face and edge what queries do.
+  void try_queries() const {
+    Classifiers classifiers(faces_.size());
+    for (std::uint32_t face = 0; face < faces_.size(); ++face) {
+      const FaceData& data = faces_[face];
+      if (data.first_triangle >= mesh.triangles.size() ||
+          face_of_triangle[data.first_triangle] != face)
+        continue;
+      NearestPoint start;
+      start.triangle = data.first_triangle;
+      const auto& [i, j, k] = mesh.triangles[start.triangle];
+      start.point_mm =
+          (mesh.vertices_mm[i] + mesh.vertices_mm[j] + mesh.vertices_mm[k]).cast<double>() / 3.0;
+      Best best;
+      try_face(face, start.point_mm, &start, classifiers, best);
+      for (const std::uint32_t edge : data.edges)
+        static_cast<void>(foot_on_edge(edges_[edge], start.point_mm));
+    }
+  }
+
   [[nodiscard]] ExactPoint nearest(const Vector3d& point,
                                    const NearestPoint& start) const override {
+    try {
+      return nearest_point(point, start);
+    } catch (const Standard_Failure&) {
+      throw Error(ErrorKind::Input,
+                  fmt::format("face {} of the CAD model cannot be evaluated; export it again",
+                              face_of_triangle[start.triangle] + 1));
+    }
+  }
+
+ private:
+  [[nodiscard]] ExactPoint nearest_point(const Vector3d& point, const NearestPoint& start) const {
     std::unique_ptr<Classifiers> classifiers = taken();
     Best best;
     const std::uint32_t first = face_of_triangle[start.triangle];
@@ -113,7 +158,6 @@ class OcctFaces final : public CadModel::Faces {
     return answer(point, start, best);
   }
 
- private:
   void add_face(const TopoDS_Face& face, SharedNodes& shared) {
     TopLoc_Location place;
     const Handle(Poly_Triangulation) triangles = BRep_Tool::Triangulation(face, place);
@@ -125,7 +169,8 @@ class OcctFaces final : public CadModel::Faces {
     Vector3d center = Vector3d::Zero();
     const auto number = static_cast<std::uint32_t>(faces_.size());
     if (!triangles.IsNull()) {
-      const auto numbers = shared.numbers_of(face, triangles, place);
+      check_triangles(*triangles, number + 1);
+      const auto numbers = shared.numbers_of(face, number + 1, triangles, place);
       for (int t = 1; t <= triangles->NbTriangles(); ++t) {
         std::array<int, 3> nodes{};
         triangles->Triangle(t).Get(nodes[0], nodes[1], nodes[2]);
@@ -159,19 +204,21 @@ class OcctFaces final : public CadModel::Faces {
     }
     if (found.area_mm2 > 0.0)
       found.shape = nominal_shape(data.surface, data.side, center / found.area_mm2);
-    if (!data.uvs.empty()) {
-      Mesh own;
-      own.vertices_mm.reserve(3 * data.uvs.size());
-      for (std::size_t t = data.first_triangle; t < mesh.triangles.size(); ++t) {
-        const auto at = static_cast<std::uint32_t>(own.vertices_mm.size());
-        for (const std::uint32_t v : mesh.triangles[t])
-          own.vertices_mm.push_back(mesh.vertices_mm[v]);
-        own.triangles.push_back({at, at + 1, at + 2});
-      }
-      data.triangles = std::make_unique<RayScene>(std::move(own));
-    }
     list.push_back(found);
     faces_.push_back(std::move(data));
+  }
+
+  /// The triangles of a face with vertices of their own.
+  [[nodiscard]] Mesh triangles_of(const FaceData& data) const {
+    Mesh own;
+    own.vertices_mm.reserve(3 * data.uvs.size());
+    for (std::size_t t = data.first_triangle; t < data.first_triangle + data.uvs.size(); ++t) {
+      const auto at = static_cast<std::uint32_t>(own.vertices_mm.size());
+      for (const std::uint32_t v : mesh.triangles[t])
+        own.vertices_mm.push_back(mesh.vertices_mm[v]);
+      own.triangles.push_back({at, at + 1, at + 2});
+    }
+    return own;
   }
 
   void add_edges(const TopoDS_Shape& shape, const TopTools_IndexedMapOfShape& all, const Run& run) {
@@ -314,17 +361,30 @@ class OcctFaces final : public CadModel::Faces {
   mutable std::vector<std::unique_ptr<Classifiers>> idle_;
 };
 
-}  // namespace
-
-std::unique_ptr<CadModel::Faces> load_faces(std::istream& stream, const Run& run) {
+std::unique_ptr<OcctFaces> loaded(std::istream& stream, const Run& run) {
   try {
     Message::DefaultMessenger()->RemovePrinters(STANDARD_TYPE(Message_Printer));
     TopoDS_Shape shape;
     BinTools::Read(shape, stream);
+    if (shape.IsNull()) throw Error(ErrorKind::Input, "it has no shape; export it again");
     return std::make_unique<OcctFaces>(shape, run);
+  } catch (const Standard_OutOfMemory&) {
+    throw std::bad_alloc();
   } catch (const Standard_Failure&) {
     throw Error(ErrorKind::Input, "its shape is not valid; export it again");
   }
+}
+
+}  // namespace
+
+std::unique_ptr<CadModel::Faces> load_faces(std::istream& stream, const Run& run) {
+  auto faces = loaded(stream, run);
+  faces->build_trees(run);
+  return faces;
+}
+
+void rehearse_faces(std::istream& stream) {
+  loaded(stream, {})->try_queries();
 }
 
 }  // namespace frangia

@@ -108,6 +108,14 @@ double parameter_by_newton(const FootEdge& edge, const Vector3d& point, double s
   return t;
 }
 
+/// A parameter that Newton's method has led many periods away: what asks whether a face contains it
+/// would step through them one by one.
+double within_periods(double value, double low, double period) {
+  constexpr double kMostPeriods = 16.0;
+  if (!(period > 0.0) || !(std::abs(value - low) > kMostPeriods * period)) return value;
+  return value - period * std::floor((value - low) / period);
+}
+
 }  // namespace
 
 FootSurface::FootSurface(Handle(Geom_Surface) surface) : surface_(std::move(surface)) {
@@ -118,6 +126,9 @@ FootSurface::FootSurface(Handle(Geom_Surface) surface) : surface_(std::move(surf
   Vector2d low;
   Vector2d high;
   surface_->Bounds(low.x(), high.x(), low.y(), high.y());
+  start_ = low;
+  if (surface_->IsUPeriodic()) period_.x() = surface_->UPeriod();
+  if (surface_->IsVPeriodic()) period_.y() = surface_->VPeriod();
   if (surface_->IsUPeriodic()) std::tie(low.x(), high.x()) = std::pair(-kNoEnd, kNoEnd);
   if (surface_->IsVPeriodic()) std::tie(low.y(), high.y()) = std::pair(-kNoEnd, kNoEnd);
   range_ = {low, high};
@@ -183,6 +194,8 @@ SurfaceFoot FootSurface::foot(const Vector3d& point, const Vector2d& start) cons
   SurfaceFoot foot;
   foot.uv = is_elementary() ? elementary_uv(gp_Pnt(point.x(), point.y(), point.z()))
                             : newton_uv(point, start);
+  if (period_.x() > 0.0) foot.uv.x() = within_periods(foot.uv.x(), start_.x(), period_.x());
+  if (period_.y() > 0.0) foot.uv.y() = within_periods(foot.uv.y(), start_.y(), period_.y());
   gp_Pnt at;
   gp_Vec u;
   gp_Vec v;

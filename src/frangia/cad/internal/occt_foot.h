@@ -47,7 +47,9 @@ class FootSurface {
 
   Handle(Geom_Surface) surface_;
   GeomAbs_SurfaceType type_ = GeomAbs_OtherSurface;
-  Eigen::AlignedBox2d range_;  ///< infinite where periodic
+  Eigen::AlignedBox2d range_;     ///< infinite where periodic
+  Eigen::Vector2d start_{0, 0};   ///< of the parameters
+  Eigen::Vector2d period_{0, 0};  ///< 0: not periodic
 };
 
 /// The edge of one or more faces.

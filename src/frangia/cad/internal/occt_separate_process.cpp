@@ -1,27 +1,33 @@
 #include <array>
 #include <cerrno>
+#include <chrono>
+#include <cmath>
 #include <csignal>
 #include <fstream>
 #include <new>
+#include <thread>
 
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <poll.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
+#include <sys/time.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "frangia/cad/internal/cad_answer.h"
+#include "frangia/cad/internal/faces.h"
 #include "frangia/cad/internal/separate_process.h"
 
 namespace frangia {
 namespace {
 
-constexpr char kUnitLine = 'u';
-constexpr char kWarningLine = 'w';
-constexpr char kErrorLine = 'e';
-constexpr char kShapeFollows = 's';
-constexpr std::string_view kComplete = "complete";
+using Clock = std::chrono::steady_clock;
+
+enum ExitCode : int { kAnswered = 0, kNoMemory = 3, kNoAnswer = 4 };
+
+constexpr double kClockOverProcessor = 4.0;  // beside other work of the machine
 
 bool send(int pipe, std::string_view bytes) {
   while (!bytes.empty()) {
@@ -45,36 +51,69 @@ void limit_memory([[maybe_unused]] double bytes) {
 #endif
 }
 
+/// Ends this process by SIGPROF after a processor time; the limit of the system, in whole seconds,
+/// cannot be undone.
+void limit_time(double seconds) {
+  sigset_t timers;
+  ::sigemptyset(&timers);
+  for (const int signal : {SIGPROF, SIGXCPU}) {
+    ::signal(signal, SIG_DFL);
+    ::sigaddset(&timers, signal);
+  }
+  ::sigprocmask(SIG_UNBLOCK, &timers, nullptr);
+  const double whole = std::floor(seconds);
+  itimerval timer{};
+  timer.it_value.tv_sec = static_cast<time_t>(whole);
+  timer.it_value.tv_usec = static_cast<suseconds_t>(std::max(1.0, 1e6 * (seconds - whole)));
+  ::setitimer(ITIMER_PROF, &timer, nullptr);
+  const auto most = static_cast<rlim_t>(whole) + 2;
+  const rlimit limit{most, most};
+  ::setrlimit(RLIMIT_CPU, &limit);
+}
+
 /// What the second process does; it never returns.
 [[noreturn]] void answer(int pipe,
                          const std::filesystem::path& path,
                          const std::optional<double>& unit_mm,
-                         double limit_bytes) {
+                         const ProcessLimits& limits) {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGPIPE, SIGSEGV, SIGABRT, SIGFPE, SIGBUS})
     ::signal(signal, SIG_DFL);
   const int nothing = ::open("/dev/null", O_RDWR);
   for (const int stream : {0, 1, 2})
     ::dup2(nothing, stream);
+  // Files of the first process, such as locks and connections, end with it and not with this one.
+  constexpr int kPipe = 3;
+  if (pipe != kPipe) ::dup2(pipe, kPipe);
+  ::close_range(kPipe + 1, ~0U, 0);
   const rlimit no_core{0, 0};
   ::setrlimit(RLIMIT_CORE, &no_core);
-  limit_memory(limit_bytes);
-  int code = 1;
+  limit_memory(limits.memory.limit_bytes());
+  limit_time(limits.processor_s);
+  int code = kNoAnswer;
   try {
-    std::ostringstream shape;
-    const CadTranslation said = translate_cad(path, unit_mm, shape);
-    std::string head = fmt::format("{}{}\n", kUnitLine, said.unit);
-    for (const std::string& warning : said.warnings)
-      head += fmt::format("{}{}\n", kWarningLine, warning);
-    head += said.error.empty() ? fmt::format("{}\n", kShapeFollows)
-                               : fmt::format("{}{}\n", kErrorLine, said.error);
-    if (send(pipe, head) && (!said.error.empty() || send(pipe, shape.view())) &&
-        send(pipe, kComplete))
-      code = 0;
+    std::stringstream shape;
+    CadTranslation said = translate_cad(path, unit_mm, shape);
+    try {
+      if (said.error.empty()) rehearse_faces(shape);
+    } catch (const Error& error) {
+      said.error = error.what();
+    }
+    const auto to_pipe = [](std::string_view bytes) { return send(kPipe, bytes); };
+    if (send_answer(said, shape.view(), to_pipe)) code = kAnswered;
+  } catch (const std::bad_alloc&) {
+    code = kNoMemory;
   } catch (...) {  // the first process says what it means
   }
   ::_exit(code);
 }
+
+/// How the second process ended.
+struct ChildEnd {
+  std::string heard;     ///< everything that it said
+  int status = 0;        ///< as of waitpid
+  bool is_late = false;  ///< it was ended on the clock
+};
 
 /// Ends the second process when the first one leaves it.
 class Child {
@@ -82,63 +121,88 @@ class Child {
   Child(pid_t process, int pipe) : process_(process), pipe_(pipe) {}
   Child(const Child&) = delete;
   Child& operator=(const Child&) = delete;
+  Child(Child&&) = delete;
+  Child& operator=(Child&&) = delete;
   ~Child() {
     ::close(pipe_);
-    ::kill(process_, SIGKILL);
-    while (::waitpid(process_, nullptr, 0) < 0 && errno == EINTR) {
-    }
+    if (process_ > 0) static_cast<void>(end());
   }
 
-  /// Everything that it says.
-  [[nodiscard]] std::string heard(const MemoryBudget& budget, const Run& run) const {
-    std::string all;
+  [[nodiscard]] ChildEnd listen(const ProcessLimits& limits, const Run& run) {
+    ChildEnd found;
+    const auto end_by =
+        Clock::now() + std::chrono::duration<double>(kClockOverProcessor * limits.processor_s);
     std::array<char, 1U << 16U> part{};
     constexpr int kWaitMs = 100;
     for (;;) {
       run.check();
+      found.is_late = Clock::now() > end_by;
+      if (found.is_late) break;
       pollfd ready{pipe_, POLLIN, 0};
       if (::poll(&ready, 1, kWaitMs) <= 0) continue;
       const ssize_t count = ::read(pipe_, part.data(), part.size());
       if (count < 0 && errno == EINTR) continue;
-      if (count <= 0) return all;
-      all.append(part.data(), static_cast<std::size_t>(count));
-      budget.check(static_cast<double>(all.size()));
+      if (count <= 0) break;
+      found.heard.append(part.data(), static_cast<std::size_t>(count));
+      // The shape is held twice when it is loaded.
+      limits.memory.check(2.0 * static_cast<double>(found.heard.size()));
     }
+    found.status = ended();
+    return found;
   }
 
  private:
-  pid_t process_;
+  /// The status of a process that has said everything; a moment later it is ended.
+  int ended() {
+    constexpr std::chrono::milliseconds kStep{5};
+    constexpr int kSteps = 400;
+    for (int i = 0; i < kSteps; ++i) {
+      int status = 0;
+      if (::waitpid(process_, &status, WNOHANG) == process_) {
+        process_ = 0;
+        return status;
+      }
+      std::this_thread::sleep_for(kStep);
+    }
+    return end();
+  }
+
+  int end() {
+    ::kill(process_, SIGKILL);
+    int status = 0;
+    while (::waitpid(process_, &status, 0) < 0 && errno == EINTR) {
+    }
+    process_ = 0;
+    return status;
+  }
+
+  pid_t process_;  ///< 0: it has ended
   int pipe_;
 };
 
-TranslatedCad parsed(const std::string& all, const MemoryBudget& budget) {
-  TranslatedCad found;
-  if (!all.ends_with(kComplete)) {
-    found.said.error = fmt::format(
-        "it is damaged, or needs more than {} to read; export it again, or raise `allow_memory`",
-        size_text(budget.limit_bytes()));
-    return found;
+/// Why there is no answer.
+std::string cause_of(const ChildEnd& end, const ProcessLimits& limits) {
+  const int signal = WIFSIGNALED(end.status) ? WTERMSIG(end.status) : 0;
+  if (end.is_late || signal == SIGPROF || signal == SIGXCPU) {
+    return fmt::format(
+        "it takes more than {:.3g} s of processor time to read; export it again, or raise "
+        "`allow_time_s`",
+        limits.processor_s);
   }
-  std::size_t at = 0;
-  for (;;) {
-    const std::size_t end = all.find('\n', at);
-    const char kind = all[at];
-    const std::string text = all.substr(at + 1, end - at - 1);
-    at = end + 1;
-    if (kind == kUnitLine) found.said.unit = text;
-    if (kind == kWarningLine) found.said.warnings.push_back(text);
-    if (kind == kErrorLine) found.said.error = text;
-    if (kind == kErrorLine || kind == kShapeFollows) break;
+  if (WIFEXITED(end.status) && WEXITSTATUS(end.status) == kNoMemory) {
+    return fmt::format("it needs more than {} to read; export it again, or raise `allow_memory`",
+                       size_text(limits.memory.limit_bytes()));
   }
-  found.shape.str(all.substr(at, all.size() - at - kComplete.size()));
-  return found;
+  return fmt::format(
+      "it is damaged, or needs more than {} to read; export it again, or raise `allow_memory`",
+      size_text(limits.memory.limit_bytes()));
 }
 
 }  // namespace
 
 TranslatedCad translate_in_process(const std::filesystem::path& path,
                                    const std::optional<double>& unit_mm,
-                                   const MemoryBudget& budget,
+                                   const ProcessLimits& limits,
                                    const Run& run) {
   std::array<int, 2> ends{};
   if (::pipe2(ends.data(), O_CLOEXEC) != 0)
@@ -149,13 +213,15 @@ TranslatedCad translate_in_process(const std::filesystem::path& path,
     ::close(ends[1]);
     throw Error(ErrorKind::File, "no second process can be started to read the CAD file");
   }
-  if (process == 0) {
-    ::close(ends[0]);
-    answer(ends[1], path, unit_mm, budget.limit_bytes());
-  }
+  if (process == 0) answer(ends[1], path, unit_mm, limits);
   ::close(ends[1]);
-  const Child child(process, ends[0]);
-  return parsed(child.heard(budget, run), budget);
+  Child child(process, ends[0]);
+  ChildEnd end = child.listen(limits, run);
+  if (std::optional<TranslatedCad> found = parsed_answer(std::move(end.heard)))
+    return std::move(*found);
+  TranslatedCad refused;
+  refused.said.error = cause_of(end, limits);
+  return refused;
 }
 
 }  // namespace frangia

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <new>
 
 #include <BRepBndLib.hxx>
 #include <BRepBuilderAPI_MakeSolid.hxx>
@@ -17,10 +18,13 @@
 #include <IGESData_IGESModel.hxx>
 #include <STEPControl_Reader.hxx>
 #include <Standard_Failure.hxx>
+#include <Standard_OutOfMemory.hxx>
 #include <TColStd_SequenceOfAsciiString.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopoDS.hxx>
 
+#include "frangia/cad/internal/shape_checks.h"
+#include "frangia/core/error.h"
 #include "frangia/core/lowercase_extension.h"
 
 namespace frangia {
@@ -135,6 +139,8 @@ TopoDS_Shape sewn(const TopoDS_Shape& shape) {
 }
 
 /// Checks that a shape can be measured. Returns its size.
+///
+/// @errors   Error(Input) without the name of the file, when it is damaged
 double checked_size(const TopoDS_Shape& shape, CadTranslation& said) {
   const int faces = shape.IsNull() ? 0 : counted_faces(shape);
   if (faces == 0)
@@ -142,6 +148,7 @@ double checked_size(const TopoDS_Shape& shape, CadTranslation& said) {
   if (faces > kMostFaces)
     said.error = "it has more than " + std::to_string(kMostFaces) + " faces; name one part of it";
   if (!said.error.empty()) return 0.0;
+  check_geometry(shape);
   Bnd_Box box;
   BRepBndLib::Add(shape, box, false);
   constexpr double kSmallestMm = 1e-4;
@@ -190,6 +197,10 @@ CadTranslation translate_cad(const std::filesystem::path& path,
   CadTranslation said;
   try {
     translate(path.string(), unit_mm, shape, said);
+  } catch (const Error& error) {
+    said.error = error.what();
+  } catch (const Standard_OutOfMemory&) {
+    throw std::bad_alloc();
   } catch (const Standard_Failure&) {
     said.error = "its shape is not valid; export it again";
   }

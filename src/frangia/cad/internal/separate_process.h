@@ -16,13 +16,21 @@ struct TranslatedCad {
   std::stringstream shape;  ///< as `translate_cad` writes it
 };
 
-/// Calls `translate_cad` in a second process with limited memory and without a terminal. A process
-/// that ends before it has answered is an error that is said.
+/// What the second process may take.
+struct ProcessLimits {
+  MemoryBudget memory;
+  double processor_s = 0.0;  ///< on the clock it may take four times as long
+};
+
+/// Calls `translate_cad` and `rehearse_faces` in a second process with limited memory and time and
+/// without a terminal. A process that ends before it has answered, or answers in another form, is
+/// an error that is said. Texts are cut to 300 printable characters, and warnings to 20.
 ///
-/// @errors   Error(Cancelled), which ends the process
+/// @errors   Error(Cancelled), which ends the process; Error(Input) that names the file, when its
+///           shape is larger than the memory allows; Error(File)
 [[nodiscard]] TranslatedCad translate_in_process(const std::filesystem::path& path,
                                                  const std::optional<double>& unit_mm,
-                                                 const MemoryBudget& budget,
+                                                 const ProcessLimits& limits,
                                                  const Run& run);
 
 }  // namespace frangia

@@ -11,6 +11,7 @@
 #include <TopoDS_Edge.hxx>
 
 #include "frangia/cad/internal/occt_foot.h"
+#include "frangia/cad/internal/shape_checks.h"
 
 namespace frangia {
 namespace {
@@ -27,6 +28,7 @@ SharedNodes::SharedNodes(const TopoDS_Shape& shape, Mesh& mesh) : mesh_(mesh) {
 }
 
 std::vector<std::uint32_t> SharedNodes::numbers_of(const TopoDS_Face& face,
+                                                   std::uint32_t number_of_face,
                                                    const Handle(Poly_Triangulation) & triangles,
                                                    const TopLoc_Location& place) {
   std::vector<std::uint32_t> numbers(static_cast<std::size_t>(triangles->NbNodes()), kNoNumber);
@@ -38,8 +40,9 @@ std::vector<std::uint32_t> SharedNodes::numbers_of(const TopoDS_Face& face,
     const TopoDS_Edge edge = TopoDS::Edge(at.Current());
     const auto polygon = BRep_Tool::PolygonOnTriangulation(edge, triangles, place);
     if (polygon.IsNull()) continue;
+    check_polygon(*polygon, *triangles, number_of_face);
     const int count = polygon->NbNodes();
-    auto& inner = of_edge_[static_cast<std::size_t>(edges_.FindIndex(edge))];
+    auto& inner = of_edge_.at(static_cast<std::size_t>(edges_.FindIndex(edge)));
     if (inner.empty()) inner.assign(static_cast<std::size_t>(count), kNoNumber);
     if (inner.size() != static_cast<std::size_t>(count)) continue;
     const bool point = BRep_Tool::Degenerated(edge);
@@ -65,7 +68,7 @@ std::uint32_t SharedNodes::added(const Eigen::Vector3f& point) {
 
 std::uint32_t* SharedNodes::number_of(const TopoDS_Vertex& vertex) {
   if (vertex.IsNull()) return nullptr;
-  return &of_vertex_[static_cast<std::size_t>(vertices_.FindIndex(vertex))];
+  return &of_vertex_.at(static_cast<std::size_t>(vertices_.FindIndex(vertex)));
 }
 
 }  // namespace frangia

@@ -19,7 +19,11 @@ class SharedNodes {
   SharedNodes(const TopoDS_Shape& shape, Mesh& mesh);
 
   /// The numbers of the nodes of a face.
+  ///
+  /// @param number  of the face, from 1
+  /// @errors   Error(Input) when an edge names a node that the face does not have
   std::vector<std::uint32_t> numbers_of(const TopoDS_Face& face,
+                                        std::uint32_t number,
                                         const Handle(Poly_Triangulation) & triangles,
                                         const TopLoc_Location& place);
 
