@@ -32,11 +32,12 @@ struct BatchArguments {
   fs::path plan;
   fs::path out;
   int jobs = 1;
-  int task = -1;       ///< only this scan; -1: all
-  bool retry = false;  ///< failed scans, too
-  bool table = false;  ///< only writes the table
-  bool slurm = false;  ///< submits instead
-  std::string sbatch;  ///< an option for sbatch
+  int task = -1;        ///< only this scan; -1: all
+  bool retry = false;   ///< failed scans, too
+  bool table = false;   ///< only writes the table
+  bool slurm = false;   ///< submits instead
+  bool verify = false;  ///< compares every file by its checksum
+  std::string sbatch;   ///< an option for sbatch
   double memory_mb = 0.0;
   double minutes = 0.0;
 };
@@ -59,11 +60,19 @@ bool is_to_be_run(const BatchRow& row, bool retry) {
          (row.state == BatchState::Failed && (retry || row.exit_code >= kSignal));
 }
 
-std::vector<BatchRow> rows_of(const BatchPlan& plan, const fs::path& out) {
+std::vector<BatchRow> rows_of(const BatchPlan& plan, const fs::path& out, const CheckFiles& check) {
   std::vector<BatchRow> rows;
+  if (check.all) check.run.stage("checksums");
   for (const BatchScan& scan : plan.scans)
-    rows.push_back(read_row(scan, plan, out));
+    rows.push_back(read_row(scan, plan, out, check));
   return rows;
+}
+
+/// Under the lock, files are compared again. Progress is that of the batch.
+CheckFiles check_of_task(const BatchArguments& arguments, const Run& run) {
+  CheckFiles check{.all = arguments.verify};
+  check.run.stop = run.stop;
+  return check;
 }
 
 /// Works on the open scans, `jobs` at a time.
@@ -88,7 +97,8 @@ void run_open(const BatchPlan& plan,
         i = open[next++];
       }
       try {
-        BatchRow row = run_task(plan.scans[i], plan, arguments.out, command, run.stop);
+        BatchRow row =
+            run_task(plan.scans[i], plan, arguments.out, command, check_of_task(arguments, run));
         const std::scoped_lock lock(mutex);
         rows[i] = std::move(row);
         ++ended;
@@ -142,13 +152,16 @@ void submit_batch(const BatchPlan& plan,
   job.memory_mb = arguments.memory_mb;
   job.minutes = arguments.minutes;
   if (!(job.memory_mb > 0.0) || !(job.minutes > 0.0)) {
-    std::vector<BatchRow> rows = rows_of(plan, arguments.out);
+    std::vector<BatchRow> rows = rows_of(plan, arguments.out, {arguments.verify, run});
     auto known = std::find_if(rows.begin(), rows.end(), [](const BatchRow& row) {
       return row.state == BatchState::Done;
     });
     if (known == rows.end()) {
-      rows.front() =
-          run_task(plan.scans.front(), plan, arguments.out, {own_path(), threads}, run.stop);
+      rows.front() = run_task(plan.scans.front(),
+                              plan,
+                              arguments.out,
+                              {own_path(), threads},
+                              check_of_task(arguments, run));
       run.check();
       known = rows.begin();
     }
@@ -212,9 +225,9 @@ void batch_verb(const BatchArguments& arguments, const CLI::App& program, Termin
                               plan.scans.size() - 1));
     }
     const BatchScan& scan = plan.scans[static_cast<std::size_t>(arguments.task)];
-    BatchRow row = read_row(scan, plan, arguments.out);
+    BatchRow row = read_row(scan, plan, arguments.out, {arguments.verify, run});
     if (is_to_be_run(row, arguments.retry))
-      row = run_task(scan, plan, arguments.out, command, run.stop);
+      row = run_task(scan, plan, arguments.out, command, check_of_task(arguments, run));
     run.check();
     terminal.finish();
     if (terminal.json) {
@@ -224,7 +237,7 @@ void batch_verb(const BatchArguments& arguments, const CLI::App& program, Termin
     }
     return;
   }
-  std::vector<BatchRow> rows = rows_of(plan, arguments.out);
+  std::vector<BatchRow> rows = rows_of(plan, arguments.out, {arguments.verify, run});
   if (!arguments.table) {
     run.stage("scans");
     run_open(plan, arguments, command, run, rows);
@@ -251,6 +264,10 @@ void add_batch_verb(CLI::App& program, Terminal& terminal) {
       ->check(from_to(1, 1024))
       ->capture_default_str();
   verb->add_flag("--retry", arguments->retry, "try failed scans again");
+  verb->add_flag("--verify",
+                 arguments->verify,
+                 "compare every file of the scans and results by its checksum; what has changed is "
+                 "done again");
   verb->add_flag("--table", arguments->table, "only write the table of what is done");
   verb->add_option("--task", arguments->task, "only this scan, counted from 0")
       ->check(zero_or_more());

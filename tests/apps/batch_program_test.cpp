@@ -1,15 +1,25 @@
 // Several scans by one command: one that fails is a row of the table and stops nothing.
+#include <array>
+#include <csignal>
 #include <filesystem>
 #include <fstream>
+#include <span>
 #include <string>
 
+#include <fcntl.h>
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
+#include <sys/stat.h>
+
+#include "frangia/core/crc32.h"
 
 #include "support/run_program.h"
 #include "support/small_scan.h"
+#include "support/started_program.h"
 #include "support/temporary_folder.h"
 #include "support/text_of.h"
+#include "support/wait_until.h"
 
 namespace frangia {
 namespace {
@@ -20,6 +30,14 @@ namespace fs = std::filesystem;
 
 std::string word_of(const fs::path& path) {
   return "'" + path.string() + "'";
+}
+
+/// The path as a shell reads it back.
+std::string shell_word_of(const fs::path& path) {
+  std::string word = "'";
+  for (const char letter : path.string())
+    word += letter == '\'' ? std::string(R"('\'')") : std::string(1, letter);
+  return word + "'";
 }
 
 class BatchProgram : public ::testing::Test {
@@ -82,6 +100,177 @@ TEST_F(BatchProgram, DoesWhatIsOpenOnly) {
   EXPECT_GT(fs::last_write_time(failed), once);
 }
 
+/// A scan folder of its own, with one scan of the name "a".
+class BatchRecord : public BatchProgram {
+ protected:
+  void SetUp() override {
+    fs::create_directories(one());
+    fs::copy(scans() / "a", one() / "a", fs::copy_options::recursive);
+  }
+  void TearDown() override { fs::remove_all(out("record")); }
+  [[nodiscard]] static fs::path one() { return out("record") / "scans"; }
+  [[nodiscard]] static fs::path result(const char* name) {
+    return out("record") / "meshes" / "a" / name;
+  }
+  [[nodiscard]] static Answer run(const char* more = "") {
+    return batch(one(), out("record") / "meshes", more);
+  }
+  /// Whether another run does the scan again, which writes its mark again.
+  [[nodiscard]] static bool is_done_again(const char* more = "") {
+    const auto mark = result("done.json");
+    const fs::file_time_type before{};
+    fs::last_write_time(mark, before);
+    EXPECT_EQ(run(more).exit_code, 0);
+    return fs::last_write_time(mark) != before;
+  }
+  /// Another byte in the middle of a file, which keeps its size and, where asked for, its time.
+  static void damage(const fs::path& file, bool keep_time) {
+    const auto time = fs::last_write_time(file);
+    std::string bytes = testing::text_of(file);
+    bytes[bytes.size() / 2] = static_cast<char>(bytes[bytes.size() / 2] ^ 1);
+    std::fstream(file, std::ios::in | std::ios::out | std::ios::binary) << bytes;
+    if (keep_time) fs::last_write_time(file, time);
+  }
+};
+
+TEST_F(BatchRecord, AResultThatIsDeletedEmptiedOrForeignIsDoneAgain) {
+  ASSERT_EQ(run().exit_code, 0);
+  EXPECT_FALSE(is_done_again());
+  const std::string mesh = testing::text_of(result("mesh.ply"));
+  fs::remove(result("mesh.ply"));
+  EXPECT_TRUE(is_done_again());
+  EXPECT_EQ(testing::text_of(result("mesh.ply")), mesh);
+  fs::resize_file(result("mesh.ply"), 0);
+  EXPECT_TRUE(is_done_again());
+  damage(result("mesh.ply"), false);
+  EXPECT_TRUE(is_done_again());
+  EXPECT_EQ(testing::text_of(result("mesh.ply")), mesh);
+  // The same bytes in a file of another time and inode are compared by their checksum.
+  fs::copy_file(result("mesh.ply"), result("copy"));
+  fs::rename(result("copy"), result("mesh.ply"));
+  EXPECT_FALSE(is_done_again());
+}
+
+TEST_F(BatchRecord, AFrameThatChangesOrGoesIsSeen) {
+  ASSERT_EQ(run().exit_code, 0);
+  const auto frame = fs::directory_iterator(one() / "a" / "views" / "000")->path();
+  fs::last_write_time(frame, fs::file_time_type{});
+  EXPECT_FALSE(is_done_again()) << "its bytes are the same";
+  const auto hidden = out("record") / "frame";
+  fs::rename(frame, hidden);
+  Answer answer = run("--table");
+  EXPECT_EQ(answer.exit_code, 4);
+  EXPECT_NE(answer.output.find(frame.filename().string() + " has changed or is missing"),
+            std::string::npos)
+      << answer.output;
+  fs::rename(hidden, frame);
+  EXPECT_EQ(run("--table").exit_code, 0);
+}
+
+TEST_F(BatchRecord, VerifyFindsWhatChangedWithoutATrace) {
+  ASSERT_EQ(run().exit_code, 0);
+  // As a disk does it: the bytes change, and neither the time nor the size does.
+  const auto file = result("mesh.ply");
+  struct ::stat before {};
+  ASSERT_EQ(::stat(file.c_str(), &before), 0);
+  damage(file, false);
+  const std::array<timespec, 2> times{before.st_atim, before.st_mtim};
+  ASSERT_EQ(::utimensat(AT_FDCWD, file.c_str(), times.data(), 0), 0);
+  EXPECT_FALSE(is_done_again());
+  EXPECT_TRUE(is_done_again("--verify"));
+  EXPECT_FALSE(is_done_again("--verify"));
+}
+
+TEST_F(BatchRecord, VerifyNamesAFrameThatDiffersFromTheManifest) {
+  const auto frame = fs::directory_iterator(one() / "a" / "views" / "000")->path();
+  fs::create_directories(one() / "a" / "capture");
+  std::string line = "frame views/000/" + frame.filename().string() + " 00000000 100 attempts=1";
+  const auto checksum = crc32(std::span<const char>(line.data(), line.size()));
+  std::ofstream(one() / "a" / "capture" / "manifest.txt")
+      << line << fmt::format(" crc={:08x}\n", checksum);
+  ASSERT_EQ(run().exit_code, 0);
+  const Answer answer = run("--verify --table");
+  EXPECT_EQ(answer.exit_code, 4);
+  EXPECT_NE(answer.output.find("does not have the checksum of capture/manifest.txt"),
+            std::string::npos)
+      << answer.output;
+}
+
+TEST_F(BatchRecord, AMarkThatIsNestedOrForeignIsOfNoScan) {
+  ASSERT_EQ(run().exit_code, 0);
+  const std::string nested = std::string(200'000, '[') + std::string(200'000, ']');
+  const std::string object = R"({"row": [], "cause": 1, "inputs": [1], "results": {"../x": 1}})";
+  for (const std::string& text : {nested, object, std::string("{}"), std::string("null")}) {
+    std::ofstream(result("done.json")) << text;
+    EXPECT_EQ(run("--table").exit_code, 4);
+  }
+  EXPECT_TRUE(is_done_again());
+  // What a row says goes to the terminal.
+  auto mark = nlohmann::ordered_json::parse(testing::text_of(result("done.json")));
+  mark["row"]["message"] = "\x1b[31mred";
+  mark["row"]["exit_code"] = 1e300;
+  std::ofstream(result("done.json")) << mark;
+  const Answer shown = testing::run_program("batch " + word_of(one()) + " -o " +
+                                            word_of(out("record") / "meshes") + " --table");
+  EXPECT_EQ(shown.exit_code, 0);
+  EXPECT_EQ(shown.output.find('\x1b'), std::string::npos) << shown.output;
+}
+
+/// The step that reconstructs outlives its batch; no other one writes beside it.
+TEST_F(BatchRecord, AnOrphanedStepKeepsOthersOut) {
+  testing::StartedProgram batch({FRANGIA_PROGRAM,
+                                 "--quiet",
+                                 "batch",
+                                 one().string(),
+                                 "-o",
+                                 (out("record") / "meshes").string()},
+                                (out("record") / "log").string());
+  int step = 0;
+  std::string words;  // of the step once it runs: before, every open file of the batch is its own
+  while (words.find("reconstruct") == std::string::npos && !batch.has_ended()) {
+    for (const auto& task : fs::directory_iterator(fmt::format("/proc/{}/task", batch.process()))) {
+      int child = 0;
+      if (std::ifstream(task.path() / "children") >> child) step = child;
+    }
+    if (step > 0) std::getline(std::ifstream(fmt::format("/proc/{}/cmdline", step)), words);
+  }
+  ASSERT_GT(step, 0) << "it ended before its step was seen";
+  ASSERT_EQ(::kill(step, SIGSTOP), 0);
+  batch.send(SIGKILL);
+  static_cast<void>(batch.wait());
+  const Answer refused = run();
+  EXPECT_EQ(refused.exit_code, 4);
+  EXPECT_NE(refused.output.find("is writing to this folder"), std::string::npos) << refused.output;
+  EXPECT_FALSE(fs::exists(result("done.json")));
+  ASSERT_EQ(::kill(step, SIGKILL), 0);
+  constexpr double kMost_s = 60.0;
+  ASSERT_GE(testing::wait_until([&] { return run().exit_code == 0; }, kMost_s), 0.0);
+  EXPECT_TRUE(fs::exists(result("mesh.ply")));
+}
+
+TEST_F(BatchProgram, QuotesWhatTheShellOfSlurmReads) {
+  const fs::path strange = out("it's a \"$(touch pwned)\" %a; folder");
+  fs::create_directories(strange / "bin");
+  fs::copy(scans() / "a", strange / "scans" / "a", fs::copy_options::recursive);
+  // Runs each script at once, as the first task of its array.
+  std::ofstream(strange / "bin" / "sbatch")
+      << "#!/bin/sh\nfor script; do :; done\nSLURM_ARRAY_TASK_ID=0 sh \"$script\" && echo 7\n";
+  fs::permissions(strange / "bin" / "sbatch", fs::perms::owner_all);
+  const Answer answer = testing::run_shell(
+      fmt::format("PATH={}:$PATH " FRANGIA_PROGRAM " --json batch {} -o {} --slurm --memory 100 "
+                  "--minutes 5",
+                  shell_word_of(strange / "bin"),
+                  shell_word_of(strange / "scans"),
+                  shell_word_of(strange / "meshes")));
+  EXPECT_EQ(answer.exit_code, 0) << answer.output;
+  EXPECT_TRUE(fs::exists(strange / "meshes" / "a" / "mesh.ply"));
+  EXPECT_TRUE(fs::exists(strange / "meshes" / "table.csv"));
+  EXPECT_TRUE(fs::exists(strange / "meshes" / "slurm" / "0.log"));
+  const std::string script = testing::text_of(strange / "meshes" / "slurm" / "scans.sh");
+  const std::string directives = script.substr(0, script.rfind("#SBATCH"));
+  EXPECT_EQ(directives.find("folder"), std::string::npos) << "Slurm has rules of its own";
+}
+
 TEST_F(BatchProgram, RunsAPlanWithEditsAndInspection) {
   const auto plan = out("plan.toml");
   std::ofstream(out("repair.json"))
@@ -100,6 +289,25 @@ TEST_F(BatchProgram, RunsAPlanWithEditsAndInspection) {
   const auto before = fs::last_write_time(out("planned") / "a" / "done.json");
   EXPECT_EQ(batch(plan, out("planned")).exit_code, 0);
   EXPECT_GT(fs::last_write_time(out("planned") / "a" / "done.json"), before);
+}
+
+TEST_F(BatchProgram, AReferenceOrAPlanThatChangesIsSeen) {
+  const auto plan = out("referring.toml");
+  const auto reference = out("reference.ply");
+  fs::copy_file(scans() / "a" / "truth.ply", reference);
+  std::ofstream(out("inspection.toml"))
+      << "format = \"frangia-inspection\"\nversion = 1\nreference = \"reference.ply\"\n";
+  std::ofstream(plan) << "format = \"frangia-batch\"\nversion = 1\ninspect = [\"--plan\", \""
+                      << out("inspection.toml").string() << "\"]\n[[scan]]\nfolder = \"scans/a\"\n";
+  ASSERT_EQ(batch(plan, out("referred")).exit_code, 0);
+  ASSERT_EQ(batch(plan, out("referred"), "--table").exit_code, 0);
+  std::ofstream(out("inspection.toml"), std::ios::app) << "part = \"plate\"\n";
+  EXPECT_EQ(batch(plan, out("referred"), "--table").exit_code, 4);
+  ASSERT_EQ(batch(plan, out("referred")).exit_code, 0);
+  std::ofstream(reference, std::ios::app) << " ";
+  const Answer answer = batch(plan, out("referred"), "--table");
+  EXPECT_EQ(answer.exit_code, 4);
+  EXPECT_NE(answer.output.find("reference.ply has changed"), std::string::npos) << answer.output;
 }
 
 TEST_F(BatchProgram, NamesWhatIsWrongWithAPlan) {

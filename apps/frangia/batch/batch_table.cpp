@@ -6,6 +6,7 @@
 
 #include "frangia/core/atomic_file.h"
 
+#include "terminal_text.h"
 #include "text_table.h"
 
 namespace frangia {
@@ -50,14 +51,14 @@ std::string table_of(const std::vector<BatchRow>& rows) {
   TextColumn memory{"MB", {}};
   TextColumn message{"", {}, false};
   for (const BatchRow& row : rows) {
-    name.values.push_back(row.name);
+    name.values.push_back(terminal_text(row.name));
     state.values.emplace_back(name_of(row));
     points.values.push_back(std::to_string(row.points));
     triangles.values.push_back(std::to_string(row.triangles));
     sigma.values.push_back(sigma_of(row));
     seconds.values.push_back(fmt::format("{:.1f}", row.seconds));
     memory.values.push_back(fmt::format("{:.0f}", row.memory_mb));
-    message.values.push_back(row.message);
+    message.values.push_back(terminal_text(row.message));
   }
   return text_table({name, state, points, triangles, sigma, seconds, memory, message});
 }

@@ -3,23 +3,30 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "frangia/core/atomic_file.h"
+#include "frangia/core/check_nesting.h"
 #include "frangia/core/error.h"
 #include "frangia/core/folder_lock.h"
 #include "frangia/core/make_folder.h"
 #include "frangia/core/read_text_file.h"
+#include "frangia/core/sync_to_disk.h"
 
+#include "batch/batch_inputs.h"
 #include "batch/child_process.h"
+#include "batch/file_record.h"
 
 namespace frangia {
 namespace {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
+
+constexpr int kInputExitCode = 3;
 
 /// A step: the words after the program's name, and the name of its files.
 struct Step {
@@ -57,29 +64,50 @@ std::vector<Step> steps_of(const BatchScan& scan, const BatchPlan& plan, const f
   return steps;
 }
 
-/// Size and time of a file, which tell whether it has changed.
-Json stamp_of(const fs::path& path) {
-  std::error_code missing;
-  const auto size = fs::file_size(path, missing);
-  if (missing) return nullptr;
-  return {size, fs::last_write_time(path, missing).time_since_epoch().count()};
-}
-
-/// What a result depends on.
+/// What a result depends on beside files.
 Json cause_of(const BatchScan& scan, const BatchPlan& plan, const fs::path& folder) {
   Json cause{{"version", FRANGIA_VERSION}};
   for (const Step& step : steps_of(scan, plan, folder))
     cause["commands"].push_back(step.words);
-  for (const char* file : {"scan.toml", "rig.toml"})
-    cause["files"][file] = stamp_of(scan.folder / file);
-  if (!scan.edit.empty()) cause["files"]["edit"] = stamp_of(scan.edit);
   return cause;
 }
 
-/// JSON of a file; null when there is none or it is damaged.
+constexpr const char* kMark = "done.json";
+
+/// What the steps left in a folder: everything but the mark, locks and temporary files.
+NamedFiles results_in(const fs::path& folder) {
+  NamedFiles files;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
+    const std::string name = entry.path().filename().string();
+    if (name != kMark && name.front() != '.' && entry.is_regular_file())
+      files.emplace(name, entry.path());
+  }
+  return files;
+}
+
+/// The results that a record names: further files beside them are of somebody else.
+NamedFiles recorded_results(const Json& record, const fs::path& folder) {
+  NamedFiles files;
+  if (!record.is_object()) return files;
+  for (const auto& [name, value] : record.items())
+    if (name == fs::path(name).filename()) files.emplace(name, folder / name);
+  return files;
+}
+
+/// Waits until the results and their names are on the disk.
+void sync_results(const fs::path& folder) {
+  for (const auto& [name, path] : results_in(folder))
+    sync_to_disk(path);
+  sync_to_disk(folder);
+}
+
+/// JSON of a file; null when there is none, or it is damaged or nested as no program writes it.
 Json read_json(const fs::path& path) {
+  constexpr std::uint64_t kMostBytes = 64'000'000;  // the record of a frame has some 150
   try {
-    return Json::parse(read_text_file(path), nullptr, false);
+    const std::string text = read_text_file(path, kMostBytes);
+    check_json_nesting(text, path);
+    return Json::parse(text, nullptr, false);
   } catch (const Error&) {
     return nullptr;
   }
@@ -96,68 +124,43 @@ std::string cause_in(const fs::path& messages) {
   return first;
 }
 
-void take_results(const Json& results, BatchRow& row) {
-  if (!results.is_object()) return;
-  row.points = results.value("points", row.points);
-  row.triangles = results.value("triangles", row.triangles);
-  if (const auto sigma = results.find("median_sigma"); sigma != results.end()) {
-    const auto combined = sigma->find("combined_mm");
-    if (combined != sigma->end() && combined->is_number()) row.sigma_mm = combined->get<double>();
-  }
-}
-
-Json json_of(const BatchRow& row) {
-  constexpr const char* kStates[] = {"open", "done", "failed"};  // NOLINT(*-avoid-c-arrays)
-  return {{"name", row.name},
-          {"state", kStates[static_cast<int>(row.state)]},
-          {"exit_code", row.exit_code},
-          {"message", row.message},
-          {"seconds", row.seconds},
-          {"processor_s", row.processor_s},
-          {"memory_mb", row.memory_mb},
-          {"points", row.points},
-          {"triangles", row.triangles},
-          {"sigma_mm", std::isnan(row.sigma_mm) ? Json() : Json(row.sigma_mm)}};
-}
-
-BatchRow row_of(const Json& json) {
-  BatchRow row;
-  row.name = json.value("name", "");
-  const std::string state = json.value("state", "open");
-  row.state = state == "done"     ? BatchState::Done
-              : state == "failed" ? BatchState::Failed
-                                  : BatchState::Open;
-  row.exit_code = json.value("exit_code", 0);
-  row.message = json.value("message", "");
-  row.seconds = json.value("seconds", 0.0);
-  row.processor_s = json.value("processor_s", 0.0);
-  row.memory_mb = json.value("memory_mb", 0.0);
-  row.points = json.value("points", std::size_t{0});
-  row.triangles = json.value("triangles", std::size_t{0});
-  const auto sigma = json.find("sigma_mm");
-  row.sigma_mm = sigma != json.end() && sigma->is_number() ? sigma->get<double>() : std::nan("");
-  return row;
-}
-
 }  // namespace
 
-nlohmann::ordered_json json_of(const std::vector<BatchRow>& rows) {
-  Json json = Json::array();
-  for (const BatchRow& row : rows)
-    json.push_back(json_of(row));
-  return json;
-}
-
-BatchRow read_row(const BatchScan& scan, const BatchPlan& plan, const fs::path& out) {
+BatchRow read_row(const BatchScan& scan,
+                  const BatchPlan& plan,
+                  const fs::path& out,
+                  const CheckFiles& check) {
   BatchRow open;
   open.name = scan.name;
   open.sigma_mm = std::nan("");
   const fs::path folder = out / scan.name;
-  const Json mark = read_json(folder / "done.json");
+  const Json mark = read_json(folder / kMark);
   try {
     if (!mark.is_object() || mark.value("cause", Json()) != cause_of(scan, plan, folder))
       return open;
-    return row_of(mark.value("row", Json::object()));
+    BatchRow row = row_of(mark.value("row", Json::object()));
+    row.name = scan.name;
+    check.run.check();
+    const auto changed_in = [&](const char* key, const NamedFiles& files) {
+      const std::string name = first_changed(mark.value(key, Json()), files, check.all);
+      if (!name.empty()) open.message = fmt::format("{} has changed or is missing", name);
+      return !name.empty();
+    };
+    if (changed_in("inputs", inputs_of(scan))) return open;
+    if (row.state == BatchState::Done) {
+      const Json results = mark.value("results", Json());
+      if (!results.is_object() || results.empty() ||
+          changed_in("results", recorded_results(results, folder)))
+        return open;
+    }
+    if (check.all) {
+      if (std::string frame = differing_frame(scan); !frame.empty()) {
+        row.state = BatchState::Failed;
+        row.exit_code = kInputExitCode;
+        row.message = std::move(frame);
+      }
+    }
+    return row;
   } catch (const nlohmann::json::exception&) {  // a mark of another program
     return open;
   }
@@ -167,16 +170,25 @@ BatchRow run_task(const BatchScan& scan,
                   const BatchPlan& plan,
                   const fs::path& out,
                   const BatchCommand& command,
-                  const std::stop_token& stop) {
+                  const CheckFiles& check) {
   const fs::path folder = out / scan.name;
   make_folder(folder);
-  const FolderLock lock(folder);
-  BatchRow row = read_row(scan, plan, out);
-  if (row.state == BatchState::Done) return row;  // by another process in the meantime
-  fs::remove(folder / "done.json");
-  row = {};
+  BatchRow row;
   row.name = scan.name;
   row.sigma_mm = std::nan("");
+  std::optional<FolderLock> lock;
+  try {
+    lock.emplace(folder);
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::Input) throw;
+    row.message = error.what();  // another process writes to it, perhaps a step that was orphaned
+    return row;
+  }
+  if (BatchRow known = read_row(scan, plan, out, check); known.state == BatchState::Done)
+    return known;  // by another process in the meantime
+  fs::remove(folder / kMark);
+  sync_to_disk(folder);
+  const Json before = stamps_of(inputs_of(scan));
   for (const Step& step : steps_of(scan, plan, folder)) {
     std::vector<std::string> words{command.program};
     if (command.threads > 0)
@@ -184,8 +196,9 @@ BatchRow run_task(const BatchScan& scan,
     words.insert(words.end(), step.words.begin(), step.words.end());
     const fs::path output = folder / (step.name + ".json");
     const fs::path messages = folder / (step.name + ".log");
-    const ChildResult result = run_child(words, output, messages, stop);
-    if (stop.stop_requested()) return row;
+    const ChildResult result =
+        run_child(words, output, messages, check.run.stop, lock->descriptor());
+    if (check.run.stop.stop_requested()) return row;
     row.seconds += result.seconds;
     row.processor_s += result.processor_s;
     row.memory_mb = std::max(row.memory_mb, result.memory_mb);
@@ -196,11 +209,25 @@ BatchRow run_task(const BatchScan& scan,
     row.message = fmt::format("{}: {}", step.name, cause_in(messages));
     break;
   }
+  const NamedFiles inputs = inputs_of(scan);
+  if (stamps_of(inputs) != before) {
+    row.state = BatchState::Open;
+    row.message = "a file of it changed while it was read; the next run does it again";
+    return row;
+  }
   if (row.state != BatchState::Failed) row.state = BatchState::Done;
-  AtomicFile mark(folder / "done.json", Durability::Synced);
-  mark.stream() << Json{{"row", json_of(row)}, {"cause", cause_of(scan, plan, folder)}}.dump(
-                       2, ' ', true, Json::error_handler_t::replace)
-                << '\n';
+  sync_results(folder);
+  Json content{{"row", json_of(row)}, {"cause", cause_of(scan, plan, folder)}};
+  try {
+    content["inputs"] = record_of(inputs);
+    content["results"] = record_of(results_in(folder));
+  } catch (const Error& error) {
+    row.state = BatchState::Open;
+    row.message = error.what();  // a file is gone again
+    return row;
+  }
+  AtomicFile mark(folder / kMark, Durability::Synced);
+  mark.stream() << content.dump(2, ' ', true, Json::error_handler_t::replace) << '\n';
   mark.commit();
   return row;
 }

@@ -1,36 +1,14 @@
 #pragma once
 
 #include <filesystem>
-#include <stop_token>
 #include <string>
-#include <vector>
 
-#include <nlohmann/json.hpp>
+#include "frangia/core/run.h"
 
 #include "batch/batch_plan.h"
+#include "batch/batch_row.h"
 
 namespace frangia {
-
-/// Where a scan of a batch stands.
-enum class BatchState {
-  Open,    ///< not tried yet, or interrupted
-  Done,    ///< all steps ended well
-  Failed,  ///< a step failed
-};
-
-/// One row of the table of a batch.
-struct BatchRow {
-  std::string name;                     ///< of the scan
-  BatchState state = BatchState::Open;  ///< where it stands
-  int exit_code = 0;                    ///< of the step that failed
-  std::string message;                  ///< its first line; why the mesh must not be trusted
-  double seconds = 0.0;                 ///< of all steps
-  double processor_s = 0.0;             ///< of all steps
-  double memory_mb = 0.0;               ///< most of any step
-  std::size_t points = 0;               ///< measured
-  std::size_t triangles = 0;            ///< of the mesh
-  double sigma_mm = 0.0;                ///< median of the vertices; NaN: unknown
-};
 
 /// How the program is called for the steps of a batch.
 struct BatchCommand {
@@ -38,24 +16,33 @@ struct BatchCommand {
   int threads = 0;      ///< of each step; 0: the program's choice
 };
 
+/// How the files of a scan and its results are compared with the record of what was done.
+struct CheckFiles {
+  bool all = false;  ///< every file by its checksum; else those whose stamp differs
+  Run run{};
+};
+
 /// The row of a scan from its mark OUT/NAME/done.json. It is open when there is none, or when the
-/// scan, the options or the program have changed since.
+/// options, the program, a file that it depends on or a result have changed since; its message then
+/// names the file. With `check.all`, a frame that does not have the checksum of the manifest is a
+/// failure of the scan.
+///
+/// @errors   Error(Cancelled)
 [[nodiscard]] BatchRow read_row(const BatchScan& scan,
                                 const BatchPlan& plan,
-                                const std::filesystem::path& out);
+                                const std::filesystem::path& out,
+                                const CheckFiles& check);
 
 /// Runs the steps of a scan, one process after the other, and leaves their results, messages and
-/// done.json in OUT/NAME. done.json appears when all is over, by a rename. A stop leaves the scan
-/// open.
+/// done.json in OUT/NAME. done.json appears when all is over and on the disk, by a rename. Each
+/// step holds the lock of OUT/NAME, so that one that outlives this process keeps others out. A stop
+/// leaves the scan open, and so does another process that holds the lock, which the message names.
 ///
-/// @errors   Error(Input) when another process works on this scan; Error(File)
+/// @errors   Error(File)
 [[nodiscard]] BatchRow run_task(const BatchScan& scan,
                                 const BatchPlan& plan,
                                 const std::filesystem::path& out,
                                 const BatchCommand& command,
-                                const std::stop_token& stop);
-
-/// The rows as JSON.
-[[nodiscard]] nlohmann::ordered_json json_of(const std::vector<BatchRow>& rows);
+                                const CheckFiles& check);
 
 }  // namespace frangia

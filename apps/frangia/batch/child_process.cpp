@@ -28,7 +28,8 @@ double seconds_of(const timeval& time) {
 /// Starts the program; its standard input is empty.
 pid_t start(const std::vector<std::string>& command,
             const std::filesystem::path& output,
-            const std::filesystem::path& messages) {
+            const std::filesystem::path& messages,
+            int lock) {
   std::vector<std::string> words = command;
   std::vector<char*> arguments;
   for (std::string& word : words)
@@ -41,6 +42,8 @@ pid_t start(const std::vector<std::string>& command,
   posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
   posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, output.c_str(), kWrite, kMode);
   posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, messages.c_str(), kWrite, kMode);
+  // On itself, it is open in the child, too.
+  if (lock >= 0) posix_spawn_file_actions_adddup2(&actions, lock, lock);
   // This program blocks the signals that stop it; the child does not. It has a process group of its
   // own, so that Ctrl-C reaches it through this program alone.
   posix_spawnattr_t attributes;
@@ -70,11 +73,12 @@ pid_t start(const std::vector<std::string>& command,
 ChildResult run_child(const std::vector<std::string>& command,
                       const std::filesystem::path& output,
                       const std::filesystem::path& messages,
-                      const std::stop_token& stop) {
+                      const std::stop_token& stop,
+                      int lock) {
   using std::chrono::milliseconds;
   constexpr std::chrono::seconds kPatience{5};
   const Clock::time_point begin = Clock::now();
-  const pid_t child = start(command, output, messages);
+  const pid_t child = start(command, output, messages, lock);
   Clock::time_point asked{};
   for (;;) {
     int status = 0;

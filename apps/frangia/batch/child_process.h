@@ -16,12 +16,13 @@ struct ChildResult {
 };
 
 /// Runs a program with its output in two files and waits for it. When a stop is requested, it gets
-/// SIGTERM, and SIGKILL five seconds later..
+/// SIGTERM, and SIGKILL five seconds later. It inherits the open file `lock`, unless that is -1.
 ///
 /// @errors   Error(File) when the program or an output file cannot be opened
 [[nodiscard]] ChildResult run_child(const std::vector<std::string>& command,
                                     const std::filesystem::path& output,
                                     const std::filesystem::path& messages,
-                                    const std::stop_token& stop);
+                                    const std::stop_token& stop,
+                                    int lock = -1);
 
 }  // namespace frangia

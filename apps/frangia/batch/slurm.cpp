@@ -25,11 +25,12 @@ void write_script(const fs::path& path, const std::string& text) {
   fs::permissions(path, fs::perms::owner_exec, fs::perm_options::add);
 }
 
+// Slurm reads its directives by rules of its own, with %; the shell alone reads the paths.
 std::string table_script(const SlurmJob& job) {
   return fmt::format(
       "#!/bin/sh\n#SBATCH --job-name=frangia-table\n#SBATCH --ntasks=1\n#SBATCH --time=10\n"
-      "#SBATCH --output={}\n{} batch {} -o {} --table\n",
-      (job.out / "slurm" / "table.log").string(),
+      "#SBATCH --output=/dev/null\nexec >{} 2>&1\nexec {} batch {} -o {} --table\n",
+      shell_quoted((job.out / "slurm" / "table.log").string()),
       shell_quoted(job.program),
       shell_quoted(job.plan.string()),
       shell_quoted(job.out.string()));
@@ -67,14 +68,15 @@ std::string slurm_script(const SlurmJob& job) {
   return fmt::format(
       "#!/bin/sh\n#SBATCH --job-name=frangia\n#SBATCH --array=0-{}\n#SBATCH --requeue\n"
       "#SBATCH --ntasks=1\n#SBATCH --cpus-per-task={}\n#SBATCH --mem={}M\n#SBATCH --time={}\n"
-      "#SBATCH --output={}/%a.log\n"
+      "#SBATCH --output=/dev/null\n"
+      "exec >{}/\"$SLURM_ARRAY_TASK_ID\".log 2>&1\n"
       "# A failed scan is a row of the table, not a failed task.\n"
       "exec {} --threads {} batch {} -o {} --task \"$SLURM_ARRAY_TASK_ID\"\n",
       job.scans - 1,
       job.threads,
       std::max(64, static_cast<int>(std::ceil(job.memory_mb))),
       std::max(1, static_cast<int>(std::ceil(job.minutes))),
-      (job.out / "slurm").string(),
+      shell_quoted((job.out / "slurm").string()),
       shell_quoted(job.program),
       job.threads,
       shell_quoted(job.plan.string()),

@@ -28,6 +28,8 @@ class FolderLock {
 
   /// The locked folder, as an absolute path.
   [[nodiscard]] const std::filesystem::path& folder() const { return folder_; }
+  /// The open lock file. A process that inherits it holds the lock, too, until it ends.
+  [[nodiscard]] int descriptor() const { return file_; }
   /// Path of the lock file.
   [[nodiscard]] const std::filesystem::path& file() const { return path_; }
 

@@ -1,0 +1,54 @@
+#include "frangia/acquisition/frame_checksums.h"
+
+#include <charconv>
+#include <span>
+#include <sstream>
+#include <string_view>
+
+#include "frangia/acquisition/internal/capture_manifest.h"
+#include "frangia/core/crc32.h"
+#include "frangia/core/read_text_file.h"
+
+namespace frangia {
+namespace {
+
+bool parse_hex(std::string_view text, std::uint32_t& number) {
+  constexpr int kBase = 16;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number, kBase);
+  return error == std::errc() && end == text.data() + text.size();
+}
+
+/// Whether the checksum at the end of a line is right; it is then cut off.
+bool take_checksum(std::string_view& line) {
+  constexpr std::string_view kMark = " crc=";
+  const std::size_t at = line.rfind(kMark);
+  std::uint32_t stated = 0;
+  if (at == std::string_view::npos || !parse_hex(line.substr(at + kMark.size()), stated))
+    return false;
+  line = line.substr(0, at);
+  return crc32(std::span(line.data(), line.size())) == stated;
+}
+
+}  // namespace
+
+std::map<std::string, std::uint32_t> read_frame_checksums(const std::filesystem::path& scan) {
+  const auto file = scan / "capture" / CaptureManifest::kFileName;
+  std::map<std::string, std::uint32_t> checksums;
+  if (!std::filesystem::exists(file)) return checksums;
+  constexpr std::uint64_t kMostBytes = 200'000'000;  // a line has about 80
+  std::istringstream lines(read_text_file(file, kMostBytes));
+  for (std::string line; std::getline(lines, line);) {
+    std::string_view text = line;
+    if (!text.starts_with("frame ") || !take_checksum(text)) continue;
+    std::istringstream words{std::string(text)};
+    std::string kind;
+    std::string name;
+    std::string checksum;
+    std::uint32_t number = 0;
+    if (words >> kind >> name >> checksum && parse_hex(checksum, number))
+      checksums[name] = number;  // a set that was captured again has a later line
+  }
+  return checksums;
+}
+
+}  // namespace frangia
