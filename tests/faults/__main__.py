@@ -1,4 +1,4 @@
-"""Tries faults on the whole program: python3 tests/faults PROGRAM [--long] [--page docs/reliability.md] [--seed N] [NAME...]
+"""Tries faults on the whole program: python3 tests/faults PROGRAM [--long] [--page docs/reliability.md] [--seed N] [--asan PROGRAM] [NAME...]
 
 The short run is part of `./run test`, the long one is `./run faults`, which writes the table of docs/reliability.md.
 Ends with exit code 1 and one sentence for each failure.
@@ -16,7 +16,18 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 
 from campaign import Campaign  # noqa: E402
 
-STUDIES = ["kills", "power_cuts", "io_errors", "two_sessions", "signals", "device_faults", "memory", "inputs"]
+STUDIES = [
+    "kills",
+    "power_cuts",
+    "io_errors",
+    "two_sessions",
+    "signals",
+    "device_faults",
+    "memory",
+    "inputs",
+    "mutated_files",
+    "batch_faults",
+]
 BEGIN, END = "<!-- begin table: written by `./run faults` -->", "<!-- end table -->"
 
 
@@ -41,6 +52,9 @@ def main():
     arguments.add_argument("--long", action="store_true")
     arguments.add_argument("--page", type=pathlib.Path)
     arguments.add_argument("--seed", type=int, default=1)
+    arguments.add_argument(
+        "--asan", type=pathlib.Path, help="a program built with sanitizers, for the study mutated_files"
+    )
     arguments.add_argument("names", nargs="*", metavar="NAME", help=f"of {', '.join(STUDIES)}")
     chosen = arguments.parse_intermixed_args()
     for name in chosen.names:
@@ -50,7 +64,9 @@ def main():
     for name in chosen.names or STUDIES:
         work = tempfile.mkdtemp(prefix="frangia-faults-")
         begin = time.monotonic()
-        answer = importlib.import_module(name).run(Campaign(chosen.program, work, chosen.long, chosen.seed))
+        answer = importlib.import_module(name).run(
+            Campaign(chosen.program, work, chosen.long, chosen.seed, chosen.asan)
+        )
         print(
             f"{name}: {answer.tried} tried, {len(answer.failures)} failed, {time.monotonic() - begin:.0f} s; {answer.measured}",
             flush=True,

@@ -25,8 +25,10 @@ class Answer:
 class Campaign:
     """One run: `count(short, long)` chooses how much is tried."""
 
-    def __init__(self, program, work, is_long, seed):
+    def __init__(self, program, work, is_long, seed, asan=None):
         self.program = pathlib.Path(program).resolve()
+        self.asan = asan and asan.resolve()  # the same program with sanitizers
+        self.seed = seed
         self.work = pathlib.Path(work)
         self.is_long = is_long
         self.random = random.Random(seed)

@@ -53,12 +53,13 @@ NUMBERS = [
 class Case:
     """A sample file and the commands that read it."""
 
-    def __init__(self, name, sample, place, commands, folder=None):
+    def __init__(self, name, sample, place, commands, folder=None, is_finite=False):
         self.name = name  # for the report
         self.sample = sample  # bytes
         self.place = place  # path of the file, relative to the folder of the run
         self.commands = commands  # lists of arguments
         self.folder = folder  # files that the folder of the run also holds
+        self.is_finite = is_finite  # no result may be NaN
 
 
 def flip_bits(data, chance):
@@ -267,6 +268,8 @@ def run_one(program, case, seed, keep, stretch):
         place.write_bytes(data)
         words = [case.place if word == "FILE" else word for word in command]
         what, output = fault_of(program, words, folder, stretch)
+    if what is None and case.is_finite and re.search(rb"\bnan\b", output.lower()):
+        what = "a result that is no number"
     if what is None:
         return None
     if keep:

@@ -1,0 +1,223 @@
+"""Mutated CAD, .mat, JSON and project files: no crash, no hang, no unbounded memory, no number that is none.
+
+The long form goes on where it was stopped: its progress is in out/faults/mutated_files.json, by the seed and the program.
+With `--asan PROGRAM`, a program built with sanitizers reads the files, without limits of memory.
+"""
+import contextlib
+import hashlib
+import json
+import os
+import pathlib
+import random
+import shutil
+import subprocess
+import sys
+import tempfile
+
+import mutate_inputs
+from campaign import ROOT, Answer
+from mutate_inputs import CALIBRATIONS, SMALL_RIG, Case, mutate, sheet_ply
+
+CAD = ROOT / "tests" / "data" / "cad"
+STEP_S = 3  # processor time of a CAD file
+BLOCK = 100  # inputs between two records of progress
+MOST_GROWTH_MB = 256
+KINDS = ["cad", "mat", "json", "project"]
+
+
+def commands_cases(folder):
+    """For each kind that a verb reads: the samples and the commands."""
+    (folder / "a.ply").write_text(sheet_ply(12))
+    inspect = ["--json", "inspect", "a.ply", "--reference", "FILE", "--align", "none", "--allow-time", str(STEP_S)]
+    cad = [
+        Case("cad", file.read_bytes(), "in" + file.suffix, [inspect], folder / "a.ply", is_finite=True)
+        for file in sorted(CAD.iterdir())
+    ]
+    foreign = [
+        "calibrate",
+        "import",
+        "FILE",
+        "--camera-size",
+        "1280,1024",
+        "--projector-size",
+        "1280,800",
+        "-o",
+        "rig.toml",
+    ]
+    calibrations = [
+        Case(file.suffix[1:], file.read_bytes(), "in" + file.suffix, [foreign])
+        for file in sorted(CALIBRATIONS.iterdir())
+        if file.suffix in (".mat", ".json")
+    ]
+    script = b"""{"format": "frangia-edits", "version": 1, "done": 2, "steps": [
+ {"operation": "fill-holes", "value": "10mm"}, {"operation": "orient"}, {"operation": "decimate", "value": "50"}]}"""
+    edits = [
+        Case("json", script, "in.json", [["edit", "a.ply", "--script", "FILE", "-o", "out.stl"]], folder / "a.ply")
+    ]
+    return {
+        "cad": cad,
+        "mat": [case for case in calibrations if case.name == "mat"],
+        "json": [case for case in calibrations if case.name == "json"] + edits,
+    }
+
+
+def batch_case(program, folder):
+    """The record of a batch, which is read to see what is done."""
+    scans = folder / "batch" / "scans"
+    subprocess.run(
+        [program, "--quiet", "simulate", "plate", "--rig", SMALL_RIG, "--views", "1", "-o", scans / "a"], check=True
+    )
+    subprocess.run([program, "--quiet", "batch", "scans", "-o", "meshes"], check=True, cwd=scans.parent)
+    mark = scans.parent / "meshes" / "a" / "done.json"
+    return Case(
+        "json",
+        mark.read_bytes(),
+        "batch/meshes/a/done.json",
+        [["batch", "batch/scans", "-o", "batch/meshes", "--table"]],
+        scans.parent,
+    )
+
+
+class Projects:
+    """A server that opens one mutated project after the other."""
+
+    def __init__(self, program, folder, with_limits):
+        sys.path.insert(0, str(ROOT / "tests" / "app"))
+        import serve_client
+
+        serve_client.PROGRAM = str(program)
+        self.client, self.folder, self.with_limits = serve_client, folder, with_limits
+        self.count, self.server, self.sample = 0, None, None
+        self.start()
+        self.server.command("create-project", name="sample", part="plate", stations=2)
+        self.server.wait()
+        for command in ["start-scan", "reconstruct"]:
+            self.server.command(command)
+            self.server.wait(120)
+        self.sample, self.base_mb = self.server.projects / "sample", self.memory_mb()
+        self.files = sorted(
+            path.relative_to(self.sample)
+            for path in self.sample.rglob("*")
+            if path.suffix in (".json", ".toml") and path.is_file()
+        )
+
+    def start(self):
+        runtime = self.folder / f"server-{self.count}"
+        runtime.mkdir()
+        self.server = self.client.Server(runtime, projects=self.folder / "projects", stderr=subprocess.DEVNULL)
+        self.server.login()
+        if self.sample:
+            self.server.command("open-project", name="sample")
+            self.server.wait()
+        self.base_mb = self.memory_mb()
+
+    def memory_mb(self):
+        status = pathlib.Path(f"/proc/{self.server.process.pid}/status").read_text()
+        return next(int(line.split()[1]) for line in status.splitlines() if line.startswith("VmHWM")) / 1024
+
+    def fault_of(self, data, file):
+        """What is wrong after a project is opened in which `file` holds `data`."""
+        self.count += 1
+        name = f"mutated-{self.count}"
+        project = self.server.projects / name
+        shutil.copytree(self.sample, project, copy_function=os.link)
+        (project / file).unlink()
+        (project / file).write_bytes(data)
+        what = None
+        try:
+            self.server.ask("POST", "/api/commands/open-project", {"name": name})
+            self.server.wait()
+            status = self.server.ask("GET", "/api/mesh")[0]
+            if status == 0:
+                what = "no answer"
+        except (RuntimeError, OSError, ValueError) as error:
+            what = f"no answer: {error}"
+        if self.server.process.poll() is not None:
+            what = f"the server ended with {self.server.process.returncode}"
+        elif what is None and self.with_limits and self.memory_mb() > self.base_mb + MOST_GROWTH_MB:
+            what = f"the server took {self.memory_mb() - self.base_mb:.0f} MB more"
+        if what:
+            self.stop()
+            self.start()
+        else:
+            self.server.ask("POST", "/api/commands/close-project", {})
+            shutil.rmtree(project)
+        return what
+
+    def stop(self):
+        with contextlib.suppress(OSError, RuntimeError):
+            if self.server.process.poll() is None:
+                self.server.stop()
+
+
+def reading_fault(program, case, seed, keep):
+    """As mutate_inputs, and a result that is no number."""
+    stretch = 4.0 if case.name == "cad" else 1.0  # limits of the program itself are tried, too
+    return mutate_inputs.run_one(program, case, seed, keep, stretch)
+
+
+class Progress:
+    """What was tried so far; a long run goes on from it."""
+
+    def __init__(self, path, key):
+        self.path, self.key = path, key
+        self.state = {"key": key, "done": 0, "failures": []}
+        if path and path.exists():
+            with contextlib.suppress(ValueError):
+                found = json.loads(path.read_text())
+                self.state = found if found.get("key") == key else self.state
+
+    def save(self, done, failures):
+        if not self.path:
+            return
+        self.path.parent.mkdir(parents=True, exist_ok=True)
+        temporary = self.path.with_suffix(".tmp")
+        temporary.write_text(json.dumps({"key": self.key, "done": done, "failures": failures}))
+        os.replace(temporary, self.path)
+
+    def end(self):
+        if self.path:
+            self.path.unlink(missing_ok=True)
+
+
+def run(campaign):
+    program = campaign.asan or campaign.program
+    answer = Answer(
+        "mutated_files",
+        "mutated CAD, .mat, JSON and project files, read by the verbs and a server"
+        + (", with sanitizers" if campaign.asan else ""),
+        campaign.count(80, 10000),
+    )
+    key = f"{hashlib.sha256(program.read_bytes()).hexdigest()[:16]} {campaign.seed} {answer.tried}"
+    progress = Progress(ROOT / "out" / "faults" / "mutated_files.json" if campaign.is_long else None, key)
+    failures = list(progress.state["failures"])
+    if campaign.asan:
+        mutate_inputs.SLOWDOWN = max(mutate_inputs.SLOWDOWN, 4.0)
+        mutate_inputs.MAX_SECONDS = 5 * mutate_inputs.SLOWDOWN
+    with tempfile.TemporaryDirectory(prefix="frangia-mutated-") as name:
+        folder = pathlib.Path(name)
+        cases = commands_cases(folder)
+        cases["json"].append(batch_case(program, folder))
+        projects = Projects(program, folder, mutate_inputs.SLOWDOWN == 1)
+        try:
+            for i in range(progress.state["done"], answer.tried):
+                seed = campaign.seed * 1_000_000 + i
+                chance = random.Random(seed)
+                kind = KINDS[i % len(KINDS)]
+                if kind == "project":
+                    file = chance.choice(projects.files)
+                    data = mutate((projects.sample / file).read_bytes(), chance)
+                    what = projects.fault_of(data, file)
+                    fault = what and f"project, {file}, seed {seed}: {what}"
+                else:
+                    fault = reading_fault(program, chance.choice(cases[kind]), seed, campaign.work / "found")
+                if fault:
+                    failures.append(fault)
+                if (i + 1) % BLOCK == 0:
+                    progress.save(i + 1, failures)
+        finally:
+            projects.stop()
+    progress.end()
+    answer.failures = failures
+    answer.measured = f"{answer.tried} mutated inputs, {len(failures)} faults"
+    return answer
