@@ -104,7 +104,11 @@ void report(const Mesh& mesh,
     print_findings(found);
   } else if (!terminal.quiet) {
     terminal.finish();
-    print_text("{}\n", counted(mesh.triangles.size(), "triangle"));
+    print_text("{}\n",
+               mesh.empty() ? counted(mesh.vertices_mm.size(), "point")
+                            : counted(mesh.triangles.size(), "triangle"));
+    if (written_files(arguments).empty() && !arguments.steps.empty())
+      print_text("nothing was saved; -o names a file for the mesh\n");
   }
   if (counts && !terminal.json && !terminal.quiet) {
     print_text("preview: {} would be removed or moved, {} added\n",
@@ -118,12 +122,15 @@ void report(const Mesh& mesh,
 Mesh read_triangles(const EditArguments& arguments, const Run& run) {
   const std::filesystem::path& path = arguments.mesh;
   Mesh mesh = read_mesh(path, run, arguments.read);
-  if (mesh.empty()) {
+  const bool converts = arguments.steps.empty() && arguments.preview.empty();
+  if (mesh.empty() && !converts) {
     const std::size_t points = mesh.vertices_mm.size();
-    throw Error(ErrorKind::Input,
-                fmt::format("{}: the file has {} and no triangles; edit needs a triangle mesh",
-                            path.string(),
-                            counted(points, "point")));
+    throw Error(
+        ErrorKind::Input,
+        fmt::format("{}: the file has {} and no triangles, which edits need; without edits, "
+                    "-o writes the points in another format",
+                    path.string(),
+                    counted(points, "point")));
   }
   return mesh;
 }

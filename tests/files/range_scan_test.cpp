@@ -47,6 +47,18 @@ TEST(RangeScan, ConnectsNeighboursOfAGridWithTrianglesThatFaceUp) {
   }
 }
 
+TEST(RangeScan, ReadsVerticesThatAreNotWholeAndRemarksInTheHeader) {
+  const testing::TemporaryFolder folder;
+  std::ofstream(folder.path() / "grid.ply")
+      << "ply\nformat ascii 1.0\ncomment scanned by\nhand, twice\n\nobj_info num_cols 2\n"
+         "obj_info num_rows 2\nelement vertex 4\nproperty float x\nproperty float y\n"
+         "property float z\n\nelement range_grid 4\nproperty list uchar int vertex_indices\n"
+         "end_header\n0.25 0 0.5\n1.25 0 0.5\n0.25 1 0.5\n1.25 1 1e10\n1 0\n1 1\n1 2\n0\n";
+  const Mesh mesh = read_range_scan(folder.path() / "grid.ply").mesh;
+  EXPECT_EQ(mesh.vertices_mm.size(), 4U);
+  EXPECT_EQ(mesh.triangles.size(), 1U);
+}
+
 TEST(RangeScan, RefusesAGridThatDoesNotMatchItsStatedSize) {
   const TemporaryFolder folder;
   write(folder.path() / "grid.ply", small_grid(4));

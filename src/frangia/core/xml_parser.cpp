@@ -16,6 +16,7 @@ struct XmlParser::Parser {
   OnBegin on_begin;
   OnEnd on_end;
   OnText on_text;
+  OnNamespace on_namespace;
   std::exception_ptr thrown;
   std::int64_t fed = 0;  ///< bytes
 
@@ -41,6 +42,10 @@ struct XmlParser::Parser {
   }
   static void text(void* self, const char* piece, int size) {
     of(self).guard([&] { of(self).on_text({piece, static_cast<std::size_t>(size)}); });
+  }
+  static void declare(void* self, const char* prefix, const char* uri) {
+    of(self).guard(
+        [&] { of(self).on_namespace(prefix == nullptr ? "" : prefix, uri == nullptr ? "" : uri); });
   }
   static void doctype(void* self,
                       const char* /*name*/,
@@ -98,6 +103,11 @@ XmlParser::XmlParser(OnBegin on_begin, OnEnd on_end, OnText on_text)
 
 XmlParser::~XmlParser() {
   XML_ParserFree(parser_->parser);
+}
+
+void XmlParser::on_namespace(OnNamespace handler) {
+  parser_->on_namespace = std::move(handler);
+  XML_SetStartNamespaceDeclHandler(parser_->parser, Parser::declare);
 }
 
 void XmlParser::feed(std::string_view piece) {

@@ -31,6 +31,8 @@ class XmlParser {
   using OnBegin = std::function<void(std::string_view, const XmlAttributes&)>;  ///< start tag
   using OnEnd = std::function<void(std::string_view)>;                          ///< end tag
   using OnText = std::function<void(std::string_view)>;  ///< a piece of text, UTF-8
+  /// A prefix and the namespace that it stands for from the next start tag on.
+  using OnNamespace = std::function<void(std::string_view, std::string_view)>;
 
   /// `on_text` may be empty: text is then skipped.
   XmlParser(OnBegin on_begin, OnEnd on_end, OnText on_text = {});
@@ -40,6 +42,8 @@ class XmlParser {
   XmlParser& operator=(XmlParser&&) = delete;
   ~XmlParser();
 
+  /// Calls a handler for each declaration of a namespace, before the start tag that has it.
+  void on_namespace(OnNamespace handler);
   /// Parses the next piece.
   void feed(std::string_view piece);
   /// States that there are no more pieces.

@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include "frangia/core/run.h"
+#include "frangia/files/read_options.h"
 #include "frangia/geometry/mesh.h"
 
 namespace frangia {
@@ -34,16 +35,19 @@ struct DxfOptions {
 /// @source   Autodesk, AutoCAD Release 12 Customization Manual, chapter 11; DXF Reference 2000
 void write_dxf(const std::filesystem::path& path, const Mesh& mesh, const DxfOptions& options = {});
 
-/// Reads the meshes of a text DXF: 3DFACE, POLYLINE as a polyface or M x N mesh, and MESH without
-/// subdivision.
+/// Reads the meshes of a text DXF: 3DFACE, POLYLINE as a polyface or M x N mesh, MESH without
+/// subdivision, and blocks of them where they are inserted (INSERT).
 ///
 /// @shape    corners with identical coordinates become one vertex; quadrilaterals become two
 ///          triangles; triangles on the layers that write_dxf names get their marks back
 /// @units    converted to mm from the unit that $INSUNITS states; without it, mm
-/// @missing  other entities and the contents of blocks are skipped; a warning through `run` lists
-///          them with their counts
+/// @missing  other entities are skipped, meshes of layers that are off or frozen and of paper space
+///          left out; a warning through `run` lists them with their counts
 /// @errors   Error(Input) that names the file and the line: no mesh, an invalid group, a vertex
-///          index out of range, a coordinate that is not finite, a binary DXF
-[[nodiscard]] Mesh read_dxf(const std::filesystem::path& path, const Run& run = {});
+///          index out of range, a coordinate that is not finite, a binary DXF, blocks that expand
+///          beyond the memory of `options`; Error(Cancelled)
+[[nodiscard]] Mesh read_dxf(const std::filesystem::path& path,
+                            const Run& run = {},
+                            const ReadOptions& options = {});
 
 }  // namespace frangia

@@ -42,17 +42,19 @@ void write_silently(const Path& path, const Mesh& mesh, const WriteOptions&, con
 const std::vector<MeshFormat>& formats() {
   static const std::vector<MeshFormat> kAll{
       {".dxf",
-       read_with_warnings<read_dxf>,
+       [](const Path& path, const ReadOptions& options, const Run& run) {
+         return read_dxf(path, run, options);
+       },
        [](const Path& path, const Mesh& mesh, const WriteOptions& options, const Run&) {
          write_dxf(path, mesh, options.dxf);
        }},
       {".stl",
-       [](const Path& path, const ReadOptions&, const Run&) { return read_stl(path); },
+       read_with_warnings<read_stl>,
        [](const Path& path, const Mesh& mesh, const WriteOptions& options, const Run&) {
          write_stl(path, mesh, options.stl);
        }},
-      silent_format<read_ply, write_ply>(".ply"),
-      silent_format<read_obj, write_obj>(".obj"),
+      {".ply", read_with_warnings<read_ply>, write_silently<write_ply>},
+      {".obj", read_with_warnings<read_obj>, write_silently<write_obj>},
       {".glb", read_gltf, write_silently<write_gltf>},
       {".gltf", read_gltf, write_silently<write_gltf>},
       {".3mf",
@@ -60,7 +62,7 @@ const std::vector<MeshFormat>& formats() {
        [](const Path& path, const Mesh& mesh, const WriteOptions&, const Run& run) {
          write_3mf(path, mesh, run);
        }},
-      silent_format<read_off, write_off>(".off"),
+      {".off", read_with_warnings<read_off>, write_silently<write_off>},
       silent_format<read_xyz, write_xyz>(".xyz"),
       {".pcd", read_with_warnings<read_pcd>, write_silently<write_pcd>},
   };

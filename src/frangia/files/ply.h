@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "frangia/core/run.h"
 #include "frangia/geometry/mesh.h"
 
 namespace frangia {
@@ -24,7 +25,7 @@ namespace frangia {
 ///          can hold, a face with fewer than three corners, a vertex index out of range, a
 ///          coordinate that is not finite, triangle strips
 /// @source   Greg Turk, The PLY Polygon File Format, 1994
-[[nodiscard]] Mesh read_ply(const std::filesystem::path& path);
+[[nodiscard]] Mesh read_ply(const std::filesystem::path& path, const Run& run = {});
 
 /// A number for each vertex, beside those of a mesh.
 struct VertexProperty {

@@ -44,15 +44,20 @@ std::size_t read_obj_info(std::string_view header, const std::string& key) {
   return number && *number > 0 ? static_cast<std::size_t>(*number) : 0;
 }
 
-/// Reads a property and returns the last value of a list, or kNoPoint for an empty list and for a
-/// negative index.
+/// Reads a property and returns the last value of a list; -1 for an empty list.
 template <typename Source>
-std::int64_t last_of(Source& source, const PlyProperty& property) {
-  constexpr double kMax = 4'294'967'295.0;
+double last_of(Source& source, const PlyProperty& property) {
   double last = -1.0;
   const std::uint64_t count = property.count_type ? read_list_length(source, property) : 1;
   for (std::uint64_t i = 0; i < count; ++i)
     last = source.value(property.type);
+  return last;
+}
+
+/// The point that a cell names; kNoPoint for a negative index.
+template <typename Source>
+std::int64_t point_of_cell(const Source& source, double last) {
+  constexpr double kMax = 4'294'967'295.0;
   if (!(last <= kMax) || last != std::floor(last))
     source.fail(fmt::format("its range_grid refers to point {}, which is not a valid index", last));
   return last < 0.0 ? kNoPoint : static_cast<std::int64_t>(last);
@@ -65,10 +70,10 @@ std::vector<std::int64_t> read_grid(Source source, const PlyHeader& header) {
     const bool grid = element.name == "range_grid";
     if (element.properties.empty()) continue;  // it occupies no bytes, whatever its count
     for (std::uint64_t i = 0; i < element.count; ++i) {
-      std::int64_t point = kNoPoint;
+      double last = -1.0;
       for (const PlyProperty& property : element.properties)
-        point = last_of(source, property);
-      if (grid) points.push_back(point);
+        last = last_of(source, property);
+      if (grid) points.push_back(point_of_cell(source, last));
     }
     if (grid) break;
   }

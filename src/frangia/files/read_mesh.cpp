@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "frangia/core/error.h"
+#include "frangia/files/internal/join_soup.h"
 #include "frangia/files/mesh_formats.h"
 
 namespace frangia {
@@ -15,7 +16,7 @@ Mesh read_mesh(const std::filesystem::path& path, const Run& run, const ReadOpti
                             path.string(),
                             mesh_extensions()));
   }
-  return format->read(path, options, run);
+  return join_soup(format->read(path, options, run), path, run);
 }
 
 }  // namespace frangia

@@ -8,7 +8,9 @@
 
 namespace frangia {
 
-/// Reads a mesh; the extension selects the format (mesh_formats.h).
+/// Reads a mesh; the extension selects the format (mesh_formats.h). Where faces have vertices of
+/// their own, as exporters of flat-shaded parts write them, the vertices are joined where edges
+/// meet, with a warning; closed bodies that touch and seams between values of vertices stay apart.
 ///
 /// @units    mm: converted where the file states its unit, otherwise assumed
 /// @missing  the reader reports what it skips through `run`

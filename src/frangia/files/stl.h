@@ -2,11 +2,14 @@
 
 #include <filesystem>
 
+#include "frangia/core/run.h"
 #include "frangia/geometry/mesh.h"
 
 namespace frangia {
 
-/// Reads an STL file. Its size decides whether it is binary or ascii.
+/// Reads an STL file. Its size decides whether it is binary or ascii. Bytes behind the last facet
+/// are left out with a warning, and a count of 0 or -1 of a program that streams is passed over
+/// with one.
 ///
 /// @shape    corners with identical coordinates become one vertex; the normals in the file are
 ///          ignored
@@ -15,7 +18,7 @@ namespace frangia {
 /// @errors   Error(Input) that names the file and the fault: truncated, a count that does not match
 ///          the size, a coordinate that is not finite
 /// @source   3D Systems, Stereolithography Interface Specification, 1989
-[[nodiscard]] Mesh read_stl(const std::filesystem::path& path);
+[[nodiscard]] Mesh read_stl(const std::filesystem::path& path, const Run& run = {});
 
 /// Options of `write_stl`.
 struct StlOptions {

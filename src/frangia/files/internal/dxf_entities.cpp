@@ -1,14 +1,18 @@
+// Above 250 lines: one reader for each kind of entity.
 #include "frangia/files/internal/dxf_entities.h"
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cstdint>
 #include <span>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 
+#include "frangia/core/angles.h"
 #include "frangia/files/internal/dxf_drawing.h"
 #include "frangia/files/internal/text_reader.h"
 
@@ -37,13 +41,99 @@ void read_coordinate(const DxfGroups& groups, std::span<Vector3d> corners) {
   corners[corner][axis] = groups.real();
 }
 
+/// Names of layers and blocks are compared without case.
+std::string lower_case(std::string_view name) {
+  std::string lower(name);
+  std::transform(lower.begin(), lower.end(), lower.begin(), [](unsigned char letter) {
+    return static_cast<char>(std::tolower(letter));
+  });
+  return lower;
+}
+
 }  // namespace
+
+void DxfEntities::open_content(const std::string& name) {
+  content_ = &contents_.try_emplace(name, Content{DxfTriangles(groups_, odd_)}).first->second;
+}
+
+void DxfEntities::hide_layer(const std::string& name) {
+  hidden_layers_.insert(lower_case(name));
+}
+
+bool DxfEntities::begin_block() {
+  std::string name;
+  std::array<Vector3d, 1> base{Vector3d::Zero()};
+  bool more = false;
+  while ((more = groups_.next()) && groups_.code() != 0) {
+    if (groups_.code() == 2) name = lower_case(groups_.value());
+    read_coordinate(groups_, base);
+  }
+  if (name.empty()) groups_.fail("the block above has no name");
+  open_content(name);
+  content_->base = base[0];
+  return more;
+}
+
+bool DxfEntities::read_insert() {
+  DxfInsert insert;
+  std::array<Vector3d, 1> point{Vector3d::Zero()};
+  Vector3d scale = Vector3d::Ones();
+  Vector3d extrusion = Vector3d::UnitZ();
+  double turn_deg = 0.0;
+  Eigen::Vector2d spacing = Eigen::Vector2d::Zero();
+  Place place;
+  bool more = false;
+  while ((more = groups_.next()) && groups_.code() != 0) {
+    const int code = groups_.code();
+    take_place(place);
+    read_coordinate(groups_, point);
+    if (code == 2) insert.block = lower_case(groups_.value());
+    if (code >= 41 && code <= 43) scale[code - 41] = groups_.real();
+    if (code == 44 || code == 45) spacing[code - 44] = groups_.real();
+    if (code == 50) turn_deg = groups_.real();
+    if (code == 70) insert.columns = groups_.integer();
+    if (code == 71) insert.rows = groups_.integer();
+    if (code == 210 || code == 220 || code == 230) extrusion[code / 10 - 21] = groups_.real();
+  }
+  constexpr std::int64_t kMostCopies = 32'767;
+  if (insert.columns < 0 || insert.rows < 0 || insert.columns > kMostCopies ||
+      insert.rows > kMostCopies)
+    groups_.fail("the INSERT above has a number of rows or columns that is not valid");
+  insert.columns = std::max<std::int64_t>(insert.columns, 1);
+  insert.rows = std::max<std::int64_t>(insert.rows, 1);
+  if (!is_shown(place)) return more;
+  const Eigen::Matrix3d axes =
+      axes_of_extrusion(extrusion) * Eigen::AngleAxisd(turn_deg * kPi / 180.0, Vector3d::UnitZ());
+  insert.mm_from_block.linear() = axes * scale.asDiagonal();
+  insert.mm_from_block.translation() = axes_of_extrusion(extrusion) * point[0];
+  insert.column_step_mm = spacing.x() * axes.col(0);
+  insert.row_step_mm = spacing.y() * axes.col(1);
+  content_->inserts.push_back(std::move(insert));
+  return more;
+}
+
+DxfBlocks DxfEntities::release_blocks(double mm_per_unit) {
+  DxfBlocks blocks;
+  for (auto& [name, content] : contents_) {
+    DxfBlock& block = blocks[name];
+    block.mesh = content.triangles.release_mesh(mm_per_unit);
+    block.base_mm = mm_per_unit * content.base;
+    block.inserts = std::move(content.inserts);
+    for (DxfInsert& insert : block.inserts) {
+      insert.mm_from_block.translation() *= mm_per_unit;
+      insert.column_step_mm *= mm_per_unit;
+      insert.row_step_mm *= mm_per_unit;
+    }
+  }
+  return blocks;
+}
 
 bool DxfEntities::read() {
   const std::string name(groups_.value());
   if (name == "3DFACE") return read_face();
   if (name == "POLYLINE") return read_polyline();
   if (name == "MESH") return read_mesh_entity();
+  if (name == "INSERT") return read_insert();
   if (name != "SEQEND" && name != "VERTEX" && name != "ATTRIB") skip(name);
   return to_next_entity();
 }
@@ -53,6 +143,34 @@ std::string DxfEntities::skipped() const {
   for (const auto& [name, count] : skipped_)
     names += fmt::format("{}{} {}", names.empty() ? "" : ", ", count, name);
   return names;
+}
+
+std::string DxfEntities::left_out() const {
+  std::string text;
+  const auto add = [&](std::size_t count, const char* where) {
+    if (count == 0) return;
+    text += fmt::format(
+        "{}{} mesh{} of {}", text.empty() ? "" : ", ", count, count == 1 ? "" : "es", where);
+  };
+  add(hidden_, "layers that are off or frozen");
+  add(in_paper_space_, "paper space");
+  return text;
+}
+
+void DxfEntities::take_place(Place& place) const {
+  if (groups_.code() == 67) place.is_in_paper_space = groups_.integer() != 0;
+  if (groups_.code() != 8) return;
+  place.mark = mark_of_layer(groups_.value());
+  place.is_on_hidden_layer = hidden_layers_.contains(lower_case(groups_.value()));
+}
+
+bool DxfEntities::is_shown(const Place& place) {
+  if (place.is_on_hidden_layer) {
+    ++hidden_;
+  } else if (place.is_in_paper_space) {
+    ++in_paper_space_;
+  }
+  return !place.is_on_hidden_layer && !place.is_in_paper_space;
 }
 
 bool DxfEntities::to_next_entity() {
@@ -70,35 +188,41 @@ void DxfEntities::skip(const std::string& name) {
 bool DxfEntities::read_face() {
   std::array<Vector3d, 4> corners{};
   corners.fill(Vector3d::Zero());
-  Mark mark = Mark::Measured;
+  Place place;
   bool has_fourth = false;
   bool more = false;
   while ((more = groups_.next()) && groups_.code() != 0) {
     read_coordinate(groups_, corners);
     has_fourth = has_fourth || groups_.code() == 13;
-    if (groups_.code() == 8) mark = mark_of_layer(groups_.value());
+    take_place(place);
   }
-  triangles_.add(corners[0], corners[1], corners[2], mark);
-  if (has_fourth && corners[3] != corners[2])
-    triangles_.add(corners[0], corners[2], corners[3], mark);
+  if (!is_shown(place)) return more;
+  constexpr std::array<std::size_t, 4> kAll{0, 1, 2, 3};
+  const bool is_quad = has_fourth && corners[3] != corners[2] && corners[3] != corners[0];
+  content_->triangles.add_polygon(
+      {corners.begin(), corners.end()}, std::span(kAll).first(is_quad ? 4 : 3), place.mark);
   return more;
 }
 
 bool DxfEntities::read_polyline() {
   DxfPolyline line;
+  Place place;
   bool more = false;
   while ((more = groups_.next()) && groups_.code() != 0) {
-    if (groups_.code() == 8) line.mark = mark_of_layer(groups_.value());
+    take_place(place);
     if (groups_.code() == 70) line.flags = groups_.integer();
     if (groups_.code() == 71) line.m = groups_.integer();
     if (groups_.code() == 72) line.n = groups_.integer();
   }
+  line.mark = place.mark;
   while (more && groups_.is(0, "VERTEX"))
     more = read_vertex(line);
+  const bool is_mesh = (line.flags & (kPolyface | kPolygonMesh)) != 0;
+  if (is_mesh && !is_shown(place)) return more;
   if ((line.flags & kPolyface) != 0) {
-    triangles_.add_polyface(line);
+    content_->triangles.add_polyface(line);
   } else if ((line.flags & kPolygonMesh) != 0 && (line.flags & kSplineFit) == 0) {
-    triangles_.add_grid(line);
+    content_->triangles.add_grid(line);
   } else {
     skip((line.flags & kPolygonMesh) != 0 ? "smoothed POLYLINE" : "POLYLINE");
   }
@@ -127,13 +251,15 @@ bool DxfEntities::read_vertex(DxfPolyline& line) {
 bool DxfEntities::read_mesh_entity() {
   std::vector<Vector3d> vertices;
   std::vector<std::int64_t> list;
-  Mark mark = Mark::Measured;
+  Place place;
+  bool is_cage = false;
   std::int64_t vertices_left = 0;
   std::int64_t entries_left = 0;
   bool more = false;
   while ((more = groups_.next()) && groups_.code() != 0) {
     const int code = groups_.code();
-    if (code == 8) mark = mark_of_layer(groups_.value());
+    take_place(place);
+    if (code == 91 && vertices.empty()) is_cage = groups_.integer() > 0;
     if (code == 92) vertices_left = groups_.integer();
     if (code == 93) entries_left = groups_.integer();
     if (code == 10 && vertices_left-- > 0) vertices.emplace_back(Vector3d::Zero());
@@ -143,7 +269,9 @@ bool DxfEntities::read_mesh_entity() {
       --entries_left;
     }
   }
-  triangles_.add_faces(vertices, list, mark);
+  if (!is_shown(place)) return more;
+  if (is_cage) ++cages_;
+  content_->triangles.add_faces(vertices, list, place.mark);
   return more;
 }
 

@@ -2,31 +2,64 @@
 
 #include <cstddef>
 #include <map>
+#include <set>
 #include <string>
+#include <vector>
 
+#include "frangia/files/internal/dxf_blocks.h"
 #include "frangia/files/internal/dxf_groups.h"
 #include "frangia/files/internal/dxf_triangles.h"
 
 namespace frangia {
 
 /// Reads the entities of a DXF that hold triangles: 3DFACE, POLYLINE as a polyface or M x N mesh,
-/// and MESH. Counts the entities that it skips.
+/// MESH, and blocks of them with INSERT. Counts the entities that it skips.
 ///
 /// @errors   Error(Input) that names the file and the line
 class DxfEntities {
  public:
-  explicit DxfEntities(DxfGroups& groups) : groups_(groups), triangles_(groups) {}
+  explicit DxfEntities(DxfGroups& groups) : groups_(groups) { open_content(""); }
 
   /// Reads from the name of an entity (group 0) to the name of the next; false at the end of the
   /// text.
   bool read();
+  /// Reads from the name BLOCK to the name of the first entity: entities belong to the block from
+  /// then on, until `end_block`.
+  bool begin_block();
+  void end_block() { open_content(""); }
+  /// Leaves out what is on a layer from now on.
+  void hide_layer(const std::string& name);
+  /// The meshes that a drawing does not show: "2 entities of layers that are off or frozen, 1 of
+  /// paper space"; empty when there is none.
+  [[nodiscard]] std::string left_out() const;
+  /// The MESH entities whose subdivision is not computed.
+  [[nodiscard]] std::size_t cages() const { return cages_; }
   /// The skipped entities as "3 LINE, 1 CIRCLE"; empty when none was skipped.
   [[nodiscard]] std::string skipped() const;
-  [[nodiscard]] Mesh release_mesh(double mm_per_unit) {
-    return triangles_.release_mesh(mm_per_unit);
-  }
+  /// The faces that are no plane polygons.
+  [[nodiscard]] const OddFaces& odd_faces() const { return odd_; }
+  /// The drawing and its blocks in mm.
+  [[nodiscard]] DxfBlocks release_blocks(double mm_per_unit);
 
  private:
+  /// Where an entity belongs.
+  struct Place {
+    Mark mark = Mark::Measured;
+    bool is_on_hidden_layer = false;
+    bool is_in_paper_space = false;
+  };
+  /// Takes the layer and the space of an entity from the present group.
+  void take_place(Place& place) const;
+  /// Whether an entity is part of the model; counts one that is not.
+  bool is_shown(const Place& place);
+  /// What a block, or the drawing, holds so far, in its units.
+  struct Content {
+    DxfTriangles triangles;
+    Eigen::Vector3d base = Eigen::Vector3d::Zero();
+    std::vector<DxfInsert> inserts;
+  };
+  void open_content(const std::string& name);
+  bool read_insert();
   bool to_next_entity();
   void skip(const std::string& name);
   bool read_face();
@@ -35,8 +68,14 @@ class DxfEntities {
   bool read_mesh_entity();
 
   DxfGroups& groups_;
-  DxfTriangles triangles_;
+  OddFaces odd_;
+  std::map<std::string, Content> contents_;  ///< by the name of the block; "": the drawing
+  Content* content_ = nullptr;               ///< that entities belong to
   std::map<std::string, std::size_t> skipped_;
+  std::set<std::string> hidden_layers_;
+  std::size_t hidden_ = 0;
+  std::size_t in_paper_space_ = 0;
+  std::size_t cages_ = 0;
 };
 
 }  // namespace frangia

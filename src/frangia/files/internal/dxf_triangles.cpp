@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include <Eigen/Geometry>
 #include <fmt/format.h>
 
 #include "frangia/files/internal/weld_vertices.h"
@@ -23,8 +24,20 @@ void DxfTriangles::add(const Vector3d& a, const Vector3d& b, const Vector3d& c, 
 void DxfTriangles::add_polygon(const std::vector<Vector3d>& vertices,
                                std::span<const std::size_t> corners,
                                Mark mark) {
-  for (std::size_t i = 2; i < corners.size(); ++i)
-    add(vertices[corners[0]], vertices[corners[i - 1]], vertices[corners[i]], mark);
+  if (corners.size() < 3) return;
+  constexpr std::size_t kMostCorners = 20'000;  // ear clipping takes the square of it
+  if (corners.size() > kMostCorners)
+    groups_.fail(fmt::format("the face above has more than {} corners", kMostCorners));
+  std::vector<Vector3d> points;
+  Eigen::AlignedBox3d box;
+  for (const std::size_t corner : corners) {
+    points.push_back(vertices[corner]);
+    box.extend(points.back());
+  }
+  const PolygonTriangles found = polygon_triangles(points);
+  if (corners.size() > 3) odd_.note(found, box.diagonal().norm());
+  for (const auto& [a, b, c] : found.triangles)
+    add(points[a], points[b], points[c], mark);
 }
 
 void DxfTriangles::add_polyface(const DxfPolyline& line) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "frangia/files/internal/dxf_groups.h"
+#include "frangia/files/internal/polygon_faces.h"
 #include "frangia/geometry/mesh.h"
 
 namespace frangia {
@@ -26,10 +27,15 @@ struct DxfPolyline {
 ///          coordinate that is not finite
 class DxfTriangles {
  public:
-  explicit DxfTriangles(const DxfGroups& groups) : groups_(groups) {}
+  /// Takes note of faces that are no plane polygons in `odd`.
+  DxfTriangles(const DxfGroups& groups, OddFaces& odd) : groups_(groups), odd_(odd) {}
 
   void add(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c, Mark mark);
   void add_polyface(const DxfPolyline& line);
+  /// Adds a polygon of any form, such as a 3DFACE with four corners.
+  void add_polygon(const std::vector<Eigen::Vector3d>& vertices,
+                   std::span<const std::size_t> corners,
+                   Mark mark);
   /// Adds an M x N mesh, closed in either direction where the flags say so.
   void add_grid(const DxfPolyline& line);
   /// Adds the faces of a MESH: each is a count followed by that many indices from 0.
@@ -41,13 +47,10 @@ class DxfTriangles {
   [[nodiscard]] Mesh release_mesh(double mm_per_unit);
 
  private:
-  void add_polygon(const std::vector<Eigen::Vector3d>& vertices,
-                   std::span<const std::size_t> corners,
-                   Mark mark);
-
   const DxfGroups& groups_;
   std::vector<Eigen::Vector3f> corners_;
   std::vector<Mark> marks_;
+  OddFaces& odd_;
 };
 
 }  // namespace frangia

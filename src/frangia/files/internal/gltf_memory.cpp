@@ -16,13 +16,16 @@ double memory_of_mesh(const GltfDocument& document, const json& mesh) {
   double bytes = 0.0;
   const json* attributes = nullptr;
   for (const auto& primitive : mesh.at("primitives")) {
-    if (document.whole_or(primitive, "mode", kGltfTriangles) != kGltfTriangles) continue;
+    const std::uint64_t mode = document.whole_or(primitive, "mode", kGltfTriangles);
+    if (mode < kGltfTriangles || mode > kGltfFan) continue;
     const json& own = primitive.at("attributes");
     const double vertices = count_of(own.at("POSITION"), 3);
     const double corners =
         primitive.contains("indices") ? count_of(primitive.at("indices"), 1) : vertices;
     const bool shared = attributes != nullptr && *attributes == own;
-    bytes += mesh_memory_bytes(shared ? 0.0 : vertices, corners / 3.0);
+    // In a strip or fan each corner but two makes a triangle.
+    const double triangles = mode == kGltfTriangles ? corners / 3.0 : corners;
+    bytes += mesh_memory_bytes(shared ? 0.0 : vertices, triangles);
     attributes = &own;
   }
   return bytes;

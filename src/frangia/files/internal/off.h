@@ -2,20 +2,21 @@
 
 #include <filesystem>
 
+#include "frangia/core/run.h"
 #include "frangia/geometry/mesh.h"
 
 namespace frangia {
 
 /// Reads a text OFF file: OFF, COFF, NOFF, STOFF and their combinations.
 ///
-/// @shape    polygons become fans of triangles; colours, normals and texture coordinates are
-/// skipped
+/// @shape    polygons are triangulated in their mean plane; colours, normals and texture
+/// coordinates are skipped
 /// @units    as in the file, assumed to be mm
 /// @errors   Error(Input) that names the file and the line: counts larger than the file can hold, a
 ///          face with fewer than three corners, a vertex index out of range, a coordinate that is
 ///          not finite, a binary OFF
 /// @source   Geomview manual, OFF Files
-[[nodiscard]] Mesh read_off(const std::filesystem::path& path);
+[[nodiscard]] Mesh read_off(const std::filesystem::path& path, const Run& run = {});
 
 /// Writes vertices and faces with the shortest digits that read back to the same numbers. Displaced
 /// triangles are yellow, synthesized ones blue.

@@ -73,6 +73,13 @@ PlyProperty read_property(TextReader& reader) {
   return property;
 }
 
+/// Whether a line without a keyword may be passed over: a blank one, or text before the first
+/// element, as comments of several lines leave it. Further on it may be a property.
+bool is_remark(const TextReader& reader, const PlyHeader& header, std::string_view keyword) {
+  if (reader.bytes_left() == 0) return false;
+  return keyword.empty() || (header.elements.empty() && keyword != "property");
+}
+
 }  // namespace
 
 std::size_t bytes_of(PlyType type) {
@@ -97,7 +104,8 @@ PlyHeader parse_ply_header(const std::filesystem::path& path, std::string_view b
       header.elements.push_back(read_element(reader));
     } else if (keyword == "property" && !header.elements.empty()) {
       header.elements.back().properties.push_back(read_property(reader));
-    } else if (keyword != "comment" && keyword != "obj_info") {
+    } else if (keyword != "comment" && keyword != "obj_info" &&
+               !is_remark(reader, header, keyword)) {
       reader.fail(fmt::format("{} is not a keyword of a PLY header", in_quotes(keyword)));
     }
   }

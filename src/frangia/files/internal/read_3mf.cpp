@@ -1,5 +1,8 @@
+#include <set>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -33,31 +36,50 @@ std::string model_name(const ZipReader& zip) {
   return name;
 }
 
-Mesh read_package(const std::filesystem::path& path, const ReadOptions& options, const Run& run) {
-  const ZipReader zip(path);
-  const MemoryBudget budget(path, std::filesystem::file_size(path), options.allow_memory_bytes);
-  const std::string name = model_name(zip);
-  ThreeMfModel model;
-  bool has_further_models = false;
-  XmlParser elements(
-      [&](std::string_view element, const XmlAttributes& attributes) {
-        model.begin(element, attributes);
-        constexpr std::string_view kPath =
-            "http://schemas.microsoft.com/3dmanufacturing/production/2015/06|path";
-        has_further_models = has_further_models || !attributes.value(kPath).empty();
-      },
-      [](std::string_view) {});
+/// Reads the model in a file of the package into `model`.
+void read_part(const ZipReader& zip,
+               const std::string& name,
+               const MemoryBudget& budget,
+               ThreeMfModel& model) {
+  model.begin_part(name);
+  XmlParser elements([&](std::string_view element,
+                         const XmlAttributes& attributes) { model.begin(element, attributes); },
+                     [](std::string_view) {});
+  elements.on_namespace(
+      [&](std::string_view prefix, std::string_view uri) { model.declare_namespace(prefix, uri); });
+  const double before = model.collected_bytes();
   const auto feed = [&](std::string_view piece, double done) {
     elements.feed(piece);
-    budget.check(model.collected_bytes(), model.collected_bytes() / done);
+    const double collected = model.collected_bytes();
+    budget.check(collected, before + (collected - before) / done);
   };
   if (!zip.read(name, feed)) {
     throw Error(ErrorKind::Input,
                 fmt::format("not a 3MF package: it has no model {}", in_quotes(name)));
   }
   elements.finish();
-  if (has_further_models) {
-    run.warn(fmt::format("{}: models in further files of the package are skipped", path.string()));
+}
+
+Mesh read_package(const std::filesystem::path& path, const ReadOptions& options, const Run& run) {
+  const ZipReader zip(path);
+  const MemoryBudget budget(path, std::filesystem::file_size(path), options.allow_memory_bytes);
+  const std::string root = model_name(zip);
+  ThreeMfModel model;
+  std::set<std::string> known{root};
+  std::vector<std::string> open{root};
+  while (!open.empty()) {
+    run.check();
+    const std::string part = std::move(open.back());
+    open.pop_back();
+    read_part(zip, part, budget, model);
+    constexpr std::size_t kMostParts = 10'000;
+    if (model.parts().size() > kMostParts) {
+      throw Error(
+          ErrorKind::Input,
+          fmt::format("its objects are in more than {} files; export it again", kMostParts));
+    }
+    for (const std::string& name : model.parts())
+      if (known.insert(name).second) open.push_back(name);
   }
   return model.build(path, budget);
 }

@@ -1,4 +1,6 @@
+#include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -14,26 +16,41 @@
 namespace frangia {
 namespace {
 
-/// mm per unit of $INSUNITS; 1 for 0, which stands for unknown, and for exotic units.
-double mm_of(std::int64_t unit) {
-  switch (unit) {
-    case 1:  // inch
-      return 25.4;
-    case 2:  // foot
-      return 304.8;
-    case 5:  // cm
-      return 10.0;
-    case 6:  // m
-      return 1000.0;
-    case 7:  // km
-      return 1e6;
-    case 13:  // micrometre
-      return 1e-3;
-    case 14:  // dm
-      return 100.0;
-    default:
-      return 1.0;
-  }
+/// mm per unit of $INSUNITS by its number; 0 stands for unknown, and mm are assumed.
+///
+/// @source   Autodesk, DXF Reference 2024, HEADER section; US survey units: NIST Handbook 44
+constexpr std::array<double, 25> kMmOfUnit{
+    1.0,
+    25.4,                   // inch
+    304.8,                  // foot
+    1'609'344.0,            // mile
+    1.0,                    // mm
+    10.0,                   // cm
+    1000.0,                 // m
+    1e6,                    // km
+    25.4e-6,                // microinch
+    0.0254,                 // mil
+    914.4,                  // yard
+    1e-7,                   // angstrom
+    1e-6,                   // nm
+    1e-3,                   // micrometre
+    100.0,                  // dm
+    1e4,                    // dam
+    1e5,                    // hm
+    1e12,                   // Gm
+    149'597'870'700'000.0,  // astronomical unit
+    9.4607304725808e18,     // light year
+    3.0856775814913673e19,  // parsec
+    1200e3 / 3937.0,        // US survey foot
+    100e3 / 3937.0,         // US survey inch
+    3600e3 / 3937.0,        // US survey yard
+    6336e6 / 3937.0,        // US survey mile
+};
+
+/// Nothing for a number that no release defines.
+std::optional<double> mm_of(std::int64_t unit) {
+  if (unit < 0 || static_cast<std::uint64_t>(unit) >= kMmOfUnit.size()) return std::nullopt;
+  return kMmOfUnit.at(static_cast<std::size_t>(unit));
 }
 
 class DxfReader {
@@ -49,12 +66,20 @@ class DxfReader {
         more = more && groups_.next();
       } else if (groups_.is(0, "ENDSEC")) {
         section_.clear();
+        entities_.end_block();
         more = groups_.next();
-      } else if (groups_.code() == 0 && section_ == "ENTITIES") {
+      } else if (groups_.is(0, "BLOCK") && section_ == "BLOCKS") {
+        more = entities_.begin_block();
+      } else if (groups_.is(0, "ENDBLK") && section_ == "BLOCKS") {
+        entities_.end_block();
+        more = groups_.next();
+      } else if (groups_.code() == 0 && (section_ == "ENTITIES" || section_ == "BLOCKS")) {
         more = entities_.read();
       } else if (groups_.is(9, "$INSUNITS") && section_ == "HEADER") {
         more = groups_.next();
-        if (more && groups_.code() == 70) mm_per_unit_ = mm_of(groups_.integer());
+        if (more && groups_.code() == 70) take_unit(groups_.integer());
+      } else if (groups_.is(0, "LAYER") && section_ == "TABLES") {
+        more = read_layer();
       } else {
         more = groups_.next();
       }
@@ -65,19 +90,60 @@ class DxfReader {
   /// Whether the file ends within a section.
   [[nodiscard]] bool truncated() const { return truncated_; }
   [[nodiscard]] std::string skipped() const { return entities_.skipped(); }
-  [[nodiscard]] Mesh release_mesh() { return entities_.release_mesh(mm_per_unit_); }
+  [[nodiscard]] DxfBlocks release_blocks() { return entities_.release_blocks(mm_per_unit_); }
+  void warn(const std::filesystem::path& path, const Run& run) const {
+    entities_.odd_faces().warn(path, mm_per_unit_, run);
+    if (unknown_unit_) {
+      run.warn(fmt::format("{}: its $INSUNITS {} is no unit that is known; mm are assumed",
+                           path.string(),
+                           *unknown_unit_));
+    }
+    if (entities_.cages() > 0) {
+      run.warn(
+          fmt::format("{}: {} MESH {} subdivided by the program that shows it; the cage is "
+                      "read, without the subdivision",
+                      path.string(),
+                      entities_.cages(),
+                      entities_.cages() == 1 ? "is" : "are"));
+    }
+    const std::string left_out = entities_.left_out();
+    if (!left_out.empty()) run.warn(fmt::format("{}: left out {}", path.string(), left_out));
+  }
+  [[nodiscard]] std::string left_out() const { return entities_.left_out(); }
 
  private:
+  void take_unit(std::int64_t unit) {
+    const std::optional<double> mm = mm_of(unit);
+    mm_per_unit_ = mm.value_or(1.0);
+    if (!mm) unknown_unit_ = unit;
+  }
+
+  /// Takes note of a layer that is not shown: bit 1 of its flags freezes it, a negative color
+  /// switches it off.
+  bool read_layer() {
+    std::string name;
+    bool hidden = false;
+    bool more = false;
+    while ((more = groups_.next()) && groups_.code() != 0) {
+      if (groups_.code() == 2) name = groups_.value();
+      if (groups_.code() == 70) hidden = hidden || (groups_.integer() & 1) != 0;
+      if (groups_.code() == 62) hidden = hidden || groups_.integer() < 0;
+    }
+    if (hidden) entities_.hide_layer(name);
+    return more;
+  }
+
   DxfGroups groups_;
   DxfEntities entities_{groups_};
   bool truncated_ = false;
   std::string section_;
   double mm_per_unit_ = 1.0;
+  std::optional<std::int64_t> unknown_unit_;
 };
 
 }  // namespace
 
-Mesh read_dxf(const std::filesystem::path& path, const Run& run) {
+Mesh read_dxf(const std::filesystem::path& path, const Run& run, const ReadOptions& options) {
   const std::string text = read_bytes(path);
   if (text.starts_with("AutoCAD Binary DXF")) {
     throw Error(
@@ -87,15 +153,20 @@ Mesh read_dxf(const std::filesystem::path& path, const Run& run) {
   DxfReader reader(path, text);
   reader.read();
   const std::string skipped = reader.skipped();
-  Mesh mesh = reader.release_mesh();
+  const MemoryBudget budget(path, text.size(), options.allow_memory_bytes);
+  std::size_t missing = 0;
+  Mesh mesh = expand_blocks(reader.release_blocks(), path, budget, run, missing);
   check_mesh(mesh, path);
   if (mesh.empty()) {
+    const std::string left_out = reader.left_out();
+    const std::string others =
+        skipped + (skipped.empty() || left_out.empty() ? "" : " and ") + left_out;
     throw Error(ErrorKind::Input,
-                fmt::format("{}: it has no 3DFACE, polyface or MESH with an area{}{}; explode "
-                            "blocks and save surfaces as meshes",
+                fmt::format("{}: it has no 3DFACE, polyface or MESH with an area{}{}; save "
+                            "surfaces as meshes",
                             path.string(),
-                            skipped.empty() ? "" : ", only ",
-                            skipped));
+                            others.empty() ? "" : ", only ",
+                            others));
   }
   if (reader.truncated()) {
     throw Error(ErrorKind::Input,
@@ -103,6 +174,11 @@ Mesh read_dxf(const std::filesystem::path& path, const Run& run) {
                             path.string(),
                             mesh.triangles.size(),
                             mesh.triangles.size() == 1 ? "" : "s"));
+  }
+  reader.warn(path, run);
+  if (missing > 0) {
+    run.warn(fmt::format(
+        "{}: left out {} INSERT of blocks that the file does not hold", path.string(), missing));
   }
   if (!skipped.empty()) {
     run.warn(fmt::format("{}: skipped {}, which are not meshes", path.string(), skipped));

@@ -1,5 +1,6 @@
 // Above 250 lines: each element of the format, and what may be wrong with it.
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <set>
 #include <string>
@@ -131,8 +132,8 @@ class GltfReader {
         ++skipped_;
         continue;
       }
-      if (mode > kGltfTriangles)
-        document_.fail("triangle strips and fans are not supported; export it as triangles");
+      if (mode > kGltfFan)
+        document_.fail(fmt::format("a primitive has the unknown mode {}; export it again", mode));
       if (primitive.contains("extensions") &&
           primitive.at("extensions").contains("KHR_draco_mesh_compression")) {
         document_.fail("it is compressed (Draco); export it without compression");
@@ -142,7 +143,7 @@ class GltfReader {
         attributes = primitive.at("attributes");
         part = vertices_of(attributes);
       }
-      add_triangles(part, primitive);
+      add_triangles(part, primitive, mode);
     }
     if (!part.empty()) append_transformed(mesh_, part, mm_from_node, document_.path);
   }
@@ -204,7 +205,26 @@ class GltfReader {
     return mark_of_name(material.value("name", ""));
   }
 
-  void add_triangles(Mesh& part, const json& primitive) const {
+  /// The corners of a strip or fan as those of triangles.
+  ///
+  /// @source   glTF 2.0, 3.7.2.1
+  static std::vector<double> as_triangles(const std::vector<double>& corners, std::uint64_t mode) {
+    if (mode == kGltfTriangles) return corners;
+    std::vector<double> all;
+    for (std::size_t i = 0; i + 2 < corners.size(); ++i) {
+      const bool odd = i % 2 == 1;
+      const std::array<double, 3> three =
+          mode == kGltfFan
+              ? std::array{corners[i + 1], corners[i + 2], corners[0]}
+              : std::array{corners[i], corners[odd ? i + 2 : i + 1], corners[odd ? i + 1 : i + 2]};
+      // A strip is led on by triangles without an area.
+      if (three[0] != three[1] && three[1] != three[2] && three[2] != three[0])
+        all.insert(all.end(), three.begin(), three.end());
+    }
+    return all;
+  }
+
+  void add_triangles(Mesh& part, const json& primitive, std::uint64_t mode) const {
     const std::size_t count = part.vertices_mm.size();
     std::vector<double> corners;
     if (primitive.contains("indices")) {
@@ -213,6 +233,7 @@ class GltfReader {
       for (std::size_t i = 0; i < count; ++i)
         corners.push_back(static_cast<double>(i));
     }
+    corners = as_triangles(corners, mode);
     if (corners.size() % 3 != 0)
       document_.fail("the number of its indices is not a multiple of three; export it again");
     const Mark mark = mark_of_material(primitive);

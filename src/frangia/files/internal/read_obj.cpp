@@ -9,27 +9,17 @@
 #include <fmt/format.h>
 
 #include "frangia/core/error.h"
-#include "frangia/files/internal/add_polygon.h"
 #include "frangia/files/internal/check_mesh.h"
 #include "frangia/files/internal/color_of.h"
 #include "frangia/files/internal/mark_names.h"
 #include "frangia/files/internal/obj.h"
+#include "frangia/files/internal/plain_text.h"
+#include "frangia/files/internal/polygon_faces.h"
 #include "frangia/files/internal/read_bytes.h"
 #include "frangia/files/internal/text_reader.h"
 
 namespace frangia {
 namespace {
-
-Eigen::Vector3f read_vector(TextReader& reader) {
-  Eigen::Vector3f vector;
-  for (float& coordinate : vector) {
-    const std::string_view word = reader.word_on_line();
-    const std::optional<float> number = parse_float(word);
-    if (!number) reader.fail(fmt::format("{} is not a coordinate", in_quotes(word)));
-    coordinate = *number;
-  }
-  return vector;
-}
 
 /// Converts an index of the file: from 1, or negative, relative to the last element so far.
 std::uint32_t read_index(const TextReader& reader, std::string_view word, std::size_t so_far) {
@@ -58,14 +48,14 @@ class ObjReader {
     for (; reader_.bytes_left() > 0; reader_.skip_line()) {
       const std::string_view keyword = reader_.word_on_line();
       if (keyword == "v") {
-        mesh_.vertices_mm.push_back(read_vector(reader_));
+        mesh_.vertices_mm.push_back(read_vector());
         read_color();
       } else if (keyword == "vn") {
-        mesh_.normals.push_back(read_vector(reader_));
-      } else if (keyword == "f") {
+        mesh_.normals.push_back(read_vector());
+      } else if (keyword == "f" || keyword == "fo") {  // `fo` of the first version
         read_face();
       } else if (keyword == "g") {
-        mark_ = mark_of_name(reader_.word_on_line());
+        mark_ = mark_of_name(word());
       }
     }
     if (!one_normal_a_vertex_ || mesh_.normals.size() != mesh_.vertices_mm.size()) {
@@ -75,12 +65,38 @@ class ObjReader {
     return std::move(mesh_);
   }
 
+  [[nodiscard]] const PolygonFaces& polygons() const { return polygons_; }
+
  private:
+  /// The next word of a statement, which a backslash continues on the next line and a comment
+  /// ends.
+  std::string_view word() {
+    for (;;) {
+      std::string_view found = reader_.word_on_line();
+      if (found.starts_with('#')) return {};
+      if (!found.ends_with('\\')) return found;
+      reader_.skip_line();
+      found.remove_suffix(1);
+      if (!found.empty()) return found;
+    }
+  }
+
+  Eigen::Vector3f read_vector() {
+    Eigen::Vector3f vector;
+    for (float& coordinate : vector) {
+      const std::string_view found = word();
+      const std::optional<float> number = parse_float(found);
+      if (!number) reader_.fail(fmt::format("{} is not a coordinate", in_quotes(found)));
+      coordinate = *number;
+    }
+    return vector;
+  }
+
   /// Three further numbers of a vertex are its color; a single one is a weight.
   void read_color() {
     std::array<float, 3> channels{};
     for (float& channel : channels) {
-      const std::optional<float> number = parse_float(reader_.word_on_line());
+      const std::optional<float> number = parse_float(word());
       if (!number) return;
       channel = *number;
     }
@@ -89,10 +105,10 @@ class ObjReader {
 
   void read_face() {
     corners_.clear();
-    for (auto word = reader_.word_on_line(); !word.empty(); word = reader_.word_on_line()) {
-      const std::string_view vertex = word.substr(0, word.find('/'));
+    for (auto corner = word(); !corner.empty(); corner = word()) {
+      const std::string_view vertex = corner.substr(0, corner.find('/'));
       corners_.push_back(read_index(reader_, vertex, mesh_.vertices_mm.size()));
-      const std::string_view normal = normal_of(word);
+      const std::string_view normal = normal_of(corner);
       one_normal_a_vertex_ = one_normal_a_vertex_ && !normal.empty() &&
                              read_index(reader_, normal, mesh_.normals.size()) == corners_.back();
     }
@@ -101,7 +117,7 @@ class ObjReader {
                                corners_.size(),
                                corners_.size() == 1 ? "" : "s"));
     }
-    add_polygon(mesh_, corners_);
+    polygons_.add(mesh_, corners_);
     if (mark_ != Mark::Measured) {  // earlier triangles are measured
       mesh_.triangle_marks.resize(mesh_.triangles.size() - (corners_.size() - 2), Mark::Measured);
       mesh_.triangle_marks.resize(mesh_.triangles.size(), mark_);
@@ -112,6 +128,7 @@ class ObjReader {
 
   TextReader reader_;
   Mesh mesh_;
+  PolygonFaces polygons_;
   std::vector<std::uint32_t> corners_;
   bool one_normal_a_vertex_ = true;
   Mark mark_ = Mark::Measured;
@@ -119,14 +136,16 @@ class ObjReader {
 
 }  // namespace
 
-Mesh read_obj(const std::filesystem::path& path) {
-  const std::string text = read_bytes(path);
-  Mesh mesh = ObjReader(path, text).read();
+Mesh read_obj(const std::filesystem::path& path, const Run& run) {
+  const std::string text = plain_text(read_bytes(path));
+  ObjReader reader(path, text);
+  Mesh mesh = reader.read();
   if (mesh.vertices_mm.empty()) {
     throw Error(ErrorKind::Input,
                 fmt::format("{}: it has no vertex; it is empty or not an OBJ file", path.string()));
   }
   check_mesh(mesh, path);
+  reader.polygons().triangulate(mesh, path, run);
   return mesh;
 }
 

@@ -5,9 +5,9 @@
 
 #include <fmt/format.h>
 
-#include "frangia/files/internal/add_polygon.h"
 #include "frangia/files/internal/check_mesh.h"
 #include "frangia/files/internal/off.h"
+#include "frangia/files/internal/polygon_faces.h"
 #include "frangia/files/internal/read_bytes.h"
 #include "frangia/files/internal/text_reader.h"
 
@@ -37,6 +37,8 @@ class OffReader {
       read_face(mesh);
     return mesh;
   }
+
+  [[nodiscard]] const PolygonFaces& polygons() const { return polygons_; }
 
  private:
   static constexpr std::size_t kVertexBytes = 6;  // three digits and three separators
@@ -99,19 +101,22 @@ class OffReader {
       corners_.push_back(static_cast<std::uint32_t>(*index));
     }
     reader_.skip_line();  // an optional colour
-    add_polygon(mesh, corners_);
+    polygons_.add(mesh, corners_);
   }
 
   TextReader reader_;
+  PolygonFaces polygons_;
   std::vector<std::uint32_t> corners_;
 };
 
 }  // namespace
 
-Mesh read_off(const std::filesystem::path& path) {
+Mesh read_off(const std::filesystem::path& path, const Run& run) {
   const std::string text = read_bytes(path);
-  Mesh mesh = OffReader(path, text).read();
+  OffReader reader(path, text);
+  Mesh mesh = reader.read();
   check_mesh(mesh, path);
+  reader.polygons().triangulate(mesh, path, run);
   return mesh;
 }
 

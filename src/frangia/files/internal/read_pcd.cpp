@@ -42,6 +42,12 @@ struct Field {
   std::uint64_t count = 1;
 };
 
+/// One value of a point.
+struct Value {
+  float number = 0.0F;
+  std::uint32_t bits = 0;  ///< of a color packed into four bytes, which a float cannot hold
+};
+
 struct Header {
   std::vector<Field> fields;
   std::uint64_t points = 0;
@@ -63,7 +69,9 @@ class PcdReader {
     has_sigma_ = slot_of("sigma_mm") != kNone;
     has_parts_ =
         has_sigma_ && slot_of("sigma_noise_mm") != kNone && slot_of("sigma_systematic_mm") != kNone;
-    const std::size_t rgb = slot_of("rgb");
+    for (Field& field : header_.fields)
+      if (field.name == "rgba") field.name = kKept[kRgb];  // its alpha is left out
+    const std::size_t rgb = slot_of(kKept[kRgb]);
     has_colors_ = rgb != kNone && header_.fields[rgb].bytes == 4;
     Mesh mesh;
     if (header_.data == "ascii") {
@@ -184,10 +192,10 @@ class PcdReader {
     for (std::uint64_t i = 0; i < header_.points; ++i) {
       for (std::size_t f = 0; f < slots.size(); ++f) {
         for (std::uint64_t k = 0; k < header_.fields[f].count; ++k) {
-          const float value = next(header_.fields[f]);
+          const Value value = next(header_.fields[f]);
           if (k > 0 || slots[f] >= kept.size()) continue;
-          kept.at(slots[f]) = value;
-          if (slots[f] == kRgb) packed = packed_color(header_.fields[f], value);
+          kept.at(slots[f]) = value.number;
+          if (slots[f] == kRgb) packed = value.bits;  // red, green and blue in the low bytes
         }
       }
       const Eigen::Vector3f point(kept[0], kept[1], kept[2]);
@@ -212,34 +220,43 @@ class PcdReader {
     }
   }
 
-  /// Red, green and blue in the low bytes. As a float (PCL's habit) they are its bits.
-  static std::uint32_t packed_color(const Field& field, float value) {
-    if (field.type == 'F') return std::bit_cast<std::uint32_t>(value);
-    constexpr float kMost = 16'777'215.0F;  // 24 bits, which a float holds exactly
-    return std::isnan(value) ? 0U : static_cast<std::uint32_t>(std::clamp(value, 0.0F, kMost));
-  }
-
-  float ascii(const Field& field) {
-    static_cast<void>(field);
-    return reader_.real();
+  /// A color as a float (PCL's habit) is its bits; as a whole number, which PCL writes since 1.8,
+  /// it may hold alpha in its highest byte.
+  Value ascii(const Field& field) {
+    const std::string_view word = reader_.word();
+    if (field.type != 'F') {
+      if (const auto whole = parse_integer(word))
+        return {static_cast<float>(*whole), static_cast<std::uint32_t>(*whole)};
+    }
+    const std::optional<float> number = parse_float(word);
+    if (!number) reader_.fail(fmt::format("{} is not a number", in_quotes(word)));
+    return {*number, std::bit_cast<std::uint32_t>(*number)};
   }
 
   template <typename Number>
-  static float take(std::string_view& body) {
+  static Value take(std::string_view& body) {
     Number number{};
     std::memcpy(&number, body.data(), sizeof number);
     body.remove_prefix(sizeof number);
-    return static_cast<float>(number);
+    std::uint32_t bits = 0;
+    if constexpr (sizeof number == sizeof bits) bits = std::bit_cast<std::uint32_t>(number);
+    return {static_cast<float>(number), bits};
   }
 
-  float binary(const Field& field, std::string_view& body) {
+  Value binary(const Field& field, std::string_view& body) {
     if (body.size() < field.bytes) reader_.fail("the file is truncated");
     if (field.type == 'F') return field.bytes == 4 ? take<float>(body) : take<double>(body);
-    std::uint32_t number = 0;  // a color is the only integer that is read
-    if (field.bytes == sizeof number) std::memcpy(&number, body.data(), sizeof number);
-    body.remove_prefix(field.bytes);
-    constexpr std::uint32_t kColor = 0xFFFFFF;  // without alpha
-    return static_cast<float>(number & kColor);
+    const bool has_sign = field.type == 'I';
+    switch (field.bytes) {
+      case 1:
+        return has_sign ? take<std::int8_t>(body) : take<std::uint8_t>(body);
+      case 2:
+        return has_sign ? take<std::int16_t>(body) : take<std::uint16_t>(body);
+      case 4:
+        return has_sign ? take<std::int32_t>(body) : take<std::uint32_t>(body);
+      default:
+        return has_sign ? take<std::int64_t>(body) : take<std::uint64_t>(body);
+    }
   }
 
   std::string_view text_;

@@ -7,10 +7,10 @@
 
 #include <fmt/format.h>
 
-#include "frangia/files/internal/add_polygon.h"
 #include "frangia/files/internal/check_mesh.h"
 #include "frangia/files/internal/color_of.h"
 #include "frangia/files/internal/ply_source.h"
+#include "frangia/files/internal/polygon_faces.h"
 #include "frangia/files/internal/read_bytes.h"
 #include "frangia/files/ply.h"
 
@@ -130,6 +130,7 @@ template <typename Source>
 void read_polygon(Source& source,
                   const PlyProperty& list,
                   std::vector<std::uint32_t>& corners,
+                  PolygonFaces& polygons,
                   Mesh& mesh) {
   const std::uint64_t count = read_list_length(source, list);
   if (count < 3)
@@ -144,7 +145,7 @@ void read_polygon(Source& source,
     }
     corners.push_back(static_cast<std::uint32_t>(index));
   }
-  add_polygon(mesh, corners);
+  polygons.add(mesh, corners);
 }
 
 bool is_corner_list(const PlyProperty& property) {
@@ -158,7 +159,7 @@ bool is_mark(const PlyProperty& property) {
 }
 
 template <typename Source>
-void read_faces(Source& source, const PlyElement& element, Mesh& mesh) {
+void read_faces(Source& source, const PlyElement& element, PolygonFaces& polygons, Mesh& mesh) {
   std::vector<std::uint32_t> corners;
   mesh.triangles.reserve(element.count);
   const bool has_marks = std::any_of(element.properties.begin(), element.properties.end(), is_mark);
@@ -166,7 +167,7 @@ void read_faces(Source& source, const PlyElement& element, Mesh& mesh) {
     Mark mark = Mark::Measured;
     for (const PlyProperty& property : element.properties) {
       if (is_corner_list(property)) {
-        read_polygon(source, property, corners, mesh);
+        read_polygon(source, property, corners, polygons, mesh);
       } else if (is_mark(property)) {
         mark = mark_from(source.value(property.type));
       } else {
@@ -178,7 +179,7 @@ void read_faces(Source& source, const PlyElement& element, Mesh& mesh) {
 }
 
 template <typename Source>
-Mesh read_elements(Source source, const PlyHeader& header) {
+Mesh read_elements(Source source, const PlyHeader& header, PolygonFaces& polygons) {
   Mesh mesh;
   bool has_vertices = false;
   for (const PlyElement& element : header.elements) {
@@ -195,7 +196,7 @@ Mesh read_elements(Source source, const PlyHeader& header) {
       read_vertices(source, element, mesh);
       has_vertices = true;
     } else if (element.name == "face") {
-      read_faces(source, element, mesh);
+      read_faces(source, element, polygons, mesh);
     } else if (element.name == "tristrips") {
       source.fail("triangle strips are not supported; export it with faces");
     } else {
@@ -211,14 +212,16 @@ Mesh read_elements(Source source, const PlyHeader& header) {
 
 }  // namespace
 
-Mesh read_ply(const std::filesystem::path& path) {
+Mesh read_ply(const std::filesystem::path& path, const Run& run) {
   const std::string bytes = read_bytes(path);
   const PlyHeader header = parse_ply_header(path, bytes);
   const std::string_view body = std::string_view(bytes).substr(header.body);
+  PolygonFaces polygons;
   Mesh mesh = header.format == PlyFormat::Ascii
-                  ? read_elements(AsciiPlySource(path, bytes, header.body), header)
-                  : read_elements(BinaryPlySource(path, body, header.format), header);
+                  ? read_elements(AsciiPlySource(path, bytes, header.body), header, polygons)
+                  : read_elements(BinaryPlySource(path, body, header.format), header, polygons);
   check_mesh(mesh, path);
+  polygons.triangulate(mesh, path, run);
   return mesh;
 }
 

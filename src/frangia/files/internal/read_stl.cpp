@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cstring>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -9,6 +10,7 @@
 
 #include "frangia/core/error.h"
 #include "frangia/files/internal/check_mesh.h"
+#include "frangia/files/internal/plain_text.h"
 #include "frangia/files/internal/read_bytes.h"
 #include "frangia/files/internal/text_reader.h"
 #include "frangia/files/internal/weld_vertices.h"
@@ -54,6 +56,15 @@ void expect(TextReader& reader, std::string_view keyword) {
   }
 }
 
+/// "endloop", or "end loop" of some programs.
+void expect_end(TextReader& reader, const std::string& what) {
+  const std::string_view word = reader.word();
+  if (is(word, "end" + what)) return;
+  if (!is(word, "end"))
+    reader.fail(fmt::format("expected 'end{}', found {}", what, in_quotes(word)));
+  expect(reader, what);
+}
+
 void read_facet(TextReader& reader, Corners& corners) {
   expect(reader, "normal");
   for (int i = 0; i < 3; ++i)
@@ -67,8 +78,8 @@ void read_facet(TextReader& reader, Corners& corners) {
     const float z = reader.real();
     corners.emplace_back(x, y, z);
   }
-  expect(reader, "endloop");
-  expect(reader, "endfacet");
+  expect_end(reader, "loop");
+  expect_end(reader, "facet");
 }
 
 Corners ascii_corners(const std::filesystem::path& path, std::string_view text) {
@@ -80,8 +91,8 @@ Corners ascii_corners(const std::filesystem::path& path, std::string_view text) 
     if (word.empty() && !open) return corners;
     if (is(word, "facet") && open) {
       read_facet(reader, corners);
-    } else if (is(word, open ? "endsolid" : "solid")) {
-      open = !open;
+    } else if (is(word, open ? "endsolid" : "solid") || (open && is(word, "end"))) {
+      open = !open;        // "end solid" ends the line with its name
       reader.skip_line();  // an optional name
     } else {
       reader.fail(fmt::format(
@@ -90,13 +101,38 @@ Corners ascii_corners(const std::filesystem::path& path, std::string_view text) 
   }
 }
 
-Corners read_corners(const std::filesystem::path& path, std::string_view bytes) {
+/// The facets of a binary file whose header does not state its size: programs that stream write a
+/// count of 0 or -1, others add bytes of their own behind the last facet. Whole facets that are not
+/// counted are a contradiction.
+std::optional<std::string_view> binary_part(std::string_view bytes,
+                                            const std::filesystem::path& path,
+                                            const Run& run) {
+  const std::size_t stated = stated_bytes(bytes);
+  const bool is_whole = (bytes.size() - kHeaderBytes) % kFacetBytes == 0;
+  const std::size_t streamed = kHeaderBytes + kFacetBytes * std::size_t{0xFFFFFFFF};
+  if (is_whole && bytes.size() > kHeaderBytes && (stated == kHeaderBytes || stated == streamed)) {
+    run.warn(fmt::format("{}: its header states no number of facets; all {} are read",
+                         path.string(),
+                         (bytes.size() - kHeaderBytes) / kFacetBytes));
+    return bytes;
+  }
+  if (is_whole || stated == kHeaderBytes || stated > bytes.size()) return std::nullopt;
+  run.warn(fmt::format(
+      "{}: {} bytes behind its last facet are left out", path.string(), bytes.size() - stated));
+  return bytes.substr(0, stated);
+}
+
+Corners read_corners(const std::filesystem::path& path, std::string_view bytes, const Run& run) {
   // The size decides first, since some binary files also begin with "solid".
   const bool has_header = bytes.size() >= kHeaderBytes;
   if (has_header && stated_bytes(bytes) == bytes.size()) return binary_corners(bytes);
-  TextReader reader(path, bytes);
   const bool text = bytes.find('\0') == std::string_view::npos;
-  if (text && is(reader.word(), "solid")) return ascii_corners(path, bytes);
+  if (text) {
+    const std::string plain = plain_text(std::string(bytes));
+    if (is(TextReader(path, plain).word(), "solid")) return ascii_corners(path, plain);
+  }
+  if (has_header)
+    if (const auto part = binary_part(bytes, path, run)) return binary_corners(*part);
   throw Error(
       ErrorKind::Input,
       fmt::format("{}: it has {} bytes, but its header states {}; it is truncated or not an "
@@ -108,9 +144,9 @@ Corners read_corners(const std::filesystem::path& path, std::string_view bytes) 
 
 }  // namespace
 
-Mesh read_stl(const std::filesystem::path& path) {
+Mesh read_stl(const std::filesystem::path& path, const Run& run) {
   const std::string bytes = read_bytes(path);
-  Mesh mesh = weld_vertices(read_corners(path, bytes));
+  Mesh mesh = weld_vertices(read_corners(path, bytes, run));
   check_mesh(mesh, path);
   return mesh;
 }

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "frangia/files/internal/check_mesh.h"
+#include "frangia/files/internal/color_of.h"
 #include "frangia/files/internal/read_bytes.h"
 #include "frangia/files/internal/text_reader.h"
 #include "frangia/files/internal/xyz.h"
@@ -19,6 +20,12 @@ bool is_unit(const Eigen::Vector3f& v) {
   return std::abs(v.norm() - 1.0F) < 0.02F || v.isZero();
 }
 
+/// Whether numbers are red, green and blue from 0 to 255.
+bool is_color(const Eigen::Vector3f& v) {
+  constexpr float kMost = 255.0F;
+  return v.minCoeff() >= 0.0F && v.maxCoeff() <= kMost && v == v.array().round().matrix();
+}
+
 }  // namespace
 
 Mesh read_xyz(const std::filesystem::path& path) {
@@ -27,6 +34,7 @@ Mesh read_xyz(const std::filesystem::path& path) {
   TextReader reader(path, text);
   Mesh mesh;
   bool has_normals = true;
+  bool has_colors = true;
   for (; reader.bytes_left() > 0; reader.skip_line()) {
     std::array<float, kWithNormals> numbers{};
     std::size_t count = 0;
@@ -47,8 +55,13 @@ Mesh read_xyz(const std::filesystem::path& path) {
     const Eigen::Vector3f normal(numbers[3], numbers[4], numbers[5]);
     has_normals = has_normals && count == kWithNormals && is_unit(normal);
     if (has_normals) mesh.normals.push_back(normal);
+    has_colors = has_colors && count == kWithNormals && is_color(normal);
+    if (has_colors)
+      mesh.colors.push_back(
+          color_of(normal.x() / 255.0F, normal.y() / 255.0F, normal.z() / 255.0F));
   }
   if (!has_normals) mesh.normals.clear();
+  if (!has_colors || has_normals) mesh.colors.clear();
   check_mesh(mesh, path);
   return mesh;
 }

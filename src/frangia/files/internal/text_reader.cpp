@@ -34,6 +34,13 @@ std::optional<float> parse_float(std::string_view word) {
   float number = 0.0F;
   const std::errc error = parse(word, number);
   if (error == std::errc()) return number;
+  constexpr std::size_t kMostDigits = 60;
+  const std::size_t exponent = word.find_first_of("dD");  // as Fortran writes doubles
+  if (exponent != std::string_view::npos && exponent > 0 && word.size() < kMostDigits) {
+    std::string usual(word);
+    usual[exponent] = 'e';
+    return parse_float(usual);
+  }
   if (error != std::errc::result_out_of_range) return std::nullopt;
   double wide = 0.0;  // underflow gives zero, overflow infinity
   return parse(word, wide) == std::errc() ? std::optional(static_cast<float>(wide)) : std::nullopt;

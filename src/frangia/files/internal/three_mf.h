@@ -8,16 +8,17 @@
 
 namespace frangia {
 
-/// Reads the meshes that the build items of a 3MF package refer to, with their transforms.
+/// Reads the meshes that the build items of a 3MF package refer to, with their transforms, also
+/// where objects are in further files of the package (production extension, as slicers write).
 ///
 /// @shape    triangles with base materials named "displaced" and "synthesized" get those marks
 /// @units    converted to mm from the unit of the model
-/// @missing  objects of every type are read as surfaces; textures, beams and slices are skipped, as
-///          are models in further files of the package, with a warning through `run`
+/// @missing  objects of every type are read as surfaces; textures, beams and slices are skipped
 /// @errors   Error(Input) that names the file and the fault: not a zip archive, damaged, invalid
 ///          XML, XML with entities, an invalid number, an index out of range, an object that does
 ///          not exist or contains itself, an entry that expands to far more than a mesh, parts
-///          that repeat beyond the allowed memory
+///          that repeat beyond the allowed memory, an extension that the model requires and that is
+///          not read; Error(Cancelled)
 /// @source   3MF Consortium, 3D Manufacturing Format, Core Specification 1.3
 [[nodiscard]] Mesh read_3mf(const std::filesystem::path& path,
                             const ReadOptions& options = {},

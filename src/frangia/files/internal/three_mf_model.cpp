@@ -1,6 +1,7 @@
 // Above 250 lines: each element of the format, and what may be wrong with it.
 #include "frangia/files/internal/three_mf_model.h"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cstdint>
@@ -74,13 +75,54 @@ float coordinate(const XmlAttributes& attributes, std::string_view name) {
 
 }  // namespace
 
+void ThreeMfModel::begin_part(const std::string& name) {
+  if (mm_per_unit_.empty()) root_ = name;
+  part_ = name;
+  current_ = 0xFFFFFFFF;
+  namespace_of_.clear();
+  mm_per_unit_[name] = 1.0;
+}
+
+void ThreeMfModel::declare_namespace(std::string_view prefix, std::string_view uri) {
+  namespace_of_[std::string(prefix)] = uri;
+}
+
+void ThreeMfModel::check_extensions(std::string_view prefixes) const {
+  // Those whose models keep their triangles where the core specification has them.
+  constexpr std::array<std::string_view, 4> kRead{
+      "http://schemas.microsoft.com/3dmanufacturing/material/2015/02",
+      "http://schemas.microsoft.com/3dmanufacturing/production/2015/06",
+      "http://schemas.microsoft.com/3dmanufacturing/slice/2015/07",
+      "http://schemas.microsoft.com/3dmanufacturing/trianglesets/2021/07"};
+  TextReader words("requiredextensions", prefixes);
+  for (auto prefix = words.word(); !prefix.empty(); prefix = words.word()) {
+    const auto known = namespace_of_.find(std::string(prefix));
+    const std::string_view uri = known == namespace_of_.end() ? prefix : known->second;
+    if (std::find(kRead.begin(), kRead.end(), uri) != kRead.end()) continue;
+    fail_3mf(fmt::format("it requires an extension that is not read, {}; export it as triangles",
+                         std::string(uri.substr(0, 200))));
+  }
+}
+
+std::string ThreeMfModel::in_part(std::string_view id) const {
+  return fmt::format("{}|{}", part_, id);
+}
+
+double ThreeMfModel::scale_between(const std::string& from, const std::string& to) const {
+  const auto unit = [&](const std::string& part) {
+    const auto found = mm_per_unit_.find(part);
+    return found == mm_per_unit_.end() ? 1.0 : found->second;
+  };
+  return unit(from) / unit(to);
+}
+
 void ThreeMfModel::begin(std::string_view name, const XmlAttributes& attributes) {
   constexpr double kGrowth = 2.0;       // of a vector: its capacity is up to twice its size
   constexpr double kMapNode = 64.0;     // bytes that a map adds to an entry
   constexpr double kCorners = 3.0 * 4;  // bytes of a vertex or triangle
   if (name.starts_with(kMaterials)) {
     name.remove_prefix(kMaterials.size());
-    if (name == "colorgroup") color_group_ = attributes.value("id");
+    if (name == "colorgroup") color_group_ = in_part(attributes.value("id"));
     if (name != "color") return;
     colors_[color_group_].push_back(color_of_text(attributes.value("color")));
     collected_bytes_ += kGrowth * sizeof(VertexColor);
@@ -100,7 +142,7 @@ void ThreeMfModel::begin(std::string_view name, const XmlAttributes& attributes)
   } else if (name == "component") {
     object().components.push_back(read_reference(attributes));
     collected_bytes_ += kGrowth * sizeof(Reference);
-  } else if (name == "item") {
+  } else if (name == "item" && part_ == root_) {
     items_.push_back(read_reference(attributes));
     collected_bytes_ += kGrowth * sizeof(Reference);
   } else if (name == "base") {
@@ -109,28 +151,38 @@ void ThreeMfModel::begin(std::string_view name, const XmlAttributes& attributes)
     collected_bytes_ +=
         kGrowth * sizeof(std::string) + kMapNode + static_cast<double>(material.size());
   } else if (name == "basematerials") {
-    material_ = attributes.value("id");
+    material_ = in_part(attributes.value("id"));
   } else if (name == "model") {
-    mm_per_unit_ = mm_per_unit_of(attributes.value("unit"));
+    mm_per_unit_[part_] = mm_per_unit_of(attributes.value("unit"));
+    check_extensions(attributes.value("requiredextensions"));
   }
 }
 
 Mesh ThreeMfModel::build(const std::filesystem::path& path, const MemoryBudget& budget) const {
-  std::map<std::uint32_t, double> memory_of_object;
+  std::map<Key, double> memory_of_object;
   double needed_bytes = collected_bytes_;
   for (const Reference& item : items_)
     needed_bytes += memory_of(item, memory_of_object, 0);
   budget.check(needed_bytes);
   Mesh mesh;
   Eigen::Affine3d mm_from_model = Eigen::Affine3d::Identity();
-  mm_from_model.scale(mm_per_unit_);
-  for (const Reference& item : items_)
-    add(mesh, item, mm_from_model, path, 0);
+  mm_from_model.scale(mm_per_unit_.at(root_));
+  for (const Reference& item : items_) {
+    Reference scaled = item;
+    scaled.transform.scale(scale_between(item.object.first, root_));
+    add(mesh, scaled, mm_from_model, path, 0);
+  }
   return mesh;
 }
 
 ThreeMfModel::Reference ThreeMfModel::read_reference(const XmlAttributes& attributes) {
-  Reference reference{.object = id_of(attributes.value("objectid"))};
+  constexpr std::string_view kPath =
+      "http://schemas.microsoft.com/3dmanufacturing/production/2015/06|path";
+  std::string part(attributes.value(kPath));
+  if (part.starts_with('/')) part.erase(0, 1);
+  if (part.empty()) part = part_;
+  parts_.insert(part);
+  Reference reference{.object = {part, id_of(attributes.value("objectid"))}};
   const std::string_view text = attributes.value("transform");
   if (text.empty()) return reference;
   TextReader reader("transform", text);
@@ -142,7 +194,7 @@ ThreeMfModel::Reference ThreeMfModel::read_reference(const XmlAttributes& attrib
 }
 
 ThreeMfModel::Object& ThreeMfModel::object() {
-  const auto found = objects_.find(current_);
+  const auto found = objects_.find({part_, current_});
   if (found == objects_.end())
     fail_3mf("a vertex, triangle or component is outside any object; export it again");
   return found->second;
@@ -150,11 +202,12 @@ ThreeMfModel::Object& ThreeMfModel::object() {
 
 void ThreeMfModel::begin_object(const XmlAttributes& attributes) {
   current_ = id_of(attributes.value("id"));
-  if (objects_.contains(current_)) {
+  if (objects_.contains({part_, current_})) {
     fail_3mf(fmt::format("object {} is defined twice; export it again", current_));
   }
-  objects_[current_].material = attributes.value("pid");
-  objects_[current_].index = attributes.value("pindex");
+  Object& made = objects_[{part_, current_}];
+  made.material = attributes.value("pid");
+  made.index = attributes.value("pindex");
 }
 
 void ThreeMfModel::vertex(const XmlAttributes& attributes) {
@@ -191,7 +244,8 @@ void ThreeMfModel::color_corners(Object& owner,
                                  const XmlAttributes& attributes) {
   if (colors_.empty()) return;
   const bool own = !attributes.value("pid").empty();
-  const auto group = colors_.find(std::string(own ? attributes.value("pid") : owner.material));
+  const auto group =
+      colors_.find(in_part(own ? attributes.value("pid") : std::string_view(owner.material)));
   if (group == colors_.end()) return;
   constexpr std::array<std::string_view, 3> kNames{"p1", "p2", "p3"};
   const std::string_view first = own ? attributes.value("p1") : std::string_view(owner.index);
@@ -207,7 +261,7 @@ void ThreeMfModel::color_corners(Object& owner,
 }
 
 Mark ThreeMfModel::mark_of_material(std::string_view id, std::string_view index) const {
-  const auto group = materials_.find(std::string(id));
+  const auto group = materials_.find(in_part(id));
   const auto number = parse_integer(index);
   if (group == materials_.end() || !number || *number < 0 ||
       static_cast<std::uint64_t>(*number) >= group->second.size()) {
@@ -220,7 +274,8 @@ const ThreeMfModel::Object& ThreeMfModel::object_of(const Reference& reference, 
   constexpr int kMaxDepth = 64;
   const auto found = objects_.find(reference.object);
   if (found == objects_.end()) {
-    fail_3mf(fmt::format("object {} is built but not defined; export it again", reference.object));
+    fail_3mf(fmt::format("object {} is built but not defined; export it again",
+                         reference.object.second));
   }
   if (depth > kMaxDepth) {
     fail_3mf("an object contains itself, or components are nested too deeply; export it again");
@@ -231,7 +286,7 @@ const ThreeMfModel::Object& ThreeMfModel::object_of(const Reference& reference, 
 /// Memory of an object with its components. Each object is visited once, however often it is
 /// repeated.
 double ThreeMfModel::memory_of(const Reference& reference,
-                               std::map<std::uint32_t, double>& known,
+                               std::map<Key, double>& known,
                                int depth) const {
   constexpr double kPerInstance = 1000.0;  // bytes; bounds the time for instances without triangles
   const auto found = known.find(reference.object);
@@ -254,8 +309,11 @@ void ThreeMfModel::add(Mesh& mesh,
   const Object& object = object_of(reference, depth);
   const Eigen::Affine3d transform = parent * reference.transform;
   if (!object.mesh.empty()) append_transformed(mesh, object.mesh, transform, path);
-  for (const Reference& component : object.components)
-    add(mesh, component, transform, path, depth + 1);
+  for (const Reference& component : object.components) {
+    Reference scaled = component;
+    scaled.transform.scale(scale_between(component.object.first, reference.object.first));
+    add(mesh, scaled, transform, path, depth + 1);
+  }
 }
 
 }  // namespace frangia

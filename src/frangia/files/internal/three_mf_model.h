@@ -3,8 +3,10 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <set>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Geometry>
@@ -15,11 +17,19 @@
 
 namespace frangia {
 
-/// Collects the objects and build items of a 3MF model from its XML elements.
+/// Collects the objects and build items of the models of a 3MF package from their XML elements. The
+/// first part is the one that is built; its objects may refer to those of further parts (production
+/// extension).
 ///
 /// @errors   Error(Input) without the name of the file
 class ThreeMfModel {
  public:
+  /// Begins the model in a file of the package, by its name there.
+  void begin_part(const std::string& name);
+  /// Takes note of a prefix, by which a model names the extensions that it requires.
+  void declare_namespace(std::string_view prefix, std::string_view uri);
+  /// The files of the package that objects or build items refer to so far.
+  [[nodiscard]] const std::set<std::string>& parts() const { return parts_; }
   /// Handles the start of an element; `name` is "namespace|name".
   void begin(std::string_view name, const XmlAttributes& attributes);
   /// Memory of what has been collected, bytes.
@@ -30,8 +40,10 @@ class ThreeMfModel {
   [[nodiscard]] Mesh build(const std::filesystem::path& path, const MemoryBudget& budget) const;
 
  private:
+  /// An object by the file that it is in and its number there.
+  using Key = std::pair<std::string, std::uint32_t>;
   struct Reference {
-    std::uint32_t object = 0;
+    Key object;
     Eigen::Affine3d transform = Eigen::Affine3d::Identity();
   };
   struct Object {
@@ -40,7 +52,12 @@ class ThreeMfModel {
     std::string material, index;  ///< of triangles without a material of their own
   };
 
-  static Reference read_reference(const XmlAttributes& attributes);
+  Reference read_reference(const XmlAttributes& attributes);
+  void check_extensions(std::string_view prefixes) const;
+  /// A name of this part that is told from those of others.
+  [[nodiscard]] std::string in_part(std::string_view id) const;
+  /// Scale from the unit of a part to that of another.
+  [[nodiscard]] double scale_between(const std::string& from, const std::string& to) const;
   Object& object();
   void begin_object(const XmlAttributes& attributes);
   void vertex(const XmlAttributes& attributes);
@@ -49,7 +66,7 @@ class ThreeMfModel {
   [[nodiscard]] Mark mark_of_material(std::string_view id, std::string_view index) const;
   [[nodiscard]] const Object& object_of(const Reference& reference, int depth) const;
   [[nodiscard]] double memory_of(const Reference& reference,
-                                 std::map<std::uint32_t, double>& known,
+                                 std::map<Key, double>& known,
                                  int depth) const;
   void add(Mesh& mesh,
            const Reference& reference,
@@ -57,14 +74,18 @@ class ThreeMfModel {
            const std::filesystem::path& path,
            int depth) const;
 
-  std::map<std::uint32_t, Object> objects_;
+  std::map<Key, Object> objects_;
   std::map<std::string, std::vector<std::string>> materials_;
   std::map<std::string, std::vector<VertexColor>> colors_;  ///< by the id of their group
   std::string color_group_;
   std::vector<Reference> items_;
   std::uint32_t current_ = 0xFFFFFFFF;
   std::string material_;
-  double mm_per_unit_ = 1.0;
+  std::string root_;  ///< the part that is built
+  std::string part_;  ///< that is read
+  std::set<std::string> parts_;
+  std::map<std::string, double> mm_per_unit_;        ///< of each part
+  std::map<std::string, std::string> namespace_of_;  ///< by its prefix, in this part
   double collected_bytes_ = 0.0;
 };
 

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <vector>
+
+#include "frangia/core/run.h"
+#include "frangia/files/internal/polygon_triangles.h"
+#include "frangia/geometry/mesh.h"
+
+namespace frangia {
+
+/// Counts the faces of a file that are no plane polygons, for one warning.
+class OddFaces {
+ public:
+  /// Takes note of a face whose corners span `size`, in units of the file.
+  void note(const PolygonTriangles& face, double size);
+  /// Warns of what was noted. `mm_per_unit` converts distances.
+  void warn(const std::filesystem::path& path, double mm_per_unit, const Run& run) const;
+
+ private:
+  std::size_t not_plane_ = 0;
+  std::size_t crossing_ = 0;
+  double largest_ = 0.0;
+};
+
+/// The faces of a file with more than three corners. They are added as fans, since a face may come
+/// before its vertices, and triangulated when all is read.
+class PolygonFaces {
+ public:
+  /// Adds a face to the triangles of the mesh.
+  void add(Mesh& mesh, std::span<const std::uint32_t> corners);
+  /// Triangulates the faces in place and warns of those that are no plane polygons.
+  ///
+  /// @errors   Error(Input) that names the file: a concave face with more corners than any has;
+  ///           Error(Cancelled)
+  void triangulate(Mesh& mesh, const std::filesystem::path& path, const Run& run) const;
+
+ private:
+  struct Fan {
+    std::size_t first = 0;      ///< triangle
+    std::uint32_t corners = 0;  ///< more than three
+  };
+  std::vector<Fan> fans_;
+};
+
+}  // namespace frangia
