@@ -1,4 +1,3 @@
-// Above 250 lines: one board, whose motion, settings and faults share one line.
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>

@@ -1,4 +1,3 @@
-// Above 250 lines: elements, compression and arrays of one format.
 // MATLAB's "Level 5" MAT-file, the format of versions 5 and 7, as its specification describes it.
 // libmatio reads it too, but crashes on damaged files.
 #include <algorithm>

@@ -1,4 +1,3 @@
-// Above 250 lines: one reader for each kind of entity.
 #include "frangia/files/internal/dxf_entities.h"
 
 #include <algorithm>
