@@ -24,6 +24,21 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+Json json_of(const DecodePlan& plan) {
+  Json json = Json::array();
+  for (const DirectionPlan& direction : plan.directions) {
+    Json maps = Json::array();
+    for (const Pattern& map : direction.maps)
+      maps.push_back(map.name);
+    json.push_back({{"direction",
+                     direction.direction == FringeDirection::Vertical ? "vertical" : "horizontal"},
+                    {"maps", maps},
+                    {"orders", name_of(direction.orders)},
+                    {"text", describe(direction)}});
+  }
+  return json;
+}
+
 Json json_of(const SequenceCheck& check) {
   Json json{{"patterns", check.patterns},
             {"decided", check.decided},
@@ -144,14 +159,24 @@ void print_stages(const ViewResult& result, const std::filesystem::path& folder)
 
 }  // namespace
 
+void print_plan(const DecodePlan& plan, Terminal& terminal) {
+  if (terminal.json) {
+    print_json(Json{{"plan", json_of(plan)}, {"absolute", is_absolute(plan)}});
+  } else {
+    print_text("{}\n", describe(plan));
+  }
+}
+
 void print_decoded_view(const Scan& scan,
+                        const DecodePlan& plan,
                         const ViewResult& result,
                         const std::filesystem::path& folder,
                         Terminal& terminal) {
   terminal.assess(result.reason.empty() ? result.empty : result.reason);
   terminal.finish();
   if (terminal.json) {
-    Json json = json_of_view(scan, result, figures_of(result));
+    Json json{{"plan", json_of(plan)}};
+    json.update(json_of_view(scan, result, figures_of(result)));
     json["warnings"] = terminal.warnings();
     print_json(json);
   } else if (!terminal.quiet) {
@@ -159,8 +184,12 @@ void print_decoded_view(const Scan& scan,
   }
 }
 
-DecodedScan::DecodedScan(const Scan& scan, const std::filesystem::path& folder, Terminal& terminal)
+DecodedScan::DecodedScan(const Scan& scan,
+                         const DecodePlan& plan,
+                         const std::filesystem::path& folder,
+                         Terminal& terminal)
     : scan_(scan),
+      plan_(plan),
       folder_(folder),
       terminal_(terminal),
       views_(std::make_unique<Json>(Json::array())) {}
@@ -218,7 +247,9 @@ void DecodedScan::finish() {
             : fmt::format("{} of {} views do not fit", untrusted_.size(), scan_.views.size()));
   }
   if (terminal_.json) {
-    Json json{{"views", std::move(*views_)}, {"trustworthy", untrusted_.empty()}};
+    Json json{{"plan", json_of(plan_)},
+              {"views", std::move(*views_)},
+              {"trustworthy", untrusted_.empty()}};
     if (!untrusted_.empty()) json["reason"] = with_flags(untrusted_.front());
     json["warnings"] = terminal_.warnings();
     print_json(json);

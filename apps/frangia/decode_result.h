@@ -27,8 +27,12 @@ struct ViewResult {
   std::vector<StageFile> files{};  ///< in the view's folder
 };
 
+/// Prints how the views of a scan are decoded.
+void print_plan(const DecodePlan& plan, Terminal& terminal);
+
 /// Prints the stages of one view: what the pixels are, the assessments of the frames, the files.
 void print_decoded_view(const Scan& scan,
+                        const DecodePlan& plan,
                         const ViewResult& result,
                         const std::filesystem::path& folder,
                         Terminal& terminal);
@@ -37,7 +41,10 @@ void print_decoded_view(const Scan& scan,
 class DecodedScan {
  public:
   /// The references must outlive it. `folder` holds a folder for each view.
-  DecodedScan(const Scan& scan, const std::filesystem::path& folder, Terminal& terminal);
+  DecodedScan(const Scan& scan,
+              const DecodePlan& plan,
+              const std::filesystem::path& folder,
+              Terminal& terminal);
   ~DecodedScan();
   DecodedScan(const DecodedScan&) = delete;
   DecodedScan& operator=(const DecodedScan&) = delete;
@@ -49,6 +56,7 @@ class DecodedScan {
 
  private:
   const Scan& scan_;
+  const DecodePlan& plan_;
   const std::filesystem::path& folder_;
   Terminal& terminal_;
   std::unique_ptr<nlohmann::ordered_json> views_;

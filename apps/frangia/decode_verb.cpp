@@ -35,6 +35,7 @@ struct DecodeArguments {
   std::optional<std::size_t> view;  ///< every view without it
   std::string camera;
   std::filesystem::path folder;
+  bool show_plan = false;
   DecodeOptions options;
 };
 
@@ -60,6 +61,7 @@ struct DecodeTask {
   const DecodeArguments& arguments;
   Image<Eigen::Vector2f> rays;  ///< empty without geometry
   DecodeOptions options;
+  DecodePlan plan;
 };
 
 /// Decodes and, with geometry, triangulates one view.
@@ -68,7 +70,8 @@ ViewResult decode_one(const DecodeTask& task, std::size_t view, const Run& run) 
   run.stage("phase");
   ViewResult out{.view = view};
   const auto frames = read_frames(scan, view, run);
-  out.decoded = decode_view(frames, scan.rig, task.rays, options_of_view(task.options, view), run);
+  out.decoded =
+      decode_view(frames, task.plan, scan.rig, task.rays, options_of_view(task.options, view), run);
   if (!scan.patterns.empty() && !task.options.phase_files)
     out.empty = explain_no_phase(frames, out.decoded.phase.status);
   if (task.rays.empty()) {
@@ -93,7 +96,7 @@ ViewResult decode_one(const DecodeTask& task, std::size_t view, const Run& run) 
 
 /// Decodes every view into a folder of its number; at any time one view is in memory.
 void decode_all(const DecodeTask& task, Terminal& terminal, const Run& run) {
-  DecodedScan summary(task.scan, task.arguments.folder, terminal);
+  DecodedScan summary(task.scan, task.plan, task.arguments.folder, terminal);
   for (std::size_t view = 0; view < task.scan.views.size(); ++view) {
     run.report(static_cast<double>(view) / static_cast<double>(task.scan.views.size()));
     Run of_view = run;  // its stages would begin the progress line again
@@ -115,6 +118,15 @@ void decode_verb(const DecodeArguments& arguments, Terminal& terminal) {
   const Run run = terminal.run();
   const Scan scan =
       choose_camera(read_scan(arguments.scan, run, RigContent::PhaseOnly), arguments.camera);
+  DecodeTask task{scan,
+                  arguments,
+                  {},
+                  arguments.options,
+                  plan_decoding(scan.patterns, scan.rig, arguments.options)};
+  if (arguments.show_plan) {
+    print_plan(task.plan, terminal);
+    return;
+  }
   const std::size_t view = arguments.view.value_or(0);
   if (view >= scan.views.size()) {
     throw Error(ErrorKind::Input,
@@ -126,10 +138,9 @@ void decode_verb(const DecodeArguments& arguments, Terminal& terminal) {
   if (arguments.options.phase_files) check_phase_files(*arguments.options.phase_files, scan);
   make_folder(arguments.folder);
   check_can_write(arguments.folder / "index.html");
-  DecodeTask task{scan, arguments, {}, arguments.options};
   if (has_geometry(scan.rig)) {
     task.rays = rays_of(scan.rig.camera.model);
-    if (!has_absolute_phase(scan.patterns, scan.rig.projector)) {
+    if (!is_absolute(task.plan)) {
       run.warn(
           "the scan holds neither an absolute pattern nor the laser sheet: phases and depths are "
           "relative to the fringe through the projection axis, which sigma does not count");
@@ -148,7 +159,7 @@ void decode_verb(const DecodeArguments& arguments, Terminal& terminal) {
   run.stage("files");
   if (!arguments.view) write_maps(result.decoded, result.range, arguments.folder / "000", run);
   result.files = write_stages(result.decoded, result.range, arguments.folder, run);
-  print_decoded_view(scan, result, arguments.folder, terminal);
+  print_decoded_view(scan, task.plan, result, arguments.folder, terminal);
 }
 
 }  // namespace
@@ -161,7 +172,8 @@ void add_decode_verb(CLI::App& program, Terminal& terminal) {
       "examples:\n"
       "  frangia decode ball-bar -o maps               maps/000/PATTERN-phase.tiff, ... of all "
       "views\n"
-      "  frangia decode ball-bar --view 3 -o stages    each stage of one view, with pictures");
+      "  frangia decode ball-bar --view 3 -o stages    each stage of one view, with pictures\n"
+      "  frangia decode ball-bar --show-plan           where its fringe orders come from");
   verb->add_option(
           "SCAN", arguments->scan, "the scan folder, with scan.toml; without rig.toml, phases only")
       ->required();
@@ -173,10 +185,18 @@ void add_decode_verb(CLI::App& program, Terminal& terminal) {
   verb->add_option("--camera",
                    arguments->camera,
                    "name of one of `more_cameras`; the reference camera by default");
-  verb->add_option("-o,--output", arguments->folder, "folder to write to")->required();
+  auto* output = verb->add_option("-o,--output", arguments->folder, "folder to write to");
+  verb->add_flag("--show-plan",
+                 arguments->show_plan,
+                 "print how the frames are decoded and where fringe orders come from, and decode "
+                 "nothing")
+      ->excludes(output);
   add_decode_options(*verb, arguments->options);
   arguments->options.spatial.keep_growth_order = true;
-  verb->callback([arguments, &terminal] { decode_verb(*arguments, terminal); });
+  verb->callback([arguments, &terminal] {
+    if (arguments->folder.empty() && !arguments->show_plan) throw CLI::RequiredError("--output");
+    decode_verb(*arguments, terminal);
+  });
 }
 
 }  // namespace frangia

@@ -1,6 +1,7 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include <pybind11/stl.h>
@@ -14,8 +15,8 @@
 #include "frangia/phase/unwrap_spatially.h"
 #include "frangia/phase/unwrap_temporally.h"
 #include "frangia/phase/wrap_phase.h"
+#include "frangia/pipeline/plan_decoding.h"
 #include "frangia/range/triangulate.h"
-#include "frangia/rig/phase_range.h"
 #include "frangia/rig/rig.h"
 
 #include "arrays.h"
@@ -79,8 +80,16 @@ Projector screen_of(int width_px, int height_px) {
 
 AbsolutePhase unwrap_maps(const std::vector<WrappedPhase>& maps, const Projector& projector) {
   if (maps.empty()) throw Error(ErrorKind::Input, "there are no maps to unwrap");
-  if (is_absolute(maps.front().pattern, projector)) return unwrap_temporally(maps, projector);
-  return unwrap_sequence(maps, projector);
+  std::vector<Pattern> patterns;
+  for (const WrappedPhase& map : maps)
+    patterns.push_back(map.pattern);
+  const OrderSource orders = plan_maps(patterns, projector, WrapOptions{}.max_sigma_rad);
+  if (std::holds_alternative<FromCoarserMaps>(orders)) return unwrap_temporally(maps, projector);
+  if (const auto* slope = std::get_if<FromSlope>(&orders))
+    return unwrap_sequence(maps, projector, slope->method);
+  throw Error(ErrorKind::Input,
+              "the maps do not determine an absolute phase: no combination of them is unique over "
+              "the projector's field; add a coarser map");
 }
 
 void bind_maps(py::module_& module) {

@@ -106,6 +106,12 @@ std::vector<std::string> findings_of(const DecodedView& view) {
 }
 
 void bind_results(py::module_& module) {
+  py::class_<DecodePlan>(module, "DecodePlan", "Where the fringe orders of a scan come from.")
+      .def_property_readonly(
+          "absolute",
+          [](const DecodePlan& self) { return is_absolute(self); },
+          "False: phases are relative, or regions have offsets of their own.")
+      .def("__str__", [](const DecodePlan& self) { return describe(self); });
   py::class_<DecodedView>(module, "DecodedView", "The phase of one view and intermediate results.")
       .def_readonly("phase", &DecodedView::phase, "Absolute phase of the finest fringes.")
       .def_readonly("second_phase",
@@ -132,6 +138,20 @@ void bind_results(py::module_& module) {
 
 void bind_pipeline(py::module_& module) {
   bind_results(module);
+  module.def(
+      "plan_decoding",
+      [](const Scan& scan, const std::string& directions, float max_sigma_rad) {
+        DecodeOptions options;
+        options.directions = directions_of(directions);
+        options.wrap.max_sigma_rad = max_sigma_rad;
+        return plan_decoding(scan.patterns, scan.rig, options);
+      },
+      py::arg("scan"),
+      py::kw_only(),
+      py::arg("directions") = "fused",
+      py::arg("max_sigma_rad") = 0.1F,
+      "How `decode` and `reconstruct` decode the views of a scan; str() of it is a line for each "
+      "direction.");
   module.def(
       "decode",
       [](const Scan& scan,

@@ -80,6 +80,24 @@ TEST_F(DecodeProgram, GivesTheFiguresOfEachViewInJson) {
   EXPECT_FALSE(exists("stages/000"));
 }
 
+TEST_F(DecodeProgram, ShowsWhereFringeOrdersComeFrom) {
+  simulate("plate", 1);
+  const std::string text =
+      "vertical fringes of 1280, 160 and 20 px: each map gives the orders of the next finer one, "
+      "from one fringe over the field on";
+  const Answer answer = run_program("decode " + path("scan") + " --show-plan");
+  EXPECT_EQ(answer.exit_code, 0);
+  EXPECT_EQ(answer.output, text + "\n");
+  const Json alone = json_of("decode " + path("scan") + " --show-plan");
+  EXPECT_EQ(alone["absolute"], true);
+  EXPECT_EQ(alone["plan"],
+            Json::parse(R"([{"direction": "vertical", "maps": ["p1280", "p160", "p20"],
+                             "orders": "coarser-maps", "text": ")" +
+                        text + "\"}]"));
+  EXPECT_EQ(json_of("decode " + path("scan") + " -o " + path("stages"))["plan"], alone["plan"]);
+  EXPECT_EQ(run_program("decode " + path("scan") + " 2>&1").exit_code, 2);
+}
+
 TEST_F(DecodeProgram, WritesStagesAndMapsOfAScanOfOneView) {
   simulate("plate", 1);
   const Json one = json_of("decode " + path("scan") + " -o " + path("stages"));

@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "frangia/core/angles.h"
+#include "frangia/phase/unwrap_sequence.h"
 
 namespace frangia {
 namespace {
@@ -80,7 +81,10 @@ SequenceCheck checked(const std::vector<Pattern>& shown,
   std::vector<SequenceFrames> maps;
   for (const FrameStack& stack : stacks)
     maps.push_back({&stack, least_squares(stack.pattern.shifts_rad)});
-  return check_sequence(maps, noise, checked_display());
+  return check_sequence(maps,
+                        noise,
+                        checked_display(),
+                        find_sequence_method(declared, checked_display()).has_value());
 }
 
 void expect_only(const SequenceCheck& found, const std::string& pattern, const std::string& keys) {

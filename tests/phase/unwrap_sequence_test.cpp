@@ -1,6 +1,8 @@
 #include "frangia/phase/unwrap_sequence.h"
 
 #include <cmath>
+#include <optional>
+#include <span>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -48,6 +50,19 @@ std::vector<WrappedPhase> maps_of(const std::vector<double>& sequence, double si
   return maps;
 }
 
+std::optional<SequenceMethod> method_of(std::span<const WrappedPhase> maps) {
+  std::vector<Pattern> patterns;
+  for (const WrappedPhase& map : maps)
+    patterns.push_back(map.pattern);
+  return find_sequence_method(patterns, wide_display());
+}
+
+/// Unwraps by the method that the patterns allow.
+AbsolutePhase unwrapped(std::span<const WrappedPhase> maps,
+                        const TemporalUnwrapOptions& options = {}) {
+  return unwrap_sequence(maps, wide_display(), method_of(maps).value(), options);
+}
+
 struct Errors {
   double rms_rad = 0.0;  ///< over pixels of the correct order
   double wrong_share = 0.0;
@@ -75,7 +90,7 @@ TEST(UnwrapSequence, SlopeOfAllMapsReducesNoiseByThePublishedFactors) {
   for (const auto& [name, factor] :
        {std::pair{"negative-exponential", 0.43}, std::pair{"doubling", 0.87}}) {
     const auto maps = maps_of(fringe_sequence(name, 64.0), sigma);
-    const Errors errors = errors_of(unwrap_sequence(maps, wide_display()), 64.0);
+    const Errors errors = errors_of(unwrapped(maps), 64.0);
     EXPECT_NEAR(errors.rms_rad / sigma, factor, 0.01) << name;
     EXPECT_EQ(errors.wrong_share, 0.0) << name;
     EXPECT_GT(errors.kept_share, 0.999) << name;
@@ -84,15 +99,14 @@ TEST(UnwrapSequence, SlopeOfAllMapsReducesNoiseByThePublishedFactors) {
 
 TEST(UnwrapSequence, PredictsTheSigmaOfTheSlope) {
   const AbsolutePhase phase =
-      unwrap_sequence(maps_of(fringe_sequence("negative-exponential", 64.0), 0.05), wide_display());
+      unwrapped(maps_of(fringe_sequence("negative-exponential", 64.0), 0.05));
   EXPECT_NEAR(phase.sigma_rad(300, 5), 0.4318 * 0.05, 1e-4);
 }
 
 TEST(UnwrapSequence, AcceptsHeterodyneAndNonIntegerRatios) {
   for (const auto& sequence :
        {fringe_sequence("heterodyne", 64.0), std::vector<double>{1.0, 3.7, 11.9, 40.3}}) {
-    const Errors errors =
-        errors_of(unwrap_sequence(maps_of(sequence, 0.02), wide_display()), sequence.back());
+    const Errors errors = errors_of(unwrapped(maps_of(sequence, 0.02)), sequence.back());
     EXPECT_EQ(errors.wrong_share, 0.0);
     EXPECT_GT(errors.kept_share, 0.99);
   }
@@ -104,12 +118,10 @@ TEST(UnwrapSequence, WrongOrdersOccurAsPredictedAndAreDiscardedAboveTheLimit) {
   const double sigma = 0.15;
   const auto maps = maps_of({1.0, 8.0}, sigma);
   const double expected = wrong_order_probability(sigma * std::sqrt(65.0));
-  const Errors all =
-      errors_of(unwrap_sequence(maps, wide_display(), {.max_wrong_order = 1.0}), 8.0);
+  const Errors all = errors_of(unwrapped(maps, {.max_wrong_order = 1.0}), 8.0);
   const double deviation = std::sqrt(expected / ((kMapWidth - 2.0 * kMargin) * kMapHeight));
   EXPECT_NEAR(all.wrong_share, expected, 4.0 * deviation);
-  const AbsolutePhase strict =
-      unwrap_sequence(maps, wide_display(), {.max_wrong_order = 0.5 * expected});
+  const AbsolutePhase strict = unwrapped(maps, {.max_wrong_order = 0.5 * expected});
   EXPECT_EQ(strict.status(300, 5), PixelStatus::UncertainOrder);
 }
 
@@ -117,7 +129,7 @@ TEST(UnwrapSequence, UnwrapsBeatsOfBeats) {
   // No map and no beat of two has one fringe: 6, 5, and 64 - 2 * 58 + 53 = 1.
   const std::vector<double> sequence{53.0, 58.0, 64.0};
   const double sigma = 0.05;
-  const Errors errors = errors_of(unwrap_sequence(maps_of(sequence, sigma), wide_display()), 64.0);
+  const Errors errors = errors_of(unwrapped(maps_of(sequence, sigma)), 64.0);
   EXPECT_LT(errors.wrong_share, 1e-5);
   EXPECT_GT(errors.kept_share, 0.999);
   EXPECT_NEAR(errors.rms_rad / sigma, 1.0 / std::hypot(1.0, 58.0 / 64.0, 53.0 / 64.0), 0.01);
@@ -125,8 +137,7 @@ TEST(UnwrapSequence, UnwrapsBeatsOfBeats) {
 
 TEST(UnwrapSequence, UnwrapsANarrowBandWhoseBeatsAllExceedOneFringe) {
   const SequencePlan plan = plan_beats(47.0, 4, 40.0, 0.05);
-  const Errors errors =
-      errors_of(unwrap_sequence(maps_of(plan.fringes, 0.05), wide_display()), 47.0);
+  const Errors errors = errors_of(unwrapped(maps_of(plan.fringes, 0.05)), 47.0);
   EXPECT_LT(errors.wrong_share, 1e-5);
   EXPECT_GT(errors.kept_share, 0.999);
 }
@@ -134,9 +145,8 @@ TEST(UnwrapSequence, UnwrapsANarrowBandWhoseBeatsAllExceedOneFringe) {
 TEST(UnwrapSequence, UnwrapsByABeatThatIsSafeOnlyAtLowNoise) {
   const std::vector<double> sequence{15.0, 16.0};
   const std::vector<WrappedPhase> quiet = maps_of(sequence, 0.01);
-  EXPECT_TRUE(
-      determine_absolute_phase(std::vector{quiet[0].pattern, quiet[1].pattern}, wide_display()));
-  const Errors errors = errors_of(unwrap_sequence(quiet, wide_display()), 16.0);
+  EXPECT_EQ(method_of(quiet), SequenceMethod::Levels);
+  const Errors errors = errors_of(unwrapped(quiet), 16.0);
   EXPECT_EQ(errors.wrong_share, 0.0);
   EXPECT_GT(errors.kept_share, 0.999);
 }
@@ -145,20 +155,19 @@ TEST(UnwrapSequence, ConfusesOrdersAsOftenAsPredicted) {
   const std::vector<double> sequence{53.0, 58.0, 64.0};
   const double sigma = 0.11;
   const double expected = confusion_probability(sequence, sigma);
-  const Errors all = errors_of(
-      unwrap_sequence(maps_of(sequence, sigma), wide_display(), {.max_wrong_order = 1.0}), 64.0);
+  const Errors all = errors_of(unwrapped(maps_of(sequence, sigma), {.max_wrong_order = 1.0}), 64.0);
   EXPECT_GT(expected, 1e-3);
   EXPECT_NEAR(all.wrong_share / expected, 1.0, 0.25);
   // A limit discards the pixels whose second order is likely: few wrong orders are left.
-  const Errors strict = errors_of(
-      unwrap_sequence(maps_of(sequence, sigma), wide_display(), {.max_wrong_order = 1e-4}), 64.0);
+  const Errors strict =
+      errors_of(unwrapped(maps_of(sequence, sigma), {.max_wrong_order = 1e-4}), 64.0);
   EXPECT_LT(strict.wrong_share, 2e-4);
   EXPECT_GT(strict.kept_share, 0.5);
 }
 
 TEST(UnwrapSequence, DiscardsTheEndsOfAFieldWhereNoiseReachesTheOtherEnd) {
   const std::vector<double> sequence{53.0, 58.0, 64.0};
-  const AbsolutePhase phase = unwrap_sequence(maps_of(sequence, 0.05), wide_display());
+  const AbsolutePhase phase = unwrapped(maps_of(sequence, 0.05));
   for (int y = 0; y < kMapHeight; ++y) {
     for (const int x : {0, kMapWidth - 1}) {
       if (phase.status(x, y) != PixelStatus::Measured) continue;
@@ -167,9 +176,17 @@ TEST(UnwrapSequence, DiscardsTheEndsOfAFieldWhereNoiseReachesTheOtherEnd) {
   }
 }
 
+TEST(UnwrapSequence, SearchesWhereNoLevelsAreSafe) {
+  EXPECT_EQ(method_of(maps_of({1.0, 8.0, 64.0}, 0.05)), SequenceMethod::Levels);
+  EXPECT_EQ(method_of(maps_of({53.0, 58.0, 64.0}, 0.05)), SequenceMethod::Search);
+  EXPECT_EQ(method_of(maps_of({10.0, 20.0}, 0.05)), std::nullopt);
+  EXPECT_EQ(method_of({}), std::nullopt);
+}
+
 TEST(UnwrapSequence, RefusesMapsThatDetermineNoAbsolutePhase) {
   const auto refuses = [](const std::vector<WrappedPhase>& maps) {
-    EXPECT_THROW(static_cast<void>(unwrap_sequence(maps, wide_display())), Error);
+    for (const SequenceMethod method : {SequenceMethod::Levels, SequenceMethod::Search})
+      EXPECT_THROW(static_cast<void>(unwrap_sequence(maps, wide_display(), method)), Error);
   };
   refuses({});
   refuses(maps_of({10.0, 20.0}, 0.01));

@@ -76,6 +76,20 @@ class Stages(unittest.TestCase):
         phase = frangia.unwrap_temporal(maps, (width, 600))
         np.testing.assert_allclose(phase.phase, 2 * math.pi * (column + 0.5) / 12.5, atol=0.05)
 
+    def test_temporal_unwrapping_uses_all_maps_where_decode_does(self):
+        width = 800
+        column = np.linspace(10, width - 11, 80)[None, :] + np.zeros((40, 1))
+        maps = []
+        for period in (800.0, 200.0):  # a ratio that is safe for every pixel
+            pattern = frangia.Pattern.fringes(SHIFTS, period_px=period)
+            frames = frames_of(2 * math.pi * (column + 0.5) / period)
+            maps.append(frangia.wrap_phase(frangia.FrameStack(frames, pattern)))
+        phase = frangia.unwrap_temporal(maps, (width, 600))
+        ratio = np.nanmedian(phase.sigma / maps[1].sigma)
+        self.assertAlmostEqual(ratio, 1 / math.hypot(1, 1 / 4), places=3)
+        with self.assertRaisesRegex(frangia.InputError, "add a coarser map"):
+            frangia.unwrap_temporal(maps[1:], (width, 600))
+
     def test_own_algorithm(self):
         algorithm = frangia.least_squares(SHIFTS)
         np.testing.assert_allclose(algorithm.sine, [0, -0.5, 0, 0.5], atol=1e-12)

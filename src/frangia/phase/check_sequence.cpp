@@ -9,7 +9,6 @@
 #include "frangia/phase/internal/sequence_sample.h"
 #include "frangia/phase/internal/sequence_trials.h"
 #include "frangia/phase/internal/start_offset.h"
-#include "frangia/phase/unwrap_sequence.h"
 
 namespace frangia {
 namespace {
@@ -107,6 +106,7 @@ SequenceCheck misordered(const SequenceSample& sample,
 SequenceCheck check_sequence(std::span<const SequenceFrames> coarse_to_fine,
                              const NoiseModel& noise,
                              const Projector& projector,
+                             bool determines_orders,
                              const WrapOptions& wrap,
                              const SequenceCheckOptions& options) {
   SequenceCheck out;
@@ -122,18 +122,17 @@ SequenceCheck check_sequence(std::span<const SequenceFrames> coarse_to_fine,
                   sample.expected_misfit(largest_systematic(sample.patterns())) <=
                       kMaxExpected * out.chance_rad;
   }
-  const bool absolute = determine_absolute_phase(sample.patterns(), projector);
   double residual = 0.0;
   if (const auto map = misordered_map(sample, residual)) {
     const std::vector<SequenceTrial> orders = fitting_orders(sample, *map, residual);
     // Without an order that fits, harmonics explain what is left of the frames.
     if (!orders.empty() || residual > kNoFringes)
-      return misordered(sample, *map, orders, std::move(out), options, absolute);
+      return misordered(sample, *map, orders, std::move(out), options, determines_orders);
   }
   const bool disagree = out.decided && out.misfit_rad > options.max_misfit * out.chance_rad;
-  if (out.decided && !disagree && absolute) out.split_rows = sample.split_lines();
+  if (out.decided && !disagree && determines_orders) out.split_rows = sample.split_lines();
   if (!disagree && out.split_rows <= options.max_split_rows) {
-    if (!out.decided || !absolute) return out;
+    if (!out.decided || !determines_orders) return out;
     for (SequenceTrial& trial : trials_of_start_offset(sample))
       out.fits.push_back(std::move(trial.fault));
     out.consistent = out.fits.empty();
@@ -144,7 +143,7 @@ SequenceCheck check_sequence(std::span<const SequenceFrames> coarse_to_fine,
   const double limit = out.misfit_rad * (disagree ? options.max_fitted : kNotWorse);
   std::vector<RankedTrial> fits = fitting(sample, all_trials(sample), limit, options);
   if (disagree) fits = ranked(sample, with_free_starts(sample, std::move(fits)), limit, options);
-  return with_fits(std::move(out), plausible(sample, std::move(fits), options, absolute));
+  return with_fits(std::move(out), plausible(sample, std::move(fits), options, determines_orders));
 }
 
 }  // namespace frangia

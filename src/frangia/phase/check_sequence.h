@@ -38,12 +38,16 @@ struct SequenceCheckOptions {
 /// all patterns are those of scan.toml. If it is not, other declarations are tried, and those that
 /// fit decisively better are returned.
 ///
+/// `determines_orders` states whether the patterns by themselves determine the absolute phase of
+/// the finest one (`find_sequence_method`).
+///
 /// @shape    coarse to fine, all frames w x h
 /// @missing  not decided for a single pattern with three frames, for too few measured pixels, and
 ///           where the phases of unrelated patterns would fit as well
 [[nodiscard]] SequenceCheck check_sequence(std::span<const SequenceFrames> coarse_to_fine,
                                            const NoiseModel& noise,
                                            const Projector& projector,
+                                           bool determines_orders,
                                            const WrapOptions& wrap = {},
                                            const SequenceCheckOptions& options = {});
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "frangia/core/angles.h"
@@ -143,8 +144,20 @@ bool suits_hierarchy(std::span<const UnwrapLevel> levels) {
 
 }  // namespace
 
+std::optional<SequenceMethod> find_sequence_method(std::span<const Pattern> coarse_to_fine,
+                                                   const Projector& projector) {
+  if (coarse_to_fine.empty()) return std::nullopt;
+  const std::vector<UnwrapLevel> levels = find_unwrap_levels(coarse_to_fine, projector);
+  if (!levels.empty() && suits_hierarchy(levels)) return SequenceMethod::Levels;
+  if (determines_order(fringe_counts(coarse_to_fine, projector))) return SequenceMethod::Search;
+  // Levels with a narrow margin still serve where the search has none at all.
+  if (!levels.empty()) return SequenceMethod::Levels;
+  return std::nullopt;
+}
+
 AbsolutePhase unwrap_sequence(std::span<const WrappedPhase> coarse_to_fine,
                               const Projector& projector,
+                              SequenceMethod method,
                               const TemporalUnwrapOptions& options) {
   std::vector<Pattern> patterns;
   for (const WrappedPhase& map : coarse_to_fine) {
@@ -152,20 +165,11 @@ AbsolutePhase unwrap_sequence(std::span<const WrappedPhase> coarse_to_fine,
     require(same_size(map.phase_rad, coarse_to_fine.front().phase_rad),
             "unwrap_sequence: the phases differ in size");
   }
-  const std::vector<UnwrapLevel> levels = find_unwrap_levels(patterns, projector);
-  // Levels with a narrow margin still serve where the search has none at all.
-  if (!levels.empty() &&
-      (suits_hierarchy(levels) || !determines_order(fringe_counts(patterns, projector)))) {
+  if (method == SequenceMethod::Levels) {
     return unwrap_all(coarse_to_fine,
                       HierarchicalUnwrapper(patterns, projector, options.max_wrong_order));
   }
   return unwrap_all(coarse_to_fine, OrderSearch(patterns, projector, options.max_wrong_order));
-}
-
-bool determine_absolute_phase(std::span<const Pattern> coarse_to_fine, const Projector& projector) {
-  if (coarse_to_fine.empty()) return false;
-  return !find_unwrap_levels(coarse_to_fine, projector).empty() ||
-         determines_order(fringe_counts(coarse_to_fine, projector));
 }
 
 }  // namespace frangia

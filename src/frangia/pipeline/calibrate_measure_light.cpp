@@ -8,6 +8,7 @@
 #include "frangia/core/angles.h"
 #include "frangia/core/error.h"
 #include "frangia/core/parallel.h"
+#include "frangia/pipeline/internal/select_stacks.h"
 
 namespace frangia {
 namespace {
@@ -36,10 +37,7 @@ void add_direction(std::span<const FrameStack> all,
                    const MeasureLightOptions& options,
                    const Run& run,
                    std::vector<LightSite>& sites) {
-  std::vector<Pattern> patterns;
-  for (const FrameStack& stack : stacks)
-    patterns.push_back(stack.pattern);
-  const bool absolute = has_absolute_phase(patterns, display.projector);
+  const bool absolute = is_absolute(plan_decoding(patterns_of(stacks), display, options.decode));
   Image<Eigen::Vector2f> rays;
   if (!absolute && options.use_laser_line && display.laser_sheet) {
     stacks.assign(all.begin(), all.end());

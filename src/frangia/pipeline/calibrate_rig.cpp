@@ -11,6 +11,7 @@
 
 #include "frangia/pipeline/internal/calibrate_assess_solution.h"
 #include "frangia/pipeline/internal/calibrate_collect_views.h"
+#include "frangia/pipeline/plan_decoding.h"
 
 namespace frangia {
 namespace {
@@ -40,7 +41,7 @@ bool are_absolute_exchanged(const Scan& scan) {
     std::vector<Pattern> patterns = patterns_of(scan, other(direction));
     for (Pattern& pattern : patterns)
       pattern.direction = direction;
-    if (!has_absolute_phase(patterns, scan.rig.projector)) return false;
+    if (patterns.empty() || !is_absolute(plan_decoding(patterns, scan.rig, {}))) return false;
   }
   return true;
 }
@@ -61,7 +62,7 @@ void require_direction(const Scan& scan, FringeDirection direction) {
                     name,
                     name));
   }
-  if (has_absolute_phase(patterns, scan.rig.projector)) return;
+  if (is_absolute(plan_decoding(patterns, scan.rig, {}))) return;
   if (are_absolute_exchanged(scan)) {
     fail_calibration(fmt::format(
         "{}: rows and columns of the projector are exchanged, the periods say: exchange "

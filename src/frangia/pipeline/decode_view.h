@@ -1,9 +1,7 @@
 #pragma once
 
-#include <cstddef>
 #include <optional>
 #include <span>
-#include <string>
 #include <vector>
 
 #include <Eigen/Core>
@@ -14,73 +12,14 @@
 #include "frangia/frames/png.h"
 #include "frangia/fringe_order/resolve_regions.h"
 #include "frangia/phase/assess_frames.h"
-#include "frangia/phase/check_sequence.h"
-#include "frangia/phase/correct_order_jumps.h"
-#include "frangia/phase/fill_enclosed.h"
-#include "frangia/phase/linear_algorithm.h"
 #include "frangia/phase/phase_map.h"
-#include "frangia/phase/unwrap_spatially.h"
-#include "frangia/phase/unwrap_temporally.h"
-#include "frangia/phase/wrap_phase.h"
-#include "frangia/pipeline/own_stages.h"
-#include "frangia/pipeline/phase_files.h"
-#include "frangia/pipeline/survey_scan.h"
+#include "frangia/phase/sequence_check.h"
+#include "frangia/pipeline/decode_options.h"
+#include "frangia/pipeline/plan_decoding.h"
 #include "frangia/range/laser_profile.h"
-#include "frangia/rig/fringe_waveform.h"
 #include "frangia/rig/rig.h"
 
 namespace frangia {
-
-/// Which directions of fringes of a scan that has both are used.
-enum class DirectionChoice {
-  Fused,      ///< both, combined by least squares in triangulation
-  Best,       ///< at each pixel, the one whose point has the smaller standard deviation
-  Vertical,   ///< vertical fringes only
-  Horizontal  ///< horizontal fringes only
-};
-
-/// Which colors of the pixels are kept, see `view_color`.
-enum class FrameColors {
-  None,    ///< none
-  Linear,  ///< the frames are proportional to light, as those of machine cameras
-  Encoded  ///< the frames are coded for a screen, as photographs are
-};
-
-/// Options of the stages from frames to absolute phase.
-struct DecodeOptions {
-  std::string algorithm = "auto";  ///< name, see `fit_algorithm`
-  /// An algorithm of the user, instead of the named one.
-  std::optional<LinearAlgorithm> own_algorithm;
-  /// Recovers the one saturated frame of four instead of discarding the pixel as the 1997 paper
-  /// does.
-  bool recover_saturated = false;
-  /// Response of a projector that showed the patterns without its look-up table; its effect on the
-  /// phase is removed.
-  std::optional<ResponseCurve> response;
-  /// Waveforms of such a projector's fringes, by period; they take precedence over `response`.
-  std::vector<FringeWaveform> waveforms;
-  /// Removes the effect of the harmonics that the frames themselves show; takes precedence over
-  /// `response` and `waveforms`.
-  bool undo_own_response = false;
-  /// Keeps the wrapped maps. Otherwise a sequence is decoded in one pass over its frames if all its
-  /// unwrapping levels are safe for every pixel that `wrap` keeps.
-  bool keep_maps = true;
-  DirectionChoice directions = DirectionChoice::Fused;  ///< of a scan that has both directions
-  /// Triangulates frames that do not fit scan.toml.
-  bool accept_inconsistent = false;
-  SequenceCheckOptions sequence_check;     ///< comparison of the patterns with each other
-  ScanSurvey survey;                       ///< noise and gain error pooled over several views
-  WrapOptions wrap;                        ///< limit of the phase noise
-  TemporalUnwrapOptions temporal;          ///< temporal unwrapping
-  OrderJumpOptions order_jumps;            ///< correction of regions whose order is wrong
-  SpatialUnwrapOptions spatial;            ///< spatial unwrapping, for scans without a sequence
-  LaserProfileOptions line;                ///< detection of the laser line
-  FringeOrderOptions fringe_order;         ///< fringe orders from the laser line
-  FillOptions fill;                        ///< interpolation of enclosed pixels
-  FrameColors colors = FrameColors::None;  ///< colors of the pixels that are kept
-  OwnStages own;                           ///< functions of the caller instead of ours
-  std::optional<PhaseFiles> phase_files;   ///< maps of another program instead of ours
-};
 
 /// The phase of one view and the intermediate results.
 struct DecodedView {
@@ -101,40 +40,32 @@ struct DecodedView {
   Image<Rgb> color;                          ///< of each pixel; empty unless `colors` asks for it
 };
 
-/// Computes the absolute phase of one view from its frames.
-///
-/// Fringe orders come from Gray code or from temporal unwrapping, where the patterns allow it.
-/// Otherwise the phase is unwrapped spatially and its order comes from the laser sheet, or, without
-/// one, from the distance at which the axes of camera and projector cross. A rig without geometry
-/// leaves the orders of a spatially unwrapped phase open: each region then has an offset of its
-/// own.
+/// Computes the absolute phase of one view from its frames, as `plan` says.
 ///
 /// The patterns of each direction are compared with each other; `checks` holds the result, and the
 /// caller decides whether a phase that does not fit is used.
 ///
-/// @shape    `stacks` as read_frames returns them; `rays` as rays_of(rig.camera.model), or empty
-/// for
-///           a rig without geometry
+/// @shape    `stacks` as read_frames returns them, of the patterns of `plan`; `rays` as
+///           rays_of(rig.camera.model), or empty for a rig without geometry
 /// @units    rad, counts
 /// @missing  NaN in a phase; `status` gives the reason
-/// A scan of Gray code alone is decoded to the columns of its stripes, see `decode_gray_alone`.
-///
-/// @errors   Error(Input) when no pattern holds fringes or a Gray code, or none in the chosen
-/// direction,
-///           or when a function of `options.own` returns images of another size
+/// @errors   Error(Input) when a function of `options.own` returns images of another size, or when
+///           the stacks are not those of the plan
 [[nodiscard]] DecodedView decode_view(std::span<const FrameStack> stacks,
+                                      const DecodePlan& plan,
                                       const Rig& rig,
                                       const Image<Eigen::Vector2f>& rays,
                                       const DecodeOptions& options = {},
                                       const Run& run = {});
 
-/// The options of one view: its functions take the maps of `phase_files`, where these are given.
-[[nodiscard]] DecodeOptions options_of_view(const DecodeOptions& options, std::size_t view);
-
-/// Whether the patterns determine fringe orders: one of them is absolute, a Gray code or the laser
-/// sheet, or their beats have one fringe over the field. Otherwise a reconstruction is relative to
-/// the fringe through the projection axis.
-[[nodiscard]] bool has_absolute_phase(std::span<const Pattern> patterns,
-                                      const Projector& projector);
+/// Computes the same for frames of which there is one view only: plans from the patterns of its
+/// stacks.
+///
+/// @errors   as above, and as `plan_decoding`
+[[nodiscard]] DecodedView decode_view(std::span<const FrameStack> stacks,
+                                      const Rig& rig,
+                                      const Image<Eigen::Vector2f>& rays,
+                                      const DecodeOptions& options = {},
+                                      const Run& run = {});
 
 }  // namespace frangia

@@ -23,6 +23,7 @@
 #include "frangia/pipeline/internal/register_setups.h"
 #include "frangia/pipeline/internal/remove_background.h"
 #include "frangia/pipeline/internal/resolve_fringe_orders.h"
+#include "frangia/pipeline/internal/scan_decoding.h"
 #include "frangia/pipeline/internal/split_setups.h"
 #include "frangia/pipeline/internal/tie_cameras.h"
 #include "frangia/pipeline/internal/turntable_part.h"
@@ -48,12 +49,12 @@ void report_disagreement(const MeasuredViews& measured, Reconstruction& out) {
 /// registers them on the turntable. False where no indirect light was found before the
 /// registration.
 bool register_setup(MeasuredSetup& setup,
-                    const Scan& scan,
-                    const Image<Eigen::Vector2f>& rays,
+                    const ScanDecoding& decoding,
                     const ReconstructOptions& options,
                     double& turntable_top_height_mm,
                     const Run& run) {
   MeasuredViews& measured = setup.measured;
+  const Scan& scan = decoding.scan;
   const CameraModel& camera = scan.rig.camera.model;
   bool indirect_light = true;
   if (measured.points == 0) return true;
@@ -64,8 +65,7 @@ bool register_setup(MeasuredSetup& setup,
   }
   if (options.register_views) {
     if (options.indirect_light) {
-      indirect_light =
-          correct_before_registration(measured, {scan, rays, options.decode}, options.fusion, run);
+      indirect_light = correct_before_registration(measured, decoding, options.fusion, run);
     }
     setup.registration = register_views(measured.views,
                                         camera,
@@ -138,21 +138,20 @@ struct RegisteredViews {
 
 /// Views -> one surface, with its points and colors.
 Mesh fuse_registered(RegisteredViews& registered,
-                     const Scan& scan,
-                     const Image<Eigen::Vector2f>& rays,
+                     const ScanDecoding& decoding,
                      const ReconstructOptions& options,
                      Reconstruction& out,
                      const Run& run) {
   run.stage("surface");
+  const Scan& scan = decoding.scan;
   MeasuredSetup& joined = registered.joined;
   const MeasuredViews& all = joined.measured;
   FusionOptions fusion = options.fusion;
-  fusion.add_systematic = calibration_part(all.views, scan.rig, all.coarsest, rays);
+  fusion.add_systematic = calibration_part(all.views, scan.rig, all.coarsest, decoding.rays);
   const std::vector<CameraViews> cameras = views_of_cameras(all, scan.rig);
   Mesh fused = fuse_views(cameras, fusion, run);
   if (options.indirect_light && registered.indirect_light && cameras.size() == 1) {
-    out.indirect_light =
-        correct_indirect_light(fused, joined.measured, {scan, rays, options.decode}, fusion, run);
+    out.indirect_light = correct_indirect_light(fused, joined.measured, decoding, fusion, run);
   }
   const ViewMotions motions = motions_of_views(joined, scan.rig, options, run);
   const bool turntable_counts = add_turntable_part(fused, cameras, motions, run);
@@ -182,8 +181,10 @@ Reconstruction reconstruct_with_refined_rig(const Scan& scan,
 
 Reconstruction reconstruct(const Scan& scan, const ReconstructOptions& options, const Run& run) {
   if (options.refine_rig) return reconstruct_with_refined_rig(scan, options, run);
-  check_geometry(scan, run);
+  const DecodePlan plan = plan_decoding(scan.patterns, scan.rig, options.decode);
+  check_geometry(scan, plan, run);
   const auto rays = rays_of(scan.rig.camera.model);
+  const ScanDecoding decoding{scan, rays, options.decode, plan};
   Reconstruction out;
   out.cameras = camera_count(scan.rig);
 
@@ -208,7 +209,7 @@ Reconstruction reconstruct(const Scan& scan, const ReconstructOptions& options, 
   for (MeasuredSetup& setup : setups) {
     unresolved += resolve_fringe_orders(
         setup.measured, scan.rig, rays, options.resolve_by_views, correction, run);
-    indirect_light |= register_setup(setup, scan, rays, options, out.turntable_top_height_mm, run);
+    indirect_light |= register_setup(setup, decoding, options, out.turntable_top_height_mm, run);
     out.points += setup.measured.points;
     add_outliers(outliers, setup);
   }
@@ -221,7 +222,7 @@ Reconstruction reconstruct(const Scan& scan, const ReconstructOptions& options, 
   RegisteredViews registered{
       register_together(std::move(setups), scan, options, std::move(outliers), out, run),
       indirect_light};
-  Mesh fused = fuse_registered(registered, scan, rays, options, out, run);
+  Mesh fused = fuse_registered(registered, decoding, options, out, run);
   out.mesh = finish_mesh(std::move(fused), options.finish, run);
   if (out.mesh.triangles.empty()) {
     throw Error(ErrorKind::Input,

@@ -319,7 +319,7 @@ double SequenceSample::shown_frequency(std::size_t map) const {
     per_unit.push_back(patterns_[m].fringes_per_unit());
     phases.push_back(all[m]);
   }
-  if (!determine_absolute_phase(others, projector_)) return frequency_by_slopes(map);
+  if (!find_sequence_method(others, projector_)) return frequency_by_slopes(map);
   FringeCurve curve(per_unit, first_, last_);
   std::vector<float> pixel(phases.size());
   std::vector<double> places;

@@ -8,7 +8,6 @@
 
 #include "frangia/core/angles.h"
 #include "frangia/core/error.h"
-#include "frangia/pipeline/decode_view.h"
 #include "frangia/rig/fringe_parallax.h"
 
 namespace frangia {
@@ -49,8 +48,8 @@ void check_parallax(const Scan& scan) {
 }
 
 /// Fringe orders that nothing determines leave distances open, or label no points.
-void check_fringe_orders(const Scan& scan, const Run& run) {
-  if (has_absolute_phase(scan.patterns, scan.rig.projector)) return;
+void check_fringe_orders(const Scan& scan, const DecodePlan& plan, const Run& run) {
+  if (is_absolute(plan)) return;
   if (scan.rig.projector.is_label) {
     throw Error(
         ErrorKind::Input,
@@ -65,10 +64,10 @@ void check_fringe_orders(const Scan& scan, const Run& run) {
 
 }  // namespace
 
-void check_geometry(const Scan& scan, const Run& run) {
+void check_geometry(const Scan& scan, const DecodePlan& plan, const Run& run) {
   check_turntable(scan);
   check_parallax(scan);
-  check_fringe_orders(scan, run);
+  check_fringe_orders(scan, plan, run);
 }
 
 }  // namespace frangia

@@ -2,6 +2,7 @@
 
 #include "frangia/core/run.h"
 #include "frangia/dataset/scan_folder.h"
+#include "frangia/pipeline/plan_decoding.h"
 
 namespace frangia {
 
@@ -10,6 +11,6 @@ namespace frangia {
 /// Warns where distances are relative only.
 ///
 /// @errors   Error(Input), with what to capture or to state in rig.toml
-void check_geometry(const Scan& scan, const Run& run);
+void check_geometry(const Scan& scan, const DecodePlan& plan, const Run& run);
 
 }  // namespace frangia

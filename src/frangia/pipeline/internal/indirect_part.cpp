@@ -6,6 +6,7 @@
 #include <memory>
 #include <string>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "frangia/core/median.h"
@@ -15,26 +16,11 @@
 #include "frangia/indirect_light/indirect_phase.h"
 #include "frangia/indirect_light/lit_surface.h"
 #include "frangia/indirect_light/view_light.h"
-#include "frangia/phase/unwrap_levels.h"
 #include "frangia/pipeline/internal/indirect_correction.h"
 #include "frangia/range/fringe_ray.h"
-#include "frangia/rig/phase_range.h"
 
 namespace frangia {
 namespace {
-
-/// The fringe patterns of one direction, coarse to fine.
-std::vector<Pattern> fringes_in(std::span<const Pattern> all, FringeDirection direction) {
-  std::vector<Pattern> out;
-  for (const Pattern& pattern : all) {
-    if (pattern.kind == PatternKind::Fringe && pattern.direction == direction)
-      out.push_back(pattern);
-  }
-  std::stable_sort(out.begin(), out.end(), [](const Pattern& a, const Pattern& b) {
-    return a.fringes_per_unit() < b.fringes_per_unit();
-  });
-  return out;
-}
 
 /// Pixels on a regular grid, about `count` of those of a view that have a point.
 std::vector<Eigen::Vector2i> sampled_pixels(const Image<float>& depth_mm, std::size_t count) {
@@ -141,19 +127,18 @@ void add_samples(const DecodedView& decoded,
   }
 }
 
-/// How the decoded sequence obtains its phase; see `decode_view`.
-PhaseSource source_of(const Scan& scan,
-                      std::span<const Pattern> patterns,
-                      const DecodeOptions& decode) {
-  constexpr double kMaxWrongOrder = 1e-6;  // as in decode_view
-  const bool gray =
-      std::any_of(scan.patterns.begin(), scan.patterns.end(), [&](const Pattern& pattern) {
-        return pattern.kind == PatternKind::Gray && pattern.direction == patterns.back().direction;
+/// The plan of a direction; null where it is not decoded.
+const DirectionPlan* plan_of(const DecodePlan& plan, FringeDirection direction) {
+  const auto found =
+      std::find_if(plan.directions.begin(), plan.directions.end(), [&](const DirectionPlan& one) {
+        return one.direction == direction;
       });
-  const auto levels = find_unwrap_levels(patterns, scan.rig.projector);
-  const bool safe = is_safe(levels, decode.wrap.max_sigma_rad, kMaxWrongOrder);
-  const bool hierarchical = is_absolute(patterns.front(), scan.rig.projector) && !safe;
-  return gray || hierarchical || patterns.size() == 1 ? PhaseSource::Finest : PhaseSource::Slope;
+  return found == plan.directions.end() ? nullptr : &*found;
+}
+
+/// What the phase of a direction is computed from.
+PhaseSource source_of(const DirectionPlan& plan) {
+  return std::holds_alternative<FromSlope>(plan.orders) ? PhaseSource::Slope : PhaseSource::Finest;
 }
 
 /// Summarizes what is added to the points of the view that sees most of it.
@@ -209,8 +194,12 @@ void add_views(const ScanDecoding& decoding,
     const std::size_t view = exposure.view;
     const std::size_t index = index_in_scan(scan, measured.stations[view].name);
     if (index == scan.views.size()) continue;
-    const DecodedView decoded = decode_view(
-        read_frames(scan, index, run), scan.rig, rays, options_of_view(options, index), quiet);
+    const DecodedView decoded = decode_view(read_frames(scan, index, run),
+                                            decoding.plan,
+                                            scan.rig,
+                                            rays,
+                                            options_of_view(options, index),
+                                            quiet);
     add_samples(decoded, measured.views.load_points(view), lit, rays, samples);
   }
 }
@@ -225,14 +214,14 @@ std::optional<IndirectPart> indirect_part(const ScanDecoding& decoding,
   constexpr std::size_t kDecoded = 3;  // views whose frames determine the reflectance
   const Scan& scan = decoding.scan;
   const Image<Eigen::Vector2f>& rays = decoding.rays;
-  const auto patterns = fringes_in(scan.patterns, measured.coarsest.direction);
-  if (patterns.empty() || surface.empty()) return std::nullopt;
+  const DirectionPlan* plan = plan_of(decoding.plan, measured.coarsest.direction);
+  if (plan == nullptr || plan->maps.empty() || surface.empty()) return std::nullopt;
   Mesh shape;
   shape.vertices_mm = surface.vertices_mm;
   shape.triangles = surface.triangles;
   shape.normals = surface.normals;
   const auto lit =
-      std::make_shared<const LitSurface>(std::move(shape), scan.rig.projector, patterns);
+      std::make_shared<const LitSurface>(std::move(shape), scan.rig.projector, plan->maps);
   std::vector<ViewExposure> exposures;
   for (std::size_t i = 0; i < measured.views.size(); ++i) {
     run.check();
@@ -252,19 +241,12 @@ std::optional<IndirectPart> indirect_part(const ScanDecoding& decoding,
     if (begin == end) break;
     const auto views = std::span(exposures).subspan(begin, end - begin);
     add_views(decoding, measured, views, *lit, run, samples);
-    found = estimate_albedo(samples, patterns);
+    found = estimate_albedo(samples, plan->maps);
     if (!found.significant) return std::nullopt;
   }
-  const DirectionChoice chosen = decoding.options.directions;
-  const bool one_direction = chosen == DirectionChoice::Vertical ||
-                             chosen == DirectionChoice::Horizontal ||
-                             fringes_in(scan.patterns,
-                                        patterns.back().direction == FringeDirection::Vertical
-                                            ? FringeDirection::Horizontal
-                                            : FringeDirection::Vertical)
-                                 .empty();
+  const bool one_direction = decoding.plan.directions.size() == 1;
   const auto correction = std::make_shared<const IndirectCorrection>(
-      lit, found.albedo, source_of(scan, patterns, decoding.options), one_direction, rays);
+      lit, found.albedo, source_of(*plan), one_direction, rays);
   IndirectPart out;
   out.report = report_of(
       measured.views.load_points(exposures.front().view), *lit, *correction, found.albedo, rays);

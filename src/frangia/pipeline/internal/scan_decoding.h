@@ -13,6 +13,7 @@ struct ScanDecoding {
   const Scan& scan;
   const Image<Eigen::Vector2f>& rays;  ///< of the reference camera
   const DecodeOptions& options;
+  const DecodePlan& plan;
 };
 
 }  // namespace frangia

@@ -38,10 +38,10 @@ std::span<const FrameStack> gray_of(std::span<const FrameStack> stacks, FringeDi
   return {};
 }
 
-std::vector<Pattern> patterns_of(std::span<const FrameStack* const> stacks) {
+std::vector<Pattern> patterns_of(std::span<const FrameStack> stacks) {
   std::vector<Pattern> patterns;
-  for (const FrameStack* stack : stacks)
-    patterns.push_back(stack->pattern);
+  for (const FrameStack& stack : stacks)
+    if (stack.exposure == 0) patterns.push_back(stack.pattern);
   return patterns;
 }
 

@@ -22,7 +22,7 @@ namespace frangia {
 [[nodiscard]] std::span<const FrameStack> gray_of(std::span<const FrameStack> stacks,
                                                   FringeDirection direction);
 
-/// Returns the patterns of some stacks.
-[[nodiscard]] std::vector<Pattern> patterns_of(std::span<const FrameStack* const> stacks);
+/// Returns the patterns that some stacks show, each once.
+[[nodiscard]] std::vector<Pattern> patterns_of(std::span<const FrameStack> stacks);
 
 }  // namespace frangia

@@ -11,9 +11,12 @@ ViewDecoder::ViewDecoder(const Scan& scan,
                          const Image<Eigen::Vector2f>& rays,
                          const DecodeOptions& options,
                          const Run& run)
-    : scan_(scan), rays_(rays), options_(options), run_(run), forward_stop_(run.stop, [this] {
-        stop_.request_stop();
-      }) {
+    : scan_(scan),
+      rays_(rays),
+      options_(options),
+      plan_(plan_decoding(scan.patterns, scan.rig, options)),
+      run_(run),
+      forward_stop_(run.stop, [this] { stop_.request_stop(); }) {
   start();
 }
 
@@ -50,7 +53,8 @@ ViewDecoder::Outcome ViewDecoder::decode(std::size_t view) const {
   decoding.on_note = [&](const std::string& sentence) { run.note(prefix + sentence); };
   try {
     const std::vector<FrameStack> stacks = read_frames(scan_, view, run);
-    out.view = decode_view(stacks, scan_.rig, rays_, options_of_view(options_, view), decoding);
+    out.view =
+        decode_view(stacks, plan_, scan_.rig, rays_, options_of_view(options_, view), decoding);
     out.view.color = view_color(stacks, options_.colors);
   } catch (...) {
     out.error = std::current_exception();

@@ -24,7 +24,9 @@ namespace frangia {
 /// views. The thread ends before the destructor returns.
 class ViewDecoder {
  public:
-  /// The arguments must outlive this object.
+  /// Plans the decoding of all views. The arguments must outlive this object.
+  ///
+  /// @errors   as plan_decoding
   ViewDecoder(const Scan& scan,
               const Image<Eigen::Vector2f>& rays,
               const DecodeOptions& options,
@@ -56,6 +58,7 @@ class ViewDecoder {
   const Scan& scan_;
   const Image<Eigen::Vector2f>& rays_;
   const DecodeOptions& options_;
+  const DecodePlan plan_;
   const Run& run_;
   std::stop_source stop_;
   std::stop_callback<std::function<void()>> forward_stop_;
