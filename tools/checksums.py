@@ -92,12 +92,12 @@ def digital(shop):
 
 
 def sheet(shop):
-    shop.simulate("sheet", "shaft", "angular", 6)
+    shop.simulate("sheet", "bust", "angular", 6)
 
 
 def two_maps_sheet(shop):
-    shop.simulate("two-maps-sheet", "shaft", "angular", 6)
-    shop.simulate("coarse", "shaft", "angular", 6, "--fringes-per-degree", 0.25)
+    shop.simulate("two-maps-sheet", "bust", "angular", 6)
+    shop.simulate("coarse", "bust", "angular", 6, "--fringes-per-degree", 0.25)
     shop.append_patterns("two-maps-sheet", "coarse", {"fringe": "coarse"})
 
 
@@ -195,7 +195,7 @@ def main():
     action.add_argument("--compare", action="store_true", help="name what differs from tools/checksums.txt")
     parser.add_argument("--keep", type=pathlib.Path, metavar="FOLDER", help="a new folder for scans and results")
     parser.add_argument("scans", nargs="*", metavar="SCAN", help=f"all by default: {', '.join([*SCANS, 'merge'])}")
-    arguments = parser.parse_args()
+    arguments = parser.parse_intermixed_args()
     names = arguments.scans or [*SCANS, "merge"]
     if unknown := [name for name in names if name not in SCANS and name != "merge"]:
         parser.error(f"there is no scan {', '.join(unknown)}; choose from {', '.join([*SCANS, 'merge'])}")
