@@ -1,5 +1,5 @@
 // Measures what half and double of each parameter of the fusion do to the mesh of one simulated
-// scan. tools/sensitivity.py runs it on six scans and writes docs/parameters.md.
+// scan. `./run figures sensitivity` runs it on six scans and writes docs/parameters.md.
 //
 // usage: fusion_sensitivity SCAN [--all] [NAME=VALUE ...]
 // Prints one line of JSON for the given values, and with --all one for half and double of each

@@ -14,6 +14,10 @@ import subprocess
 import sys
 import tempfile
 
+sys.path.append(str(pathlib.Path(__file__).resolve().parent / "figures"))
+
+from scans import Scans  # noqa: E402
+
 PROGRAM = pathlib.Path(sys.argv[1]).resolve()
 PAGE = pathlib.Path(sys.argv[2])
 ONLY = set(sys.argv[3:])
@@ -195,8 +199,8 @@ def main():
         line.split("|")[1].strip(): line for line in old.splitlines() if line.startswith("| ") and "---" not in line
     }
 
-    program("simulate", "bracket", "--rig", "digital", "--views", 2, "-o", WORK / "scan")
-    program("edit", WORK / "scan" / "truth.ply", "--remesh", "4mm", "-o", WORK / "closed.ply")
+    scan = Scans(PROGRAM).made("simulate", "bracket", "--rig", "digital", "--views", 2)
+    program("edit", scan / "truth.ply", "--remesh", "4mm", "-o", WORK / "closed.ply")
     write_open_mesh(WORK / "open.ply")
     counts = {}
     for mesh in ("closed", "open"):

@@ -3,18 +3,12 @@ import pathlib
 import re
 import sys
 
+from module_statement import module_uses
+
 root = pathlib.Path(sys.argv[1])
-statements = re.findall(r"^\s*frangia_module\((.*?)\)", (root / "CMakeLists.txt").read_text(), re.M | re.S)
 uses = {}  # module -> the modules that it may include, in the order of CMakeLists.txt
 errors = []
-for statement in statements:
-    name, *words = statement.split()
-    keyword, allowed = None, []
-    for word in words:
-        if word in ("USES", "LIBS", "PRIVATE_LIBS", "PRIVATE_HEADERS"):
-            keyword = word
-        elif keyword == "USES":
-            allowed.append(word)
+for name, allowed in module_uses(root).items():
     for used in allowed:
         if used not in uses:
             errors.append(f"CMakeLists.txt: {name} uses {used}, which is not stated before it")

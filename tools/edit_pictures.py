@@ -5,15 +5,19 @@
 The mesh is a simulated scan of the bust, for some operations of the bracket. With names, draws only those pictures.
 """
 import pathlib
+import shutil
 import subprocess
 import sys
 import tempfile
 
+sys.path.append(str(pathlib.Path(__file__).resolve().parent / "figures"))
+
+from scans import Scans  # noqa: E402
+
 PROGRAM = pathlib.Path(sys.argv[1]).resolve()
 OUT = pathlib.Path(sys.argv[2]).resolve()
 ONLY = set(sys.argv[3:])
-WORK = pathlib.Path(tempfile.gettempdir()) / "frangia-edit-pictures"
-WORK.mkdir(exist_ok=True)
+WORK = pathlib.Path(tempfile.mkdtemp(prefix="frangia-edit-pictures-"))
 OUT.mkdir(parents=True, exist_ok=True)
 
 
@@ -25,11 +29,9 @@ def edit(source, target, *arguments):
     run("edit", source, *arguments, "-o", target)
 
 
-def scan(part, *options):
+def scan(part):
     mesh = WORK / f"{part}.ply"
-    if not mesh.exists():
-        run("simulate", part, "--rig", "digital", *options, "-o", WORK / f"{part}-scan")
-        run("reconstruct", WORK / f"{part}-scan", "-o", mesh)
+    run("reconstruct", Scans(PROGRAM).made("simulate", part, "--rig", "digital"), "-o", mesh)
     return mesh
 
 
@@ -201,3 +203,4 @@ if not ONLY or "unite" in ONLY:
     show("unite", bodies, united, "--azimuth", -80)
 picture("orient", broken("flipped", flipped), ["--orient"])
 picture("stitch", broken("unconnected", unconnected), ["--stitch", "0.1mm"], "--edges")
+shutil.rmtree(WORK)

@@ -16,6 +16,10 @@ import matplotlib
 matplotlib.use("svg")
 import matplotlib.pyplot as plt  # noqa: E402  (the backend must be chosen first)
 
+sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), "figures"))
+
+from scans import Scans  # noqa: E402
+
 
 def chart(folder, name, title, x_label, y_label, draw):
     figure, axes = plt.subplots(figsize=(6.4, 4.0))
@@ -42,9 +46,8 @@ def stages(program, folder):
         ("mask", "reason of missing pixels"),
     )
     with tempfile.TemporaryDirectory() as work:
-        scan, views = os.path.join(work, "scan"), os.path.join(work, "stages")
-        subprocess.run(
-            [program, "--quiet", "simulate", "bracket", "--rig", "carducci", "--views", "4", "-o", scan], check=True
+        scan, views = Scans(program).made("simulate", "bracket", "--rig", "carducci", "--views", 4), os.path.join(
+            work, "stages"
         )
         subprocess.run([program, "--quiet", "decode", scan, "--view", "0", "-o", views], check=True)
         figure, all_axes = plt.subplots(1, len(shown), figsize=(14, 2.9))
@@ -85,13 +88,11 @@ def noise_points(program):
             )
             return image(os.path.join(out, "p20-wrapped.tiff")), image(os.path.join(out, "p20-modulation.tiff"))
 
-        def simulated(name, *options):
-            scan = os.path.join(work, name)
-            subprocess.run([program, "--quiet", "simulate", "plate", "--views", "1", *options, "-o", scan], check=True)
-            return scan
+        def simulated(*options):
+            return Scans(program).made("simulate", "plate", "--views", 1, *options)
 
-        exact = simulated("exact", "--no-noise", "--bits", "16")
-        noisy = [simulated(f"noisy-{level}", "--exposure", str(level)) for level in (0.06, 0.12, 0.25, 0.5, 1)]
+        exact = simulated("--no-noise", "--bits", 16)
+        noisy = [simulated("--exposure", level) for level in (0.06, 0.12, 0.25, 0.5, 1)]
         points = {}
         for algorithm in ("least-squares", "global-carre", "carre"):
             truth = decoded(exact, "least-squares")[0]

@@ -15,6 +15,10 @@ import numpy
 from PIL import Image, ImageDraw, ImageFont
 from skimage.measure import marching_cubes
 
+sys.path.append(str(pathlib.Path(__file__).resolve().parent / "figures"))
+
+from scans import Scans  # noqa: E402
+
 PROGRAM = pathlib.Path(sys.argv[1]).resolve()
 IMAGES = pathlib.Path(sys.argv[2])
 WORK = pathlib.Path(tempfile.mkdtemp(prefix="frangia-surface-pictures-"))
@@ -25,10 +29,8 @@ def run(*arguments):
     return json.loads(result.stdout) if result.stdout.strip() else {}
 
 
-def simulate(part, name, *options):
-    scan = WORK / name
-    run("simulate", part, "--rig", "digital", "--samples", 4, "-o", scan, *options)
-    return scan
+def simulate(part, *options):
+    return Scans(PROGRAM).made("simulate", part, "--rig", "digital", "--samples", 4, *options)
 
 
 class Rig:
@@ -162,7 +164,7 @@ HALF = (0.25, 0.02, 0.75, 0.98)  # the box of an upright part
 
 
 def registration():
-    scan = simulate("bust", "misaligned", "--axis-offset", 0.5, "--axis-tilt", 0.3, "--angle-error", 0.15)
+    scan = simulate("bust", "--axis-offset", 0.5, "--axis-tilt", 0.3, "--angle-error", 0.15)
     mesh = WORK / "misaligned.ply"
     answer = run("reconstruct", scan, "-o", mesh)["registration"]
     rig = Rig(scan / "rig.toml")
@@ -184,7 +186,7 @@ def registration():
 
 
 def sigma_and_closing():
-    scan = simulate("bust", "bust")
+    scan = simulate("bust")
     mesh, closed = WORK / "bust.ply", WORK / "closed.ply"
     run("reconstruct", scan, "-o", mesh)
     run("reconstruct", scan, "-o", closed, "--watertight")
@@ -228,7 +230,7 @@ def stations_of(scan):
 
 def setups():
     """Draws the bracket standing and lying: with unchanged pose, and with aligned setups."""
-    scan = simulate("bracket", "setups", "--setups", 90)
+    scan = simulate("bracket", "--setups", 90)
     answer = run("reconstruct", scan, "-o", WORK / "setups.ply")["registration"]
     rig = Rig(scan / "rig.toml")
     angles, setup_of = stations_of(scan)
@@ -287,7 +289,7 @@ def block_edge():
     surface. A cell with an unknown corner stays open.
     """
     write_block(WORK / "block-part.ply")
-    scan = simulate(WORK / "block-part.ply", "block")
+    scan = simulate(WORK / "block-part.ply")
     voxel = 0.5
     run("reconstruct", scan, "-o", WORK / "block.ply", "--voxel", voxel)
     rig = Rig(scan / "rig.toml")

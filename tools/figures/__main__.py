@@ -1,88 +1,84 @@
-"""Measures the figures of the documentation: python3 tools/figures PROGRAM [NAME...], or `./run figures [NAME...]`.
+"""Measures the figures of the documentation: python3 tools/figures PROGRAM [NAME...] [--full] [--again], or `./run figures`.
 
 Each section is a file of `sections` and one part of a page in docs; a section that is not named, or that needs something
-missing on this machine, stays as it is. Without names all are measured; `list` prints them. An interrupted section goes
-on with the scans that it has made.
+missing on this machine, stays as it is. Without names all are measured; `changed` stands for those whose inputs changed
+since they were measured last, `list` prints them with the time, the revision and the state of the last measurement.
+
+--full   all cases of a section; otherwise a fixed part of them, of at most ten minutes on two idle cores
+--again  measures also the cases whose results by the same inputs are known, which an interrupted measurement goes on with
+--names  prints the names of the sections that would be measured
+
+PROGRAM is the program that the sources of this folder build: what is kept is known by their checksums.
 """
-import importlib
 import pathlib
+import subprocess
 import sys
 
 HERE = pathlib.Path(__file__).resolve().parent
 sys.path[:0] = [str(HERE), str(HERE / "sections"), str(HERE.parent)]
 
-from page import write_section  # noqa: E402
-from study import ROOT, NotMeasured, Study  # noqa: E402
+from measure import cases_of, expected_s, importlib, is_changed, measure, read_record, time_text  # noqa: E402
+from scans import Scans  # noqa: E402
+from table import SECTIONS  # noqa: E402
 
-# In the order in which they stand on their pages.
-SECTIONS = [
-    "skull",
-    "balls",
-    "paper_block",
-    "simulated",
-    "sharp_edges",
-    "misaligned_turntable",
-    "large",
-    "views",
-    "edits",
-    "decimation",
-    "calibration",
-    "calibration_doctor",
-    "calibration_angular",
-    "maker_path",
-    "refine_rig",
-    "captured_scan",
-    "gige",
-    "step_control",
-    "polished_blade",
-    "capture_overhead",
-    "import_frames",
-    "batch",
-    "file_readers",
-    "harmonics",
-    "indirect_light",
-    "sequence_faults",
-    "two_cameras",
-    "app",
-    "features",
-    "alignment",
-    "deviation",
-    "blade",
-    "cad",
-    "edit_pictures",
-    "surface_pictures",
-    "phase_plots",
-    "sensitivity",
-]
+OPTIONS = ("--full", "--again", "--names")
 
 
-def measure(program, name):
-    section = importlib.import_module(name)
-    print(f"\n==> figures {name}: {section.__doc__.splitlines()[0]}", flush=True)
-    study = Study(program)
+def times_of(name):
+    """The expected time of the part and, where it is longer, of the full measurement."""
     try:
-        section.measure(study)
-    except NotMeasured as reason:
-        print(f"figures: {name} is not measured: {reason}", flush=True)
-        return
-    title = getattr(section, "TITLE", None)
-    if title:  # the others write their pictures and tables themselves
-        page = ROOT / "docs" / getattr(section, "PAGE", "figures.md")
-        write_section(page, SECTIONS, name, f"## {title}\n\n" + "\n".join(study.lines))
+        section = importlib.import_module(name)
+    except ImportError as error:  # `list` installs nothing
+        return [f"needs {error.name}", ""]
+    part, every = (len(cases_of(section, name, is_full)) for is_full in (False, True))
+    return [time_text(expected_s(name, False, part)), time_text(expected_s(name, True, every)) if every > part else ""]
 
 
-def main(program, names):
-    for name in names or SECTIONS:
-        if name not in SECTIONS:
-            sys.exit(f"figures: there is no section '{name}'; the sections are {', '.join(SECTIONS)}")
-    for name in names or SECTIONS:
-        measure(program, name)
+def print_list():
+    rows = [("section", "time", "--full", "measured at", "in full at", "")]
+    for name in SECTIONS:
+        entry = read_record().get(name, {})
+        at = [entry.get(kind, {}).get("revision", "never") for kind in ("part", "full")]
+        rows.append((name, *times_of(name), *at, "changed" if is_changed(name, False) else ""))
+    widths = [max(map(len, column)) for column in zip(*rows)]
+    print("\n".join("  ".join(cell.ljust(width) for cell, width in zip(row, widths)).rstrip() for row in rows))
+
+
+def chosen(words, is_full):
+    """The sections that the words of the command line name."""
+    names = []
+    for word in words or SECTIONS:
+        if word != "changed" and word not in SECTIONS:
+            sys.exit(
+                f"figures: there is no section '{word}'; the sections are {', '.join(SECTIONS)}; 'changed' stands for those whose inputs changed"
+            )
+        names += [name for name in SECTIONS if is_changed(name, is_full)] if word == "changed" else [word]
+    return list(dict.fromkeys(names))
+
+
+def main(program, words):
+    options = [word for word in words if word.startswith("-")]
+    unknown = [option for option in options if option not in OPTIONS]
+    if unknown:
+        sys.exit(f"figures: there is no option '{unknown[0]}'; the options are {', '.join(OPTIONS)}")
+    if words == ["list"]:
+        return print_list()
+    is_full = "--full" in options
+    names = chosen([word for word in words if word not in options], is_full)
+    if "--names" in options:
+        return print(" ".join(names))
+    if not names:
+        return print("figures: no section has changed inputs")
+    Scans(program).remove_stale()
+    try:
+        failed = [name for name in names if not measure(program, name, is_full, "--again" in options)]
+    except subprocess.CalledProcessError as error:
+        sys.exit(f"figures: {' '.join(map(str, error.cmd))} ended with {error.returncode}: {error.stderr}")
+    if failed:
+        sys.exit(f"figures: not as wanted: {', '.join(failed)}")
 
 
 if __name__ == "__main__":
     if len(sys.argv) < 2:
         sys.exit(__doc__)
-    if sys.argv[2:] == ["list"]:
-        print("\n".join(SECTIONS))
-    else:
-        main(sys.argv[1], sys.argv[2:])
+    main(sys.argv[1], sys.argv[2:])

@@ -33,23 +33,10 @@ axis = [-0.009387553932644826, -0.882947592858927, -0.46937769663224127]
 
 
 def rendered(study, kind, poses, *options):
-    """Poses of a board without noise in 16 bits, rendered once."""
+    """Poses of a board without noise in 16 bits."""
     rig = study.work / "half-rig.toml"
     rig.write_text(HALF_RIG)
-    return study.made(
-        f"{kind}-{poses}-exact",
-        "simulate",
-        "--calibration",
-        kind,
-        "--views",
-        poses,
-        "--rig",
-        rig,
-        "--no-noise",
-        "--bits",
-        16,
-        *options,
-    )
+    return study.simulated("--calibration", kind, "--views", poses, "--rig", rig, "--no-noise", "--bits", 16, *options)
 
 
 class Capture:

@@ -1,5 +1,27 @@
-"""A page of documentation whose sections are written one by one."""
+"""A page of documentation whose sections are written one by one, and the text of a section."""
 import os
+
+IN_FULL = "<!-- in full -->"  # begins the last full measurement of a section
+
+
+class Text:
+    """The lines of a section in Markdown."""
+
+    def __init__(self):
+        self.lines = []
+
+    def add(self, text=""):
+        self.lines.append(text)
+
+    def table(self, *columns):
+        """The head of a table."""
+        self.add("| " + " | ".join(columns) + " |\n" + "|---" * len(columns) + "|")
+
+    def row(self, *cells):
+        self.add("| " + " | ".join(map(str, cells)) + " |")
+
+    def __str__(self):
+        return "\n".join(self.lines).strip()
 
 
 def begin(name):
@@ -10,10 +32,26 @@ def end(name):
     return f"<!-- end {name} -->"
 
 
-def write_section(path, names, name, text):
+def last_full(page, name):
+    """The last full measurement that a page (its text) states, or nothing."""
+    if begin(name) not in page:
+        return ""
+    section = page.split(begin(name), 1)[1].split(end(name), 1)[0]
+    return section.split(IN_FULL, 1)[1].strip() if IN_FULL in section else ""
+
+
+def section_text(page, name, title, text, is_full):
+    """A section with a new measurement; below one of a part stays the last full one, each with its command and revision."""
+    old = last_full(page, name)
+    if is_full:
+        return f"## {title}\n{IN_FULL}\n\n{text}"
+    return f"## {title}\n\n{text}" + (f"\n\n### {title}: the last full measurement\n{IN_FULL}\n\n{old}" if old else "")
+
+
+def write_section(path, names, name, title, text, is_full):
     """Replaces one section of a page; a new section follows the last one that precedes it in `names`."""
     page = path.read_text()
-    body = f"{begin(name)}\n{text.rstrip()}\n{end(name)}\n"
+    body = f"{begin(name)}\n{section_text(page, name, title, text, is_full).rstrip()}\n{end(name)}\n"
     if begin(name) in page:
         head, rest = page.split(begin(name), 1)
         rest = rest.split(end(name), 1)[1].lstrip("\n")

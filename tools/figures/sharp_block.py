@@ -34,8 +34,6 @@ def distance_to_edges(points):
 
 def fused_block(study):
     """The scan of the block as a mesh."""
-    part, mesh = study.work / "sharp-block.ply", study.work / "sharp-block-mesh.ply"
+    part = study.work / "sharp-block.ply"
     write_box(part, HALF, HEIGHT)
-    scan = study.made("sharp-block", "simulate", part, "--rig", "digital", "--samples", 4)
-    study.run("reconstruct", scan, "--voxel", 0.3, "-o", mesh)
-    return mesh
+    return study.reconstructed(study.digital(part), "--voxel", 0.3)[0]

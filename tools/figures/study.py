@@ -1,89 +1,95 @@
-"""Shared by the sections of the figures: the program, a folder of scans that an interruption leaves intact, and lines of Markdown."""
-import hashlib
+"""What a case of a section measures with: the program, shared scans and a folder."""
+import functools
 import json
 import pathlib
 import shutil
 import subprocess
 
-ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
-SHARED = ROOT.parent / "shared" / "scans"
+from half_rig import halved
+from inputs import ROOT, SHARED
+from scans import Scans
 
 
 class NotMeasured(Exception):
     """Something that a section needs is missing on this machine; its page stays as it is."""
 
 
-class Study:
-    """What one section measures with, and the lines that it has written.
+class NotAsWanted(Exception):
+    """A result is worse than wanted; the page stays as it is, and the program ends with 1."""
 
-    Scans lie in out/figures/CHECKSUM/NAME, where the checksum is that of the program: a section that is
-    started again goes on with the scans that are complete, and a new build measures everything again.
+
+class Study:
+    """The program for one section, which runs no verb but those that the section's inputs state.
+
+    `work` is a folder for the section's own files, which begins empty.
     """
 
-    def __init__(self, program):
+    def __init__(self, program, name, inputs):
         self.program = pathlib.Path(program).resolve()
         self.tests = self.program.parent.parent / "tests"
-        checksum = hashlib.sha256(self.program.read_bytes()).hexdigest()[:12]
-        kept = ROOT / "out" / "figures"
-        self.work = kept / checksum
-        for other in kept.glob("*"):
-            if other != self.work and other.is_dir():
-                shutil.rmtree(other)
-        self.work.mkdir(parents=True, exist_ok=True)
-        self.lines = []
+        self.name, self.verbs = name, inputs.verbs.split()
+        self.scans = Scans(self.program)
+        self.work = ROOT / "out" / "figures" / "work" / name
+        shutil.rmtree(self.work, ignore_errors=True)
+        self.work.mkdir(parents=True)
 
-    def add(self, text=""):
-        """A line of the section, printed at once."""
-        print(text, flush=True)
-        self.lines.append(text)
+    def check_verb(self, verb):
+        if verb not in self.verbs:
+            raise SystemExit(
+                f"figures: section {self.name} runs `frangia {verb}`: state it in tools/figures/table.py, or changes of it go unnoticed"
+            )
 
-    def table(self, *columns):
-        """The head of a table."""
-        self.add("| " + " | ".join(columns) + " |\n" + "|---" * len(columns) + "|")
+    def process(self, *arguments, allowed=(0,), **options):
+        """The finished process of the program, with what it printed; CalledProcessError for another exit code than those allowed."""
+        words = [str(word) for word in arguments]
+        self.check_verb(next(word for word in words if not word.startswith("-")))
+        run = subprocess.run([self.program, *words], capture_output=True, text=True, **options)
+        if allowed and run.returncode not in allowed:
+            raise subprocess.CalledProcessError(run.returncode, run.args, run.stdout, run.stderr)
+        return run
 
-    def row(self, *cells):
-        self.add("| " + " | ".join(map(str, cells)) + " |")
-
-    def run(self, *arguments):
+    def run(self, *arguments, allowed=(0,)):
         """The JSON answer of the program."""
-        result = subprocess.run(
-            [self.program, "--json", *map(str, arguments)], check=True, capture_output=True, text=True
-        )
-        return json.loads(result.stdout)
+        return json.loads(self.process("--json", *arguments, allowed=allowed).stdout)
 
-    def made(self, name, *arguments):
-        """A folder or file that the program writes with `-o`, made once: arguments, then `-o PATH`."""
+    def simulated(self, *arguments):
+        """The scan that `frangia simulate ARGUMENTS` renders, shared by all sections: nobody changes it."""
+        self.check_verb("simulate")
+        return self.scans.made("simulate", *arguments)
+
+    def digital(self, part, rig="digital", *options):
+        """The scan of a part with four rays a pixel."""
+        return self.simulated(part, "--rig", rig, "--samples", 4, *options)
+
+    def captured(self, rig, *options):
+        """The scan that simulated devices capture, shared like rendered ones, and the answer of the program."""
+        self.check_verb("scan")
+        scan = self.scans.made("scan", rig, *options)
+        return scan, self.scans.answer(scan)
+
+    @functools.cached_property
+    def half_rig(self):
+        """The digital rig with half the pixels of its camera on a side, as a file."""
+        rig = self.work / "digital-half.toml"
+        rig.write_text(halved((self.simulated("plate", "--rig", "digital", "--views", 1) / "rig.toml").read_text()))
+        return rig
+
+    def fresh(self, name):
+        """The path of a file or folder in `work` that does not exist."""
         path = self.work / name
-        if not path.exists():
-            unfinished = path.with_name("unfinished-" + name)
-            if unfinished.is_dir():
-                shutil.rmtree(unfinished)
-            self.run(*arguments, "-o", unfinished)
-            unfinished.rename(path)
+        if path.is_dir():
+            shutil.rmtree(path)
+        path.unlink(missing_ok=True)
         return path
 
-    def simulated(self, part, rig="digital", name=None, *options):
-        """The scan of a part by a simulated rig, made once."""
-        return self.made(name or f"{part}-{rig}", "simulate", part, "--rig", rig, "--samples", 4, *options)
-
-    def captured(self, name, rig, *options):
-        """The scan that simulated devices capture, made once; an interrupted capture goes on."""
-        path = self.work / name
-        if not path.exists():
-            unfinished = path.with_name("unfinished-" + name)
-            self.run("scan", rig, *options, "-o", unfinished)
-            unfinished.rename(path)
-        return path
-
-    def run_in_new_folder(self, name, *arguments):
-        """The JSON answer of a command that writes a folder; deletes the folder of an earlier call."""
-        shutil.rmtree(self.work / name, ignore_errors=True)
-        return self.run(*arguments, "-o", self.work / name)
+    def reconstructed(self, scan, *options):
+        """The mesh of a scan, replaced by the next one, and the answer of the program."""
+        mesh = self.work / "mesh.ply"
+        return mesh, self.run("reconstruct", scan, "-o", mesh, *options)
 
     def inspected(self, scan, truth):
         """The comparison of a scan's mesh with the true surface."""
-        mesh = self.work / "inspected.ply"
-        self.run("reconstruct", scan, "-o", mesh)
+        mesh, _ = self.reconstructed(scan)
         return self.run("inspect", mesh, "--reference", truth, "--scan", scan)
 
     def build(self, *targets):

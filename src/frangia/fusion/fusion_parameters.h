@@ -6,7 +6,7 @@ namespace frangia {
 
 // Heuristic thresholds of the fusion. No length is absolute: lengths are in voxels, in pixels, in
 // pixel spacings on the surface or in sigmas of the points. docs/parameters.md lists what half and
-// double of each do to the meshes of six small scans; tools/sensitivity.py measures that table.
+// double of each do to the meshes of six small scans (`./run figures sensitivity`).
 
 /// The voxel size and the signed distance field.
 struct FieldParameters {

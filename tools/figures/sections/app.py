@@ -38,22 +38,42 @@ def previews(study):
     return {one["name"].split("/")[0]: one for one in json.loads(done.stdout)["benchmarks"]}
 
 
-def measure(study):
+LARGE = {
+    "first_picture_s": ("a mesh of 1 M triangles on screen", "s", "3 s"),
+    "orbit_frame_ms": ("a frame while orbiting it", "ms", ""),
+    "rest_frame_ms": ("a frame of it at rest", "ms", ""),
+    "lasso_ms": ("lasso over 100 000 triangles, to its picture", "ms", "500 ms"),
+    "undo_ms": ("undo", "ms", "300 ms"),
+    "redo_ms": ("redo", "ms", "300 ms"),
+}
+
+
+def measure(study, case, seed):
     if not shutil.which("node"):
         raise NotMeasured("node is missing")
-    page = by_node(study, "figures.mjs")
-    decoded = previews(study)
-    study.add(f"Measured on {os.cpu_count()} cores, in Debian's Chromium with software rendering.\n")
-    study.table("", "measured", "wanted")
+    page, decoded = by_node(study, "figures.mjs"), previews(study)
+    return {
+        "cores": os.cpu_count(),
+        "page": page,
+        "decoded": decoded,
+        "large": by_node(study, "large_mesh.mjs", "--json"),
+    }
+
+
+def report(text, results):
+    result = results["app"][0]
+    page, decoded, large = result["page"], result["decoded"], result["large"]
+    text.add(f"Measured on {result['cores']} cores, in Debian's Chromium with software rendering.\n")
+    text.table("", "measured", "wanted")
     paint = page["first_paint_s"]
-    study.row(
+    text.row(
         "first paint after `frangia serve`, in a browser that is running",
         f"{paint['median']:.2f} s ({paint['least']:.2f} to {paint['most']:.2f})",
         "1 s",
     )
     for layer, what in (("depth", "depth"), ("points", "points in 3D")):
         live = page["live"][layer]
-        study.row(
+        text.row(
             f"live preview of recorded frames, 640 x 512, shown as {what}: decoded previews",
             f"{live['decodes_per_s']:.1f} a second",
             "5 a second",
@@ -63,18 +83,7 @@ def measure(study):
         ("preview_four_frames_1_3_mpx", "4 frames of 1280 x 1024 to points and message, without a browser", "125 ms"),
     ):
         one = decoded[name]
-        study.row(what, f"{one['real_time']:.0f} ms, {one['processor_ms']:.0f} ms of processor", wanted)
-    large = by_node(study, "large_mesh.mjs", "--json")
+        text.row(what, f"{one['real_time']:.0f} ms, {one['processor_ms']:.0f} ms of processor", wanted)
     for key, (what, unit, wanted) in LARGE.items():
         if key in large:
-            study.row(what, f"{large[key]:.3g} {unit}", wanted)
-
-
-LARGE = {
-    "first_picture_s": ("a mesh of 1 M triangles on screen", "s", "3 s"),
-    "orbit_frame_ms": ("a frame while orbiting it", "ms", ""),
-    "rest_frame_ms": ("a frame of it at rest", "ms", ""),
-    "lasso_ms": ("lasso over 100 000 triangles, to its picture", "ms", "500 ms"),
-    "undo_ms": ("undo", "ms", "300 ms"),
-    "redo_ms": ("redo", "ms", "300 ms"),
-}
+            text.row(what, f"{large[key]:.3g} {unit}", wanted)

@@ -4,14 +4,9 @@ import json
 import random
 import shutil
 import subprocess
-import sys
 import time
 
-from study import ROOT
-
-sys.path.insert(0, str(ROOT / "tools"))
-from half_rig import half_rig  # noqa: E402
-from slurm_node import SlurmNode, is_installed  # noqa: E402
+from slurm_node import SlurmNode, is_installed
 
 TITLE = "Many scans"
 SCANS = 60
@@ -20,20 +15,11 @@ PARTS = ["plate", "shaft", "bracket", "ball-bar"]
 
 def make_scans(study):
     """Sixty folders of four small scans: copies share their frames by hard links."""
-    folder = study.work / "batch-scans"
-    rig = half_rig(study.program, study.work)
-    made = [study.made(f"batch-{part}", "simulate", part, "--rig", rig, "--views", 6) for part in PARTS]
-    if not folder.exists():
-        unfinished = folder.with_name("unfinished-batch-scans")
-        shutil.rmtree(unfinished, ignore_errors=True)
-        for i in range(SCANS):
-            subprocess.run(
-                ["cp", "-rl", made[i % len(made)], unfinished / f"{i:02}"]
-                if i
-                else ["sh", "-c", f"mkdir -p {unfinished} && cp -rl {made[0]} {unfinished}/00"],
-                check=True,
-            )
-        unfinished.rename(folder)
+    folder = study.work / "scans"
+    folder.mkdir()
+    made = [study.simulated(part, "--rig", study.half_rig, "--views", 6) for part in PARTS]
+    for i in range(SCANS):
+        subprocess.run(["cp", "-rl", made[i % len(made)], folder / f"{i:02}"], check=True)
     return folder
 
 
@@ -87,30 +73,9 @@ def kill_at_random(node, done):
     return kills, requeued
 
 
-def measure(study):
-    folder = make_scans(study)
-    one, rows = timed(study, folder, "batch-one", "--jobs", "1", "--threads", "1")
-    two, _ = timed(study, folder, "batch-two", "--jobs", "2", "--threads", "1")
-    wide, _ = timed(study, folder, "batch-wide", "--jobs", "1", "--threads", "2")
-    study.add(f"`frangia batch` on {SCANS} small scans (480 x 384 pixels, 6 views).\n")
-    study.table("", "measured", "wanted")
-    study.row("scans done", sum(row["state"] == "done" for row in rows), SCANS)
-    study.row("`--jobs 1 --threads 1`, seconds", f"{one:.1f}", "")
-    study.row("its ratio to `--jobs 2 --threads 1`", f"{one / two:.2f}", "at least 1.8")
-    floor = side_by_side(study, folder, 1) / side_by_side(study, folder, 2)
-    study.row(
-        "the same ratio of bare `reconstruct`, one after the other and two beside each other: the limit of the machine",
-        f"{floor:.2f}",
-        "",
-    )
-    study.row("`--jobs 1 --threads 2` over `--jobs 2 --threads 1`", f"{wide / two:.2f}", "at least 1")
-    study.row("most memory of a scan, MB", f"{max(row['memory_mb'] for row in rows):.0f}", "")
-    study.row("scans an hour and core", f"{3600 * len(rows) / sum(row['processor_s'] for row in rows):.0f}", "")
-    if not is_installed():
-        study.add("\nSlurm is not installed here, or this is not root: not tried.")
-        return
+def in_slurm(study, folder):
+    """Seconds of an undisturbed array, and what a disturbed one leaves, against the meshes of `--jobs 1`."""
     out = study.work / "batch-slurm"
-    shutil.rmtree(out, ignore_errors=True)
     command = [study.program, "--quiet", "--threads", "1", "batch", folder, "-o", out, "--slurm"]
     with SlurmNode(study.work / "slurm") as node:
         begin = time.monotonic()
@@ -122,14 +87,57 @@ def measure(study):
         subprocess.run(command, check=True, env=node.environment)
         kills, requeued = kill_at_random(node, time.monotonic() + 1200)
     table = list(csv.DictReader((out / "table.csv").open()))
-    study.row("Slurm: seconds more a scan than `--jobs 2`", f"{(calm - two) / SCANS:.2f}", "below 1")
-    study.row(
-        f"scans done with {kills} kills of the controller and {requeued} tasks requeued",
-        sum(row["state"] == "done" for row in table),
-        SCANS,
-    )
     same = all(
         (out / f"{i:02}" / "mesh.ply").read_bytes() == (study.work / "batch-one" / f"{i:02}" / "mesh.ply").read_bytes()
         for i in range(SCANS)
     )
-    study.row("meshes with the bytes of the undisturbed ones", "all" if same else "NOT ALL", "all")
+    return {
+        "calm": calm,
+        "kills": kills,
+        "requeued": requeued,
+        "done": sum(row["state"] == "done" for row in table),
+        "same": same,
+    }
+
+
+def measure(study, case, seed):
+    folder = make_scans(study)
+    one, rows = timed(study, folder, "batch-one", "--jobs", "1", "--threads", "1")
+    two, _ = timed(study, folder, "batch-two", "--jobs", "2", "--threads", "1")
+    wide, _ = timed(study, folder, "batch-wide", "--jobs", "1", "--threads", "2")
+    return {
+        "one": one,
+        "two": two,
+        "wide": wide,
+        "rows": rows,
+        "limit": side_by_side(study, folder, 1) / side_by_side(study, folder, 2),
+        "slurm": in_slurm(study, folder) if is_installed() else None,
+    }
+
+
+def report(text, results):
+    result = results["batch"][0]
+    one, two, rows, slurm = (result[key] for key in ("one", "two", "rows", "slurm"))
+    text.add(f"`frangia batch` on {SCANS} small scans (480 x 384 pixels, 6 views).\n")
+    text.table("", "measured", "wanted")
+    text.row("scans done", sum(row["state"] == "done" for row in rows), SCANS)
+    text.row("`--jobs 1 --threads 1`, seconds", f"{one:.1f}", "")
+    text.row("its ratio to `--jobs 2 --threads 1`", f"{one / two:.2f}", "at least 1.8")
+    text.row(
+        "the same ratio of bare `reconstruct`, one after the other and two beside each other: the limit of the machine",
+        f"{result['limit']:.2f}",
+        "",
+    )
+    text.row("`--jobs 1 --threads 2` over `--jobs 2 --threads 1`", f"{result['wide'] / two:.2f}", "at least 1")
+    text.row("most memory of a scan, MB", f"{max(row['memory_mb'] for row in rows):.0f}", "")
+    text.row("scans an hour and core", f"{3600 * len(rows) / sum(row['processor_s'] for row in rows):.0f}", "")
+    if slurm is None:
+        text.add("\nSlurm is not installed here, or this is not root: not tried.")
+        return
+    text.row("Slurm: seconds more a scan than `--jobs 2`", f"{(slurm['calm'] - two) / SCANS:.2f}", "below 1")
+    text.row(
+        f"scans done with {slurm['kills']} kills of the controller and {slurm['requeued']} tasks requeued",
+        slurm["done"],
+        SCANS,
+    )
+    text.row("meshes with the bytes of the undisturbed ones", "all" if slurm["same"] else "NOT ALL", "all")

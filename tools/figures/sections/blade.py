@@ -1,6 +1,4 @@
 """A blade that is bent at its tip against the nominal one, and how often a good one is called bad."""
-import shutil
-
 import numpy
 
 from alignment import write_moved
@@ -9,9 +7,10 @@ from surfaces import points_of, read_ply, read_triangles
 TITLE = "A bent blade, and good ones"
 PAGE = "inspection.md"
 
-SEEDS = 100
 BEND_MM = 0.1
 TOLERANCE_MM = 0.05
+CASES = {"bent": 1, "good": 100}
+PART = 40
 
 
 def bent(study, nominal):
@@ -23,47 +22,44 @@ def bent(study, nominal):
     return path
 
 
-def measured(study, part, seed, nominal):
-    """The answer about the mesh of a scan, and that mesh with its deviations; the scan is deleted."""
-    name = f"blade-{part.stem if hasattr(part, 'stem') else part}-{seed}"
-    mesh = study.work / f"{name}.ply"
-    if not mesh.exists():
-        scan = study.made(f"{name}-scan", "simulate", part, "--seed", seed)
-        study.run("reconstruct", scan, "-o", mesh)
-        shutil.rmtree(scan)
-    out = study.work / "blade-deviations.ply"
-    return (
-        study.run("inspect", mesh, "--reference", nominal, "--align", "none", "--tolerance", TOLERANCE_MM, "-o", out)[
-            "deviation"
-        ],
-        out,
-    )
+def measure(study, case, seed):
+    nominal = study.simulated("blade", "--views", 1) / "truth.ply"
+    scan = study.simulated(bent(study, nominal) if case == "bent" else "blade", "--seed", seed)
+    mesh, out = study.reconstructed(scan)[0], study.work / "deviations.ply"
+    found = study.run(
+        "inspect", mesh, "--reference", nominal, "--align", "none", "--tolerance", TOLERANCE_MM, "-o", out
+    )["deviation"]
+    return {"verdict": found["verdict"], **(deviations_of_the_tip(out) if case == "bent" else {})}
 
 
-def measure(study):
-    nominal = study.made("blade-nominal", "simulate", "blade", "--views", 1) / "truth.ply"
-    study.add(
-        f"The simulated blade, digital rig; `frangia inspect MESH.ply --reference blade.ply --tolerance {TOLERANCE_MM}`.\n"
-    )
-    found, out = measured(study, bent(study, nominal), 1, nominal)
+def deviations_of_the_tip(out):
     vertices = read_ply(out)
     points, deviation, u = points_of(vertices), vertices["deviation_mm"], vertices["u_mm"]
     height = points[:, 2].max()
     expected = BEND_MM * (points[:, 2] / height) ** 2 * vertices["nx"]
     tip = (points[:, 2] > 0.9 * height) & (numpy.abs(vertices["nx"]) > 0.7) & numpy.isfinite(deviation)
     error = deviation[tip] - expected[tip]
-    study.table("a blade bent by 0.1 mm at its tip", "measured", "wanted")
-    study.row("verdict", found["verdict"], "out")
-    study.row(
+    return {
+        "mean_mm": float(numpy.mean(numpy.sign(vertices["nx"][tip]) * deviation[tip])),
+        "expected_mm": float(numpy.mean(numpy.abs(expected[tip]))),
+        "over_u": float(numpy.sqrt(numpy.mean((error / u[tip]) ** 2))),
+    }
+
+
+def report(text, results):
+    bent_blade, good = results["bent"][0], [one["verdict"] for one in results["good"]]
+    text.add(
+        f"The simulated blade, digital rig; `frangia inspect MESH.ply --reference blade.ply --tolerance {TOLERANCE_MM}`.\n"
+    )
+    text.table("a blade bent by 0.1 mm at its tip", "measured", "wanted")
+    text.row("verdict", bent_blade["verdict"], "out")
+    text.row(
         "mean deviation of the tip's faces along their normals, mm",
-        f"{numpy.mean(numpy.sign(vertices['nx'][tip]) * deviation[tip]):.4f}",
-        f"{numpy.mean(numpy.abs(expected[tip])):.4f}",
+        f"{bent_blade['mean_mm']:.4f}",
+        f"{bent_blade['expected_mm']:.4f}",
     )
-    study.row(
-        "error of a vertex over its uncertainty, RMS", f"{numpy.sqrt(numpy.mean((error / u[tip]) ** 2)):.2f}", "about 1"
-    )
-    verdicts = [measured(study, "blade", seed, nominal)[0]["verdict"] for seed in range(1, SEEDS + 1)]
-    study.add(
-        f"\nGood blades, {SEEDS} seeds: {verdicts.count('out')} called out (the rule allows {SEEDS * 5 // 100}), "
-        f"{verdicts.count('undecided')} undecided, {verdicts.count('in')} in."
+    text.row("error of a vertex over its uncertainty, RMS", f"{bent_blade['over_u']:.2f}", "about 1")
+    text.add(
+        f"\nGood blades, {len(good)} seeds: {good.count('out')} called out (the rule allows {len(good) * 5 // 100}), "
+        f"{good.count('undecided')} undecided, {good.count('in')} in."
     )

@@ -69,8 +69,8 @@ def write_mesh(path, side):
     path.write_bytes(head.encode() + points.astype("<f4").tobytes() + faces.tobytes())
 
 
-def measure(study):
-    maker = study.program.parent.parent / "tests" / "make_cad_parts"
+def measure(study, case, seed):
+    maker = study.tests / "make_cad_parts"
     if not maker.exists():
         raise NotMeasured("the program was built without OpenCASCADE or its tests")
     subprocess.run([maker, study.work], check=True, stdout=subprocess.DEVNULL)
@@ -79,12 +79,20 @@ def measure(study):
     answer = study.run("inspect", mesh, "--reference", study.work / "primitives.step", "-o", out)
     vertices = read_ply(out)
     points, deviation = points_of(vertices).astype(float), vertices["deviation_mm"].astype(float)
-    study.add(
-        f"`frangia inspect MESH --reference primitives.step -o OUT.ply`: {len(points)} vertices within 1 % of the size of six parts, against the exact faces of the STEP file. "
-        f"Their deviations take {answer['seconds']['deviation']:.1f} s on two cores (wanted 60).\n"
-    )
-    study.table("part", "compared vertices", "largest error, mm", "wanted, mm")
+    rows = []
     for part, name in enumerate(PARTS):
         own = numpy.isfinite(deviation) & (numpy.rint(points[:, 0] / SPACING) == part)
         error = abs(deviation[own] - distance(part, points[own] - [SPACING * part, 0, 0]))
-        study.row(name, int(own.sum()), f"{error.max():.1e}", "1e-4")
+        rows.append([name, int(own.sum()), float(error.max())])
+    return {"vertices": len(points), "seconds": answer["seconds"]["deviation"], "rows": rows}
+
+
+def report(text, results):
+    result = results["cad"][0]
+    text.add(
+        f"`frangia inspect MESH --reference primitives.step -o OUT.ply`: {result['vertices']} vertices within 1 % of the size of six parts, against the exact faces of the STEP file. "
+        f"Their deviations take {result['seconds']:.1f} s on two cores (wanted 60).\n"
+    )
+    text.table("part", "compared vertices", "largest error, mm", "wanted, mm")
+    for name, compared, error in result["rows"]:
+        text.row(name, compared, f"{error:.1e}", "1e-4")

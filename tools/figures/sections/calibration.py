@@ -3,10 +3,8 @@
 The real rig is compared with OpenCV's calibrateCamera and stereoCalibrate on the same points; the boards are measured
 and the skull is reconstructed with the found and with the given rig. The simulated rig is compared with its truth.
 """
-import json
+import functools
 import shutil
-import subprocess
-import sys
 import tomllib
 
 import cv2
@@ -22,7 +20,7 @@ CORNERS = (9, 13)
 SQUARE_MM = 15.0  # not recorded; it sets the scale only
 CAMERA_PX, PROJECTOR_PX = (1688, 1352), (1824, 1140)
 POSES = 12  # of the simulated rig
-SEEDS = 40
+CASES = {"real": 1, "simulated": 1, "ball bar": 1, "seeds": 40}
 
 SCAN = f"""format = "frangia-scan"
 version = 2
@@ -181,63 +179,81 @@ def board_lengths(rig, views, depth):
     return numpy.array(lengths) / mean, numpy.mean(heights) / mean
 
 
-def reconstructed(study, scan):
+def vertices_of(study, scan):
     """The vertices of a scan's mesh; a result that the program calls not trustworthy (exit code 5) is measured, too."""
     mesh = scan / "mesh.ply"
-    answer = subprocess.run([study.program, "--quiet", "reconstruct", scan, "-o", mesh], capture_output=True, text=True)
-    if answer.returncode not in (0, 5) or not mesh.exists():
-        sys.exit(f"figures: {scan} could not be reconstructed: {answer.stderr}")
+    study.process("--quiet", "reconstruct", scan, "-o", mesh, allowed=(0, 5))
     return points_of(read_ply(mesh))
 
 
 def measure_real(study):
+    """Rows of the three tables about the real rig."""
     poses = write_scan(study.shared("skull-calibration"), study.work / "skull-poses")
     rigs = {"frangia": study.work / "skull-rig.toml", "frangia --flat-board": study.work / "skull-rig-flat.toml"}
-    study.add(
-        "`frangia calibrate rig poses -o rig.toml` on the poses of a real rig, and OpenCV on the same points. OpenCV's error of both is over all points of camera and projector.\n"
-    )
-    study.table("solved by", "camera RMS, px", "projector RMS, px", "baseline, mm")
+    solved_by, boards, skulls = [], [], []
     for name, rig in rigs.items():
         result = study.run("calibrate", "rig", poses, "-o", rig, *name.split()[1:])
-        study.row(
-            name, f"{result['camera_rms_px']:.3f}", f"{result['projector_rms_px']:.3f}", f"{result['baseline_mm']:.2f}"
+        solved_by.append(
+            [
+                name,
+                f"{result['camera_rms_px']:.3f}",
+                f"{result['projector_rms_px']:.3f}",
+                f"{result['baseline_mm']:.2f}",
+            ]
         )
     rms_c, rms_p, rms, baseline = solve_with_opencv(result["views"])
-    study.row("OpenCV calibrateCamera, each alone", f"{rms_c:.3f}", f"{rms_p:.3f}", "")
-    study.row("OpenCV stereoCalibrate, both", f"{rms:.3f}", f"{rms:.3f}", f"{baseline:.2f}")
+    solved_by += [
+        ["OpenCV calibrateCamera, each alone", f"{rms_c:.3f}", f"{rms_p:.3f}", ""],
+        ["OpenCV stereoCalibrate, both", f"{rms:.3f}", f"{rms:.3f}", f"{baseline:.2f}"],
+    ]
     skull = study.shared("skull")
     rigs = {"given": skull / "rig.toml", **rigs}
     solved = {name: rig_of(rig) for name, rig in rigs.items()}
     baseline = {name: numpy.linalg.norm(rig[-1]) for name, rig in solved.items()}
-    study.add(
-        "\nThe six boards, triangulated by each rig from the camera's corners and the phases of the columns alone. A rig that is right measures the sides of the board alike in all poses.\n"
-    )
-    study.table("rig", "sides of the board, over their mean", "median distance from a plane, of a square")
     for name, rig in solved.items():
         lengths, height = board_lengths(rig, result["views"], 2.4 * baseline[name])
-        study.row(name, f"{lengths.min():.4f} to {lengths.max():.4f}", f"{height:.4f}")
+        boards.append([name, f"{lengths.min():.4f} to {lengths.max():.4f}", f"{height:.4f}"])
     reference = points_of(read_ply(skull / "reference.ply"))
     given = solved["given"]
     pixels, columns = project(reference, *given[:2]), project(reference, *given[2:])[:, 0]
-    study.add(
-        "\nThe skull, reconstructed with each rig, after the best similarity; the square of the board is not recorded, so the scale is open. `reference.ply` was itself triangulated with the given rig and carries its errors. The last column compares with the same measurement of the reference, triangulated with the rig of the row.\n"
-    )
-    study.table(
-        "rig",
-        "median distance from reference.ply, mm",
-        "90 %, mm",
-        "scale",
-        "median distance from the reference triangulated by the rig, mm",
-    )
     for name, rig in rigs.items():
         scan = copied(skull, study.work / "skull-scan")
         copy_rig(rig, scan)
         scale = baseline[name] / baseline["given"]
-        vertices = reconstructed(study, scan)
+        vertices = vertices_of(study, scan)
         median, high, fitted = distance_to(reference, vertices, scale)
         again = triangulated(solved[name], pixels, columns, scale * reference[:, 2])
         own, _, _ = distance_to(again, vertices, 1.0)
-        study.row(name, f"{median:.3f}", f"{high:.3f}", f"{fitted:.4f}", f"{own / scale:.3f}")
+        skulls.append([name, f"{median:.3f}", f"{high:.3f}", f"{fitted:.4f}", f"{own / scale:.3f}"])
+    return [solved_by, boards, skulls]
+
+
+def report_real(text, tables):
+    heads = [
+        (
+            "`frangia calibrate rig poses -o rig.toml` on the poses of a real rig, and OpenCV on the same points. OpenCV's error of both is over all points of camera and projector.\n",
+            ("solved by", "camera RMS, px", "projector RMS, px", "baseline, mm"),
+        ),
+        (
+            "\nThe six boards, triangulated by each rig from the camera's corners and the phases of the columns alone. A rig that is right measures the sides of the board alike in all poses.\n",
+            ("rig", "sides of the board, over their mean", "median distance from a plane, of a square"),
+        ),
+        (
+            "\nThe skull, reconstructed with each rig, after the best similarity; the square of the board is not recorded, so the scale is open. `reference.ply` was itself triangulated with the given rig and carries its errors. The last column compares with the same measurement of the reference, triangulated with the rig of the row.\n",
+            (
+                "rig",
+                "median distance from reference.ply, mm",
+                "90 %, mm",
+                "scale",
+                "median distance from the reference triangulated by the rig, mm",
+            ),
+        ),
+    ]
+    for (intro, columns), rows in zip(heads, tables):
+        text.add(intro)
+        text.table(*columns)
+        for row in rows:
+            text.row(*row)
 
 
 def values_of(rig):
@@ -256,97 +272,98 @@ def values_of(rig):
     return values
 
 
-def error_of_seed(study, capture, seed):
+@functools.cache
+def capture_of(study):
+    return Capture(rendered(study, "checkerboard", POSES))
+
+
+def error_of_seed(study, seed):
     """Errors of the estimated parameters by their names, and normalized by their full covariance: error' C^-1 error and their number."""
-    log = study.work / f"calibration-seed-{seed}.json"
-    if not log.exists():
-        scan = capture.write(study.work / "seed-scan", seed)
-        file = study.work / "seed-rig.toml"
-        study.run("calibrate", "rig", scan, "-o", file)
-        found = tomllib.loads(file.read_text())
-        lines = (file.parent / found["calibration"]["covariance"]).read_text().splitlines()
-        names = [name.strip().strip('"') for name in lines[0].split(",")][1:]
-        covariance = numpy.array([[float(x) for x in line.split(",")[1:]] for line in lines[1:]])
-        a, b = values_of(capture.truth), values_of(found)
-        # A held term is true by construction here, so it says nothing about the covariance.
-        kept = [i for i, name in enumerate(names) if a[name] != b[name]]
-        names, covariance = [names[i] for i in kept], covariance[numpy.ix_(kept, kept)]
-        error = numpy.array([b[name] - a[name] for name in names])
-        scale = numpy.sqrt(numpy.diag(covariance))
-        normalized = error / scale
-        square = normalized @ numpy.linalg.solve(covariance / numpy.outer(scale, scale), normalized)
-        log.write_text(
-            json.dumps(
-                {
-                    "square": square,
-                    "count": len(names),
-                    "errors": dict(zip(names, error)),
-                    "normalized": dict(zip(names, normalized)),
-                    "baseline_mm": numpy.linalg.norm(found["projector"]["position_mm"])
-                    - numpy.linalg.norm(capture.truth["projector"]["position_mm"]),
-                    "focal": [
-                        found[d]["focal_px"][0] / capture.truth[d]["focal_px"][0] - 1 for d in ("camera", "projector")
-                    ],
-                }
-            )
-        )
-    return json.loads(log.read_text())
+    capture = capture_of(study)
+    scan, file = capture.write(study.work / "seed-scan", seed), study.work / "seed-rig.toml"
+    study.run("calibrate", "rig", scan, "-o", file)
+    found = tomllib.loads(file.read_text())
+    lines = (file.parent / found["calibration"]["covariance"]).read_text().splitlines()
+    names = [name.strip().strip('"') for name in lines[0].split(",")][1:]
+    covariance = numpy.array([[float(x) for x in line.split(",")[1:]] for line in lines[1:]])
+    a, b = values_of(capture.truth), values_of(found)
+    # A held term is true by construction here, so it says nothing about the covariance.
+    kept = [i for i, name in enumerate(names) if a[name] != b[name]]
+    names, covariance = [names[i] for i in kept], covariance[numpy.ix_(kept, kept)]
+    error = numpy.array([b[name] - a[name] for name in names])
+    scale = numpy.sqrt(numpy.diag(covariance))
+    normalized = error / scale
+    square = normalized @ numpy.linalg.solve(covariance / numpy.outer(scale, scale), normalized)
+    return {
+        "square": square,
+        "count": len(names),
+        "errors": dict(zip(names, error)),
+        "normalized": dict(zip(names, normalized)),
+        "baseline_mm": numpy.linalg.norm(found["projector"]["position_mm"])
+        - numpy.linalg.norm(capture.truth["projector"]["position_mm"]),
+        "focal": [found[d]["focal_px"][0] / capture.truth[d]["focal_px"][0] - 1 for d in ("camera", "projector")],
+    }
 
 
-def measure_seeds(study, seeds=SEEDS):
+def report_seeds(text, errors):
     """Errors of many calibrations against their stated covariance."""
-    capture = Capture(rendered(study, "checkerboard", POSES))
-    errors = [error_of_seed(study, capture, seed) for seed in range(1, seeds + 1)]
     pooled = numpy.sqrt(sum(e["square"] for e in errors) / sum(e["count"] for e in errors))
-    study.add(f"\n{POSES} poses of 640 × 512 pixels, rendered once and calibrated with {seeds} seeds of the noise.\n")
-    study.table("figure", "value")
-    study.row("errors of the estimated parameters, normalized by their full covariance, RMS", f"{pooled:.2f}")
-    study.row(
+    text.add(
+        f"\n{POSES} poses of 640 × 512 pixels, rendered once and calibrated with {len(errors)} seeds of the noise.\n"
+    )
+    text.table("figure", "value")
+    text.row("errors of the estimated parameters, normalized by their full covariance, RMS", f"{pooled:.2f}")
+    text.row(
         "largest relative error of a focal length", f"{100 * max(abs(f) for e in errors for f in e['focal']):.4f} %"
     )
     points = [(abs(e["errors"][n]), abs(e["normalized"][n])) for e in errors for n in e["errors"] if "principal" in n]
-    study.row(
+    text.row(
         "largest error of a principal point, px; over its standard deviation",
         f"{max(p[0] for p in points):.3f}; {max(p[1] for p in points):.2f}",
     )
-    study.row("largest error of the baseline, mm", f"{max(abs(e['baseline_mm']) for e in errors):.4f}")
+    text.row("largest error of the baseline, mm", f"{max(abs(e['baseline_mm']) for e in errors):.4f}")
 
 
-def measure_simulated(study):
-    """Errors of a simulated rig, and a ball bar reconstructed with the true and with the found rig."""
+def calibrated(study):
+    """A simulated capture, and the rig that its calibration finds."""
     scan, file = (
-        study.made("poses", "simulate", "--calibration", "checkerboard", "--views", POSES, "--samples", 4),
+        study.simulated("--calibration", "checkerboard", "--views", POSES, "--samples", 4),
         study.work / "rig-simulated.toml",
     )
     study.run("calibrate", "rig", scan, "-o", file)
+    return scan, file
+
+
+def measure_simulated(study):
+    """Rows of true and found parameters."""
+    scan, file = calibrated(study)
     truth, found = (tomllib.loads(f.read_text()) for f in (scan / "truth-rig.toml", file))
-    sigma = found["calibration"]["sigma"]
-    study.add(
-        f"\n`frangia simulate --calibration checkerboard --views {POSES}`, calibrated, against the rig that rendered the poses.\n"
-    )
-    study.table("parameter", "true", "found", "error over sigma")
+    sigma, rows = found["calibration"]["sigma"], []
     for device in ("camera", "projector"):
         for index, axis in enumerate("xy"):
             name = f"{device}.principal_{axis}_px"
             a, b = (rig[device]["principal_point_px"][index] for rig in (truth, found))
-            study.row(name, f"{a:.3f}", f"{b:.3f}", f"{(b - a) / sigma[name]:.2f}")
+            rows.append([name, f"{a:.3f}", f"{b:.3f}", f"{(b - a) / sigma[name]:.2f}"])
         name = f"{device}.focal_px"
         a, b = (rig[device]["focal_px"][0] for rig in (truth, found))
-        study.row(name, f"{a:.3f}", f"{b:.3f}", f"{(b - a) / sigma[name]:.2f}")
+        rows.append([name, f"{a:.3f}", f"{b:.3f}", f"{(b - a) / sigma[name]:.2f}"])
     a, b = (numpy.linalg.norm(rig["projector"]["position_mm"]) for rig in (truth, found))
-    study.row("baseline, mm", f"{a:.4f}", f"{b:.4f}", "")
-    bar = copied(study.simulated("ball-bar"), study.work / "ball-bar-calibrated")
-    table = truth["turntable"]
+    return rows + [["baseline, mm", f"{a:.4f}", f"{b:.4f}", ""]]
+
+
+def measure_ball_bar(study):
+    """Rows of a ball bar that the true rig rendered, reconstructed with the true and with the found rig."""
+    scan, file = calibrated(study)
+    bar = copied(study.digital("ball-bar"), study.work / "ball-bar")
+    table, rows = tomllib.loads((scan / "truth-rig.toml").read_text())["turntable"], []
     rigs = {
         "true rig": (bar / "rig.toml").read_text(),
         "found rig": file.read_text() + f"\n[turntable]\npoint_mm = {table['point_mm']}\naxis = {table['axis']}\n",
     }
-    study.add("\nA ball bar, rendered by the true rig and reconstructed with each.\n")
     copy_rig(file, bar)
-    study.table("reconstructed with", "spacing, mm (70)", "diameters, mm (40)")
     for name, text in rigs.items():
         (bar / "rig.toml").write_text(text)
-        points = reconstructed(study, bar)
+        points = vertices_of(study, bar)
         centres, diameters = [], []
         for side in (-35.0, 35.0):
             # A calibration may shift the whole frame, so the second fit selects about the first.
@@ -354,10 +371,26 @@ def measure_simulated(study):
             centre, radius, _ = fit_ball(points, centre, radius, within=0.2)
             centres.append(centre)
             diameters.append(f"{2 * radius:.4f}")
-        study.row(name, f"{numpy.linalg.norm(centres[0] - centres[1]):.4f}", ", ".join(diameters))
+        rows.append([name, f"{numpy.linalg.norm(centres[0] - centres[1]):.4f}", ", ".join(diameters)])
+    return rows
 
 
-def measure(study):
-    measure_real(study)
-    measure_simulated(study)
-    measure_seeds(study)
+def measure(study, case, seed):
+    if case == "seeds":
+        return error_of_seed(study, seed)
+    return {"real": measure_real, "simulated": measure_simulated, "ball bar": measure_ball_bar}[case](study)
+
+
+def report(text, results):
+    report_real(text, results["real"][0])
+    text.add(
+        f"\n`frangia simulate --calibration checkerboard --views {POSES}`, calibrated, against the rig that rendered the poses.\n"
+    )
+    text.table("parameter", "true", "found", "error over sigma")
+    for row in results["simulated"][0]:
+        text.row(*row)
+    text.add("\nA ball bar, rendered by the true rig and reconstructed with each.\n")
+    text.table("reconstructed with", "spacing, mm (70)", "diameters, mm (40)")
+    for row in results["ball bar"][0]:
+        text.row(*row)
+    report_seeds(text, results["seeds"])

@@ -3,8 +3,6 @@
 The truth is the rig that rendered the captures. `frangia simulate` starts rig.toml 5 % and 3 degrees off.
 """
 import math
-import subprocess
-import json
 import tomllib
 
 import numpy
@@ -12,7 +10,7 @@ import numpy
 TITLE = "Calibration of a rig with an interferometer"
 
 POSES, ANGLES, STATIONS = 8, 13, 5  # of screen, plate and ball bar
-SEEDS = (1, 2, 3)
+CASES = {"seed": 3, "wavefront": 1, "check": 1}
 
 
 def rig_of(path):
@@ -61,44 +59,50 @@ def errors_of(found, truth):
 
 def captures(study, seed):
     """Screen, plate and ball bar of the built-in angular rig."""
-    made = lambda kind, views, *more: study.made(
-        f"angular-{kind}-{seed}",
-        "simulate",
-        "--calibration",
-        kind,
-        "--rig",
-        "angular",
-        "--views",
-        views,
-        "--seed",
-        seed,
-        *more,
-    )
+
+    def made(kind, views, *more):
+        return study.simulated("--calibration", kind, "--rig", "angular", "--views", views, "--seed", seed, *more)
+
     return made("screen", POSES), made("plate", ANGLES, "--samples", 4), made("ball-bar", STATIONS, "--samples", 4)
+
+
+def calibrated(study, scans):
+    rig = study.work / "found.toml"
+    study.run("calibrate", "rig", *scans, "-o", rig)
+    return rig
+
+
+def errors_of_seed(study, seed):
+    """Errors at the start and of the calibrated rig."""
+    scans = captures(study, seed)
+    truth, found = rig_of(scans[1] / "truth-rig.toml"), rig_of(calibrated(study, scans))
+    return {"start": errors_of(rig_of(scans[1] / "rig.toml"), truth), "found": errors_of(found, truth)}
 
 
 WAVEFRONT_DEG = (0.2, -0.3, 0.1, 0, 0.1, -0.1)
 
 
-def measure_wavefront(study):
+def errors_under_wavefront(study):
     """The same captures by an interferometer whose fringes are not even, and angles of fringes at points of the volume."""
-    truth = study.work / "angular-wavefront.toml"
-    scans = captures(study, SEEDS[0])
-    lines = (scans[1] / "truth-rig.toml").read_text().splitlines()
+    truth, even = study.work / "truth.toml", captures(study, 1)[1] / "truth-rig.toml"
+    lines = even.read_text().splitlines()
     at = next(i for i, line in enumerate(lines) if line.startswith("field_deg"))
     truth.write_text("\n".join([*lines[: at + 1], f"wavefront_deg = {list(WAVEFRONT_DEG)}", *lines[at + 1 :], ""]))
-    made = [
-        study.made(f"wavefront-{kind}", "simulate", "--calibration", kind, "--rig", truth, "--views", views)
-        for kind, views in (("screen", POSES), ("plate", ANGLES), ("ball-bar", STATIONS))
-    ]
-    rig = study.work / "angular-wavefront-found.toml"
-    study.run("calibrate", "rig", *made, "-o", rig)
+    rig = calibrated(
+        study,
+        [
+            study.simulated("--calibration", kind, "--rig", truth, "--views", views)
+            for kind, views in (("screen", POSES), ("plate", ANGLES), ("ball-bar", STATIONS))
+        ],
+    )
     points = numpy.random.default_rng(1).uniform((-50, -50, 440), (50, 50, 540), (10000, 3))
     off = fringe_angles(rig_of(rig), points) - fringe_angles(rig_of(truth), points)
-    deviation = fringe_angles(rig_of(truth), points) - fringe_angles(rig_of(scans[1] / "truth-rig.toml"), points)
-    study.add(
-        f"\nA wavefront that deviates by {numpy.sqrt((deviation ** 2).mean()):.4f} degrees RMS in the measuring volume: found with an error of {numpy.sqrt((off ** 2).mean()):.5f} degrees RMS, {abs(off).max():.5f} at most."
-    )
+    deviation = fringe_angles(rig_of(truth), points) - fringe_angles(rig_of(even), points)
+    return {
+        "deviation_deg": numpy.sqrt((deviation**2).mean()),
+        "rms_deg": numpy.sqrt((off**2).mean()),
+        "largest_deg": abs(off).max(),
+    }
 
 
 def fringe_angles(rig, points):
@@ -112,14 +116,6 @@ def fringe_angles(rig, points):
     a, b, c, d, e, f = projector.get("wavefront_deg", [0] * 6)
     bend = a * u**2 + b * v**2 + c * u**3 + d * u**2 * v + e * u * v**2 + f * v**3
     return (psi + bend) / projector.get("pitch_scale", 1)
-
-
-def check(study, rig, scan):
-    """The answer of `frangia calibrate check`, which ends with 1 where the rig is no longer what it was."""
-    answer = subprocess.run([study.program, "--json", "calibrate", "check", rig, scan], capture_output=True, text=True)
-    if answer.returncode not in (0, 1):
-        raise SystemExit(answer.stderr)
-    return json.loads(answer.stdout)
 
 
 def knocked(rig, degrees, shift_mm):
@@ -139,39 +135,50 @@ def knocked(rig, degrees, shift_mm):
     return "\n".join(lines) + "\n"
 
 
-def measure(study):
-    study.add(
-        f"`frangia calibrate rig screen plate ball-bar -o rig.toml`: a screen in {POSES} poses, a plate on the turntable at {ANGLES} angles over 120 degrees, a ball bar at {STATIONS}; the built-in angular rig, 512 × 512 pixels, started 5 % and 3 degrees off. Largest error over {len(SEEDS)} seeds of noise and start.\n"
+def checks(study):
+    """Rows of `frangia calibrate check`, which ends with 1 where the rig is no longer what it was."""
+    scans = captures(study, 3)
+    rig, moved = calibrated(study, scans), study.work / "moved.toml"
+    moved.write_text(knocked(rig, 0.1, 0.5))
+    part, rows = study.digital("bracket", "angular"), []
+    for name, scan in (("ball-bar", scans[2]), ("plate", scans[1]), ("part (bracket)", part)):
+        for state, file in (("as found", rig), ("moved", moved)):
+            for item in study.run("calibrate", "check", file, scan, allowed=(0, 1))["items"]:
+                rows.append(
+                    [
+                        name,
+                        state,
+                        item["name"],
+                        f"{item['deviation_mm']:+.4f}",
+                        f"{item['limit_mm']:.4f}",
+                        "passed" if item["passed"] else "failed",
+                    ]
+                )
+    return rows
+
+
+def measure(study, case, seed):
+    if case == "seed":
+        return errors_of_seed(study, seed)
+    return errors_under_wavefront(study) if case == "wavefront" else checks(study)
+
+
+def report(text, results):
+    seeds = results["seed"]
+    text.add(
+        f"`frangia calibrate rig screen plate ball-bar -o rig.toml`: a screen in {POSES} poses, a plate on the turntable at {ANGLES} angles over 120 degrees, a ball bar at {STATIONS}; the built-in angular rig, 512 × 512 pixels, started 5 % and 3 degrees off. Largest error over {len(seeds)} seeds of noise and start.\n"
     )
-    errors, starts = [], []
-    for seed in SEEDS:
-        scans = captures(study, seed)
-        rig = study.work / f"angular-rig-{seed}.toml"
-        study.run("calibrate", "rig", *scans, "-o", rig)
-        truth = rig_of(scans[1] / "truth-rig.toml")
-        errors.append(errors_of(rig_of(rig), truth))
-        starts.append(errors_of(rig_of(scans[1] / "rig.toml"), truth))
-    study.table("parameter", "error at the start", "largest error")
-    for name in errors[0]:
-        start = "" if "px" in name else f"{max(abs(s[name]) for s in starts):.3g}"
-        study.row(name, start, f"{max(abs(e[name]) for e in errors):.4f}")
-    measure_wavefront(study)
-    study.add(
+    text.table("parameter", "error at the start", "largest error")
+    for name in seeds[0]["found"]:
+        start = "" if "px" in name else f"{max(abs(one['start'][name]) for one in seeds):.3g}"
+        text.row(name, start, f"{max(abs(one['found'][name]) for one in seeds):.4f}")
+    (one,) = results["wavefront"]
+    text.add(
+        f"\nA wavefront that deviates by {one['deviation_deg']:.4f} degrees RMS in the measuring volume: found with an error of {one['rms_deg']:.5f} degrees RMS, {one['largest_deg']:.5f} at most."
+    )
+    text.add(
         "\n`frangia calibrate check rig.toml SCAN`, with the found rig and with one whose projector was turned by 0.1 degrees and moved by 0.5 mm afterwards.\n"
     )
-    study.table("scan", "rig", "figure", "deviation, mm", "limit, mm", "")
-    plate, bar = scans[1], scans[2]
-    moved = study.work / "angular-rig-moved.toml"
-    moved.write_text(knocked(rig, 0.1, 0.5))
-    part = study.simulated("bracket", "angular", "angular-part")
-    for name, scan in (("ball-bar", bar), ("plate", plate), ("part (bracket)", part)):
-        for state, file in (("as found", rig), ("moved", moved)):
-            for item in check(study, file, scan)["items"]:
-                study.row(
-                    name,
-                    state,
-                    item["name"],
-                    f"{item['deviation_mm']:+.4f}",
-                    f"{item['limit_mm']:.4f}",
-                    "passed" if item["passed"] else "failed",
-                )
+    text.table("scan", "rig", "figure", "deviation, mm", "limit, mm", "")
+    for row in results["check"][0]:
+        text.row(*row)

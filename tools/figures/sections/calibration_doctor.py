@@ -3,9 +3,9 @@
 Eight poses of 640 x 512 pixels are rendered once; each of 20 seeds adds camera noise, and chooses the view or pattern
 where the fault concerns one.
 """
+import functools
 import json
 import re
-import subprocess
 
 import cv2
 import numpy
@@ -15,6 +15,7 @@ from board_captures import Capture, rendered
 TITLE = "Faults of a calibration"
 
 SEEDS = 20
+PART = 4
 POSES = 8
 
 
@@ -227,42 +228,34 @@ FAULTS = [
 ]
 
 
-def first_message(study, scan):
-    """The first warning or error of a calibration; None without one."""
-    result = subprocess.run(
-        [study.program, "--json", "calibrate", "rig", scan, "-o", scan / "found.toml"], capture_output=True, text=True
-    )
+CASES = {fault[0]: SEEDS for fault in FAULTS}
+
+
+@functools.cache
+def capture_of(study, board):
+    return Capture(rendered(study, board, POSES))
+
+
+def measure(study, case, seed):
+    """The first warning or error of a calibration; None without one. Seeds count from 0 here."""
+    _, change, text, _, board = next(fault for fault in FAULTS if fault[0] == case)
+    changed = (lambda frames: change(frames, seed - 1)) if change else None
+    scan = capture_of(study, board).write(study.work / "scan", 999 + seed, changed, text)
+    result = study.process("--json", "calibrate", "rig", scan, "-o", scan / "found.toml", allowed=None)
     messages = [line.replace(f"{scan}/", "") for line in result.stderr.splitlines() if line.strip()]
     if messages:
         return messages[0]
     return next(iter(json.loads(result.stdout).get("warnings", [])), None) if result.stdout else None
 
 
-def measure_fault(study, captures, fault, seeds):
-    name, change, text, words, board = fault
-    log = study.work / "doctor.json"
-    known = json.loads(log.read_text()) if log.exists() else {}
-    for seed in range(seeds):
-        key = f"{name} {seed}"
-        if key in known:
-            continue
-        scan = captures[board].write(
-            study.work / "doctor-scan", 1000 + seed, (lambda frames: change(frames, seed)) if change else None, text
-        )
-        known[key] = first_message(study, scan)
-        log.write_text(json.dumps(known, indent=1))
-    return [known[f"{name} {seed}"] for seed in range(seeds)]
-
-
-def measure(study, seeds=SEEDS):
-    captures = {kind: Capture(rendered(study, kind, POSES)) for kind in ("checkerboard", "charuco", "circles")}
-    study.add(
+def report(text, results):
+    seeds = len(results["none"])
+    text.add(
         f"`frangia calibrate rig` on {POSES} simulated poses of 640 × 512 pixels, {seeds} seeds of the noise. A fault is named if the first warning or error names it; without a fault there must be none.\n"
     )
-    study.table("fault", "named first", "message")
-    for fault in FAULTS:
-        messages = measure_fault(study, captures, fault, seeds)
-        words = fault[3]
+    text.table("fault", "named first", "message")
+    for name, _, _, words, _ in FAULTS:
+        messages = results[name]
         if words is None:
             named = sum(message is None for message in messages)
             wrong = next((message for message in messages if message is not None), "")
@@ -274,6 +267,6 @@ def measure(study, seeds=SEEDS):
             ]
             named = sum(map(bool, hits))
             wrong = next((message for message, hit in zip(messages, hits) if not hit), messages[0])
-        study.row(
-            fault[0], f"{named} of {seeds}" if words else f"nothing in {named} of {seeds}", str(wrong).replace("|", "/")
+        text.row(
+            name, f"{named} of {seeds}" if words else f"nothing in {named} of {seeds}", str(wrong).replace("|", "/")
         )

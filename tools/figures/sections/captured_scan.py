@@ -4,28 +4,27 @@ from study import ROOT
 PAGE = "figures-capture.md"
 TITLE = "A captured scan compared with a rendered one"
 
+RIGS = {"simulated-digital": ("bracket", "digital"), "simulated-interferometer": ("ball-bar", "angular")}
+CASES = {rig: 1 for rig in RIGS}
 
-def measure(study):
-    study.add(
+
+def measure(study, case, seed):
+    rendered = study.digital(*RIGS[case])
+    captured, _ = study.captured(ROOT / "examples" / f"{case}.toml")
+    return [study.inspected(scan, rendered / "truth.ply") for scan in (captured, rendered)]
+
+
+def report(text, results):
+    text.add(
         "`frangia scan examples/RIG -o SCAN` over simulated devices, 8 views, and `frangia simulate PART` of the same rig; both reconstructed and inspected.\n"
     )
-    study.table(
+    text.table(
         "rig", "part", "captured, RMS mm", "rendered, RMS mm", "completeness, captured", "completeness, rendered"
     )
-    for rig, part, preset in (
-        ("simulated-digital", "bracket", "digital"),
-        ("simulated-interferometer", "ball-bar", "angular"),
-    ):
-        rendered_scan = study.simulated(part, preset)
-        captured_scan = study.captured(f"captured-{preset}", ROOT / "examples" / f"{rig}.toml")
-        captured, rendered = (
-            study.inspected(scan, rendered_scan / "truth.ply") for scan in (captured_scan, rendered_scan)
-        )
-        study.row(
+    for rig, (comparisons,) in results.items():
+        text.row(
             f"{rig}.toml",
-            part,
-            f"{captured['rms_mm']:.4f}",
-            f"{rendered['rms_mm']:.4f}",
-            f"{100 * captured['completeness']:.1f} %",
-            f"{100 * rendered['completeness']:.1f} %",
+            RIGS[rig][0],
+            *(f"{one['rms_mm']:.4f}" for one in comparisons),
+            *(f"{100 * one['completeness']:.1f} %" for one in comparisons),
         )

@@ -68,7 +68,7 @@ def cloud_compare(study, points, reference):
     return numpy.loadtxt(out)[:, -1], time.monotonic() - begin
 
 
-def measure(study):
+def measure(study, case, seed):
     reference, mesh = study.work / "deviation-reference.ply", study.work / "deviation-mesh.ply"
     write_surface(reference, 1000, 501, 0.0, 1)
     write_surface(mesh, 2000, 1000, 0.02, 2)
@@ -76,22 +76,34 @@ def measure(study):
     answers = [study.run("inspect", mesh, "--reference", reference, "-o", out) for _ in range(3)]
     vertices = read_ply(out)
     deviation = vertices["deviation_mm"]
-    seconds = min(answer["seconds"]["deviation"] for answer in answers)
-    study.add(
+    result = {
+        "seconds": min(answer["seconds"]["deviation"] for answer in answers),
+        "compared": int(numpy.isfinite(deviation).sum()),
+    }
+    other = cloud_compare(study, points_of(vertices), reference)
+    if other is not None:
+        distances, their_seconds = other
+        both = numpy.isfinite(deviation) & numpy.isfinite(distances)
+        result["other"] = {
+            "seconds": their_seconds,
+            "compared": int(both.sum()),
+            "difference_mm": float(abs(deviation - distances)[both].max()),
+        }
+    return result
+
+
+def report(text, results):
+    result = results["deviation"][0]
+    text.add(
         "`frangia inspect MESH --reference REFERENCE -o OUT.ply`, 2 000 000 vertices against 1 000 000 triangles; seconds "
         "without reading and the search tree of the reference, the best of three.\n"
     )
-    study.table("program", "seconds", "largest difference, mm", "compared vertices")
-    study.row("frangia", f"{seconds:.2f}", "", int(numpy.isfinite(deviation).sum()))
-    other = cloud_compare(study, points_of(vertices), reference)
+    text.table("program", "seconds", "largest difference, mm", "compared vertices")
+    text.row("frangia", f"{result['seconds']:.2f}", "", result["compared"])
+    other = result.get("other")
     if other is None:
-        study.add("\nCloudCompare (Debian's package cloudcompare) was not installed.")
+        text.add("\nCloudCompare (Debian's package cloudcompare) was not installed.")
         return
-    distances, their_seconds = other
-    both = numpy.isfinite(deviation) & numpy.isfinite(distances)
-    study.row(
-        "CloudCompare, C2M, with reading",
-        f"{their_seconds:.2f}",
-        f"{abs(deviation - distances)[both].max():.6f}",
-        int(both.sum()),
+    text.row(
+        "CloudCompare, C2M, with reading", f"{other['seconds']:.2f}", f"{other['difference_mm']:.6f}", other["compared"]
     )

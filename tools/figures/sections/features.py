@@ -6,7 +6,6 @@ import numpy
 TITLE = "Features"
 PAGE = "inspection.md"
 
-SEEDS = 60  # 4 diameters and 3 distances of each: 420 results
 FIRST = 40
 # Diameters of the shaft's cylinders that the rig sees, and where along the axis they lie; that of 44 mm is in the shade
 # of the flange. The model has 512 facets.
@@ -17,8 +16,11 @@ FACES = [38.0, 80.0, 100.0]
 DISTANCES = [(38.0, 80.0), (38.0, 100.0), (80.0, 100.0)]
 
 # A turntable that is not where rig.toml states, so that registration finds it.
-MISALIGNED_SEEDS = 12
 MISALIGNED = ("--axis-offset", 0.3, "--axis-tilt", 0.2, "--angle-error", 0.05)
+
+# 4 diameters and 3 distances of each shaft: 420 results in full.
+CASES = {"shaft": 60, "misaligned": 12, "ball bar": 1, "fine shaft": 1}
+PART = {"shaft": 30, "misaligned": 6}
 
 
 def faces_of(features):
@@ -83,68 +85,91 @@ def write_fine_shaft(path, step_mm=0.13, noise_mm=0.005):
     return len(triangles)
 
 
-def measure_misaligned(study):
-    """Diameters where the overlap of the views determines the turntable."""
-    errors, intervals = [], []
-    for seed in range(1, MISALIGNED_SEEDS + 1):
-        scan = study.made(f"shaft-misaligned-{seed}", "simulate", "shaft", "--seed", seed, *MISALIGNED)
-        mesh = study.work / "shaft-misaligned.ply"
-        study.run("reconstruct", scan, "-o", mesh)
-        features = study.run("inspect", mesh, "--features")["features"]
-        found = [(cylinder, cylinder_at(features, *cylinder)) for cylinder in SHAFT]
-        errors += [feature["diameter_mm"] - modelled(cylinder[0]) for cylinder, feature in found if feature]
-        intervals += [feature["u95_mm"] for _, feature in found if feature]
-    error, u95 = numpy.array(errors), numpy.array(intervals)
-    inside = int((abs(error) <= u95).sum())
-    study.add(
-        f"\nWith a turntable that is not where rig.toml states (`simulate {' '.join(map(str, MISALIGNED))}`), {MISALIGNED_SEEDS} seeds: errors of the diameters {numpy.sqrt(numpy.mean(error**2)):.4f} mm RMS, mean U95 {u95.mean():.4f} mm; {inside} of {len(error)} within their intervals ({100 * inside / max(len(error), 1):.1f} %), wanted 92 % or more."
-    )
+def sizes_of(features):
+    """Error and U95 of the sizes of a shaft that are found; a size is an index of SHAFT + DISTANCES."""
+    found = {}
+    for number, cylinder in enumerate(SHAFT):
+        feature = cylinder_at(features, *cylinder)
+        if feature:
+            found[number] = [feature["diameter_mm"] - modelled(cylinder[0]), feature["u95_mm"]]
+    faces = faces_of(features)
+    for number, (low, high) in enumerate(DISTANCES, len(SHAFT)):
+        if low in faces and high in faces:
+            found[number] = [
+                faces[high]["center_mm"][2] - faces[low]["center_mm"][2] - (high - low),
+                numpy.hypot(faces[low]["u95_mm"], faces[high]["u95_mm"]),
+            ]
+    return found
 
 
-def measure(study):
-    study.add(
-        f"`frangia simulate shaft --seed N -o SCAN`, `frangia reconstruct SCAN -o MESH.ply`, `frangia inspect MESH.ply --features`; {SEEDS} seeds. The truth of a diameter is the cylinder that fits the facets of the simulated part.\n"
+def balls_of(study):
+    mesh, _ = study.reconstructed(study.shared("balls"))
+    begin = time.monotonic()
+    features = study.run("inspect", mesh, "--features")["features"]
+    return {
+        "seconds": time.monotonic() - begin,
+        "spheres": [f for f in features if f["kind"] == "sphere" and abs(f["diameter_mm"] - 40) < 1],
+    }
+
+
+def fine_shaft(study):
+    """The best of three."""
+    mesh = study.work / "fine-shaft.ply"
+    triangles = write_fine_shaft(mesh)
+    searches = [study.run("inspect", mesh, "--features") for _ in range(3)]
+    return {
+        "triangles": triangles,
+        "kinds": [feature["kind"] for feature in searches[0]["features"]],
+        "seconds": min(search["seconds"]["features"] for search in searches),
+    }
+
+
+def measure(study, case, seed):
+    if case == "ball bar":
+        return balls_of(study)
+    if case == "fine shaft":
+        return fine_shaft(study)
+    mesh, _ = study.reconstructed(
+        study.simulated("shaft", "--seed", seed, *(MISALIGNED if case == "misaligned" else ()))
     )
-    study.table(
+    return sizes_of(study.run("inspect", mesh, "--features")["features"])
+
+
+def of_size(found, number):
+    """Errors and U95 of a size, from the results of the seeds."""
+    return numpy.array([one[str(number)] for one in found if str(number) in one]).reshape(-1, 2).T
+
+
+def report(text, results):
+    found = results["shaft"]
+    text.add(
+        f"`frangia simulate shaft --seed N -o SCAN`, `frangia reconstruct SCAN -o MESH.ply`, `frangia inspect MESH.ply --features`; {len(found)} seeds. The truth of a diameter is the cylinder that fits the facets of the simulated part.\n"
+    )
+    text.table(
         "size, mm",
         "found",
-        f"within its interval, first {FIRST}",
+        f"within its interval, first {min(FIRST, len(found))}",
         "within its interval",
         "mean error, mm",
         "spread, mm",
         "mean U95, mm",
         "U95 over 1.96 spread",
     )
-    errors, intervals = {size: [] for size in SHAFT + DISTANCES}, {size: [] for size in SHAFT + DISTANCES}
-    for seed in range(1, SEEDS + 1):
-        mesh = study.work / f"shaft-{seed}.ply"
-        if not mesh.exists():
-            scan = study.made(f"shaft-features-{seed}", "simulate", "shaft", "--seed", seed)
-            study.run("reconstruct", scan, "-o", mesh)
-        features = study.run("inspect", mesh, "--features")["features"]
-        for cylinder in SHAFT:
-            found = cylinder_at(features, *cylinder)
-            if found:
-                errors[cylinder].append(found["diameter_mm"] - modelled(cylinder[0]))
-                intervals[cylinder].append(found["u95_mm"])
-        faces = faces_of(features)
-        for low, high in DISTANCES:
-            if low in faces and high in faces:
-                errors[low, high].append(faces[high]["center_mm"][2] - faces[low]["center_mm"][2] - (high - low))
-                intervals[low, high].append(numpy.hypot(faces[low]["u95_mm"], faces[high]["u95_mm"]))
     covered = total = 0
-    for size in SHAFT + DISTANCES:
-        error, u95 = numpy.array(errors[size]), numpy.array(intervals[size])
+    ratios = []
+    for number, size in enumerate(SHAFT + DISTANCES):
+        error, u95 = of_size(found, number)
         held = abs(error) <= u95
         inside = int(held.sum())
         covered, total = covered + inside, total + len(error)
         spread = error.std(ddof=1)
+        ratios.append(u95.mean() / (1.96 * spread))
         name = (
             f"diameter {size[0]:.0f} at z = {size[1]} to {size[2]}"
             if size in SHAFT
             else f"distance of the faces at z = {size[0]:.0f} and {size[1]:.0f}"
         )
-        study.row(
+        text.row(
             name,
             len(error),
             f"{int(held[:FIRST].sum())} of {len(held[:FIRST])}",
@@ -152,34 +177,32 @@ def measure(study):
             f"{error.mean():+.4f}",
             f"{spread:.4f}",
             f"{u95.mean():.4f}",
-            f"{u95.mean() / (1.96 * spread):.2f}",
+            f"{ratios[-1]:.2f}",
         )
-    ratio = numpy.mean([numpy.mean(intervals[c]) / (1.96 * numpy.std(errors[c], ddof=1)) for c in SHAFT + DISTANCES])
-    study.add(
-        f"\nPooled: {covered} of {total} ({100 * covered / max(total, 1):.1f} %), wanted 92 to 98 %; intervals {ratio:.2f} times those from the spread, wanted at most 1.2."
+    text.add(
+        f"\nPooled: {covered} of {total} ({100 * covered / max(total, 1):.1f} %), wanted 92 to 98 %; intervals {numpy.mean(ratios):.2f} times those from the spread, wanted at most 1.2."
     )
-    measure_misaligned(study)
 
-    mesh = study.work / "balls-features.ply"
-    study.run("reconstruct", study.shared("balls"), "-o", mesh)
-    begin = time.monotonic()
-    features = study.run("inspect", mesh, "--features")["features"]
-    seconds = time.monotonic() - begin
-    spheres = [f for f in features if f["kind"] == "sphere" and abs(f["diameter_mm"] - 40) < 1]
-    study.add("\n`frangia inspect balls.ply --features` on the mesh of ../shared/scans/balls:\n")
-    study.table("", "measured, mm", "wanted, mm")
+    error, u95 = numpy.concatenate([of_size(results["misaligned"], number) for number in range(len(SHAFT))], axis=1)
+    inside = int((abs(error) <= u95).sum())
+    text.add(
+        f"\nWith a turntable that is not where rig.toml states (`simulate {' '.join(map(str, MISALIGNED))}`), {len(results['misaligned'])} seeds: errors of the diameters {numpy.sqrt(numpy.mean(error**2)):.4f} mm RMS, mean U95 {u95.mean():.4f} mm; {inside} of {len(error)} within their intervals ({100 * inside / max(len(error), 1):.1f} %), wanted 92 % or more."
+    )
+
+    text.add("\n`frangia inspect balls.ply --features` on the mesh of ../shared/scans/balls:\n")
+    text.table("", "measured, mm", "wanted, mm")
+    spheres = results["ball bar"][0]["spheres"]
     for sphere in spheres:
-        study.row("sphere", f"{sphere['diameter_mm']:.4f} ± {sphere['u95_mm']:.4f}", "40 within 0.01")
-    centers = [numpy.array(sphere["center_mm"]) for sphere in spheres]
-    if len(centers) == 2:
-        study.row("spacing", f"{numpy.linalg.norm(centers[0] - centers[1]):.4f}", "70 within 0.01")
-    study.add(f"\nSeconds with reading: {seconds:.1f}.")
+        text.row("sphere", f"{sphere['diameter_mm']:.4f} ± {sphere['u95_mm']:.4f}", "40 within 0.01")
+    if len(spheres) == 2:
+        text.row(
+            "spacing",
+            f"{numpy.linalg.norm(numpy.subtract(*(sphere['center_mm'] for sphere in spheres))):.4f}",
+            "70 within 0.01",
+        )
+    text.add(f"\nSeconds with reading: {results['ball bar'][0]['seconds']:.1f}.")
 
-    fine = study.work / "fine-shaft.ply"
-    triangles = write_fine_shaft(fine)
-    searches = [study.run("inspect", fine, "--features") for _ in range(3)]
-    kinds = [feature["kind"] for feature in searches[0]["features"]]
-    seconds = min(search["seconds"]["features"] for search in searches)
-    study.add(
-        f"\nA turned part of {triangles} triangles with noise of 0.005 mm: {kinds.count('cylinder')} of 4 cylinders and {kinds.count('plane')} of 5 planes in {seconds:.1f} s, wanted 5 s; the best of three."
+    (fine,) = results["fine shaft"]
+    text.add(
+        f"\nA turned part of {fine['triangles']} triangles with noise of 0.005 mm: {fine['kinds'].count('cylinder')} of 4 cylinders and {fine['kinds'].count('plane')} of 5 planes in {fine['seconds']:.1f} s, wanted 5 s; the best of three."
     )

@@ -1,14 +1,24 @@
 """Harmonics of a projector, flicker and false steps: errors of the phase, and its stated uncertainty."""
+import functools
+
 import numpy
 from skimage import io
 
-from half_rig import half_rig
+from study import NotAsWanted
 
 TITLE = "Harmonics and flicker"
 
 GAMMA = 1.8
 STEPS = (3, 4, 5, 6)
-SEEDS = (1, 2, 3)
+SEEDS = 3
+FLICKER_STEPS = (3, 4, 5, 6, 12)
+CASES = {
+    **{f"gamma, {steps} steps": 1 for steps in STEPS},
+    "blurred": 1,
+    **{f"flicker, {steps} steps": SEEDS for steps in FLICKER_STEPS},
+    "steps": 1,
+    **{f"mesh, {steps} steps": 1 for steps in STEPS},
+}
 LEAST, MOST = 0.7, 1.5  # of error over sigma
 MOST_CORRECTED = 1.5  # times the error of a linear projector
 MOST_FLICKER = 1.3  # times the error without flicker
@@ -18,14 +28,14 @@ class Phases:
     """Absolute phases of one view of the bust, decoded with options, against those without noise and faults."""
 
     def __init__(self, study):
-        self.study, self.rig = study, half_rig(study.program, study.work)
-        self.truth = self.decoded(self.scan("bust-exact", "--shifts", 12, "--no-noise", "--bits", 16))[0]
+        self.study = study
+        self.truth = self.decoded(self.scan("--shifts", 12, "--no-noise", "--bits", 16))[0]
 
-    def scan(self, name, *options):
-        return self.study.made(name, "simulate", "bust", "--rig", self.rig, "--views", 1, *options)
+    def scan(self, *options, views=1):
+        return self.study.simulated("bust", "--rig", self.study.half_rig, "--views", views, *options)
 
     def decoded(self, scan, *options):
-        folder = self.study.work / "harmonics-decoded"
+        folder = self.study.fresh("decoded")
         self.study.run("decode", scan, "--view", 0, "-o", folder, *options)
         return tuple(io.imread(folder / f"{name}.tiff").astype(float) for name in ("absolute", "absolute-sigma"))
 
@@ -39,24 +49,84 @@ class Phases:
         )
 
 
-def mesh_ratio(study, scan, *options):
+@functools.cache
+def phases_of(study):
+    return Phases(study)
+
+
+def under_gamma(phases, steps):
+    linear = phases.errors(phases.scan("--shifts", steps))[0]
+    scan = phases.scan("--shifts", steps, "--display-gamma", GAMMA)
+    response = phases.study.work / "response.toml"
+    phases.study.run("response", scan, "-o", response)
+    return {
+        "linear": linear,
+        "plain": phases.errors(scan),
+        "auto": phases.errors(scan, "--undo-response", "auto"),
+        "filed": phases.errors(scan, "--undo-response", response),
+    }
+
+
+def blurred(phases):
+    """Of a linear projector, and by correction."""
+    options = ("--shifts", 3, "--projector-blur", 3, "--periods", "1280,160,20")
+    linear = phases.errors(phases.scan(*options))[0]
+    scan = phases.scan(*options, "--display-gamma", GAMMA)
+    response, pooled = phases.study.work / "response.toml", phases.study.work / "pooled.toml"
+    phases.study.run("response", scan, "-o", response)
+    pooled.write_text(response.read_text().split("[[projector.response.waveform]]")[0])
+    corrections = {
+        "none": (),
+        "one response for all periods": ("--undo-response", pooled),
+        "one waveform per period": ("--undo-response", response),
+        "auto": ("--undo-response", "auto"),
+    }
+    return {
+        "linear": linear,
+        "corrected": {name: phases.errors(scan, *options)[0] for name, options in corrections.items()},
+    }
+
+
+def under_flicker(phases, steps, seed):
+    none = phases.errors(phases.scan("--shifts", steps))[0]
+    return {"none": none, "flicker": phases.errors(phases.scan("--shifts", steps, "--flicker", 0.02, "--seed", seed))}
+
+
+def estimated_steps(phases):
+    scan = phases.scan("--shifts", 12, "--display-gamma", 2.0)
+    return {"nominal": phases.errors(scan)[0], "estimated": phases.errors(scan, "--algorithm", "global-carre")[0]}
+
+
+def mesh_ratio(phases, steps):
     """RMS of error over sigma of the vertices of a mesh."""
-    mesh = study.work / "harmonics.ply"
-    study.run("reconstruct", scan, "-o", mesh, *options)
-    return study.run("inspect", mesh, "--reference", scan / "truth.ply", "--scan", scan)["sigma_ratio"]
+    scan = phases.scan("--shifts", steps, "--display-gamma", GAMMA, views=4)
+    return phases.study.inspected(scan, scan / "truth.ply")["sigma_ratio"]
 
 
-def measure(study):
-    phases, failures = Phases(study), []
+def measure(study, case, seed):
+    phases = phases_of(study)
+    kind, *words = case.split(", ")
+    steps = int(words[0].split()[0]) if words else None
+    return {
+        "gamma": lambda: under_gamma(phases, steps),
+        "blurred": lambda: blurred(phases),
+        "flicker": lambda: under_flicker(phases, steps, seed),
+        "steps": lambda: estimated_steps(phases),
+        "mesh": lambda: mesh_ratio(phases, steps),
+    }[kind]()
+
+
+def report(text, results):
+    failures = []
 
     def wanted(condition, what):
         if not condition:
             failures.append(what)
 
-    study.add(
+    text.add(
         f"The bust, one view, digital rig with half its pixels on a side; phases against those of an exact scan. `frangia simulate bust --display-gamma {GAMMA} --shifts N`, decoded as it is, with `--undo-response auto`, and with the rig.toml that `frangia response` writes. Wanted: error over sigma {LEAST} to {MOST}; corrected at most {MOST_CORRECTED} times the error of a linear projector.\n"
     )
-    study.table(
+    text.table(
         "steps",
         "linear, rad RMS",
         f"gamma {GAMMA}, rad RMS",
@@ -66,13 +136,9 @@ def measure(study):
         "response, over linear",
     )
     for steps in STEPS:
-        linear = phases.errors(phases.scan(f"bust-linear-{steps}", "--shifts", steps))[0]
-        scan = phases.scan(f"bust-gamma-{steps}", "--shifts", steps, "--display-gamma", GAMMA)
-        response = study.work / "response.toml"
-        study.run("response", scan, "-o", response)
-        plain, auto = phases.errors(scan), phases.errors(scan, "--undo-response", "auto")
-        filed = phases.errors(scan, "--undo-response", response)
-        study.row(
+        (one,) = results[f"gamma, {steps} steps"]
+        linear, plain, auto, filed = (one[name] for name in ("linear", "plain", "auto", "filed"))
+        text.row(
             steps,
             f"{linear:.4f}",
             f"{plain[0]:.4f}",
@@ -84,66 +150,33 @@ def measure(study):
         wanted(LEAST < plain[1] < MOST and LEAST < auto[1] < MOST, f"error over sigma with {steps} steps")
         wanted(max(auto[0], filed[0]) < MOST_CORRECTED * linear, f"the correction with {steps} steps")
 
-    study.add(
+    text.add(
         "\nThe same with the light of the projector blurred (`--projector-blur 3`), which weakens the harmonics of fine fringes, three steps:\n"
     )
-    blurred = ("--shifts", 3, "--projector-blur", 3, "--periods", "1280,160,20")
-    linear = phases.errors(phases.scan("bust-blurred", *blurred))[0]
-    scan = phases.scan("bust-blurred-gamma", *blurred, "--display-gamma", GAMMA)
-    response = study.work / "response.toml"
-    study.run("response", scan, "-o", response)
-    pooled = study.work / "pooled.toml"
-    pooled.write_text(response.read_text().split("[[projector.response.waveform]]")[0])
-    study.table("correction", "rad RMS", "over linear")
-    for name, options in (
-        ("none", ()),
-        ("one response for all periods", ("--undo-response", pooled)),
-        ("one waveform per period", ("--undo-response", response)),
-        ("auto", ("--undo-response", "auto")),
-    ):
-        error = phases.errors(scan, *options)[0]
-        study.row(name, f"{error:.4f}", f"{error / linear:.2f}")
-    wanted(error < MOST_CORRECTED * linear, "the correction of blurred fringes")
+    text.table("correction", "rad RMS", "over linear")
+    (one,) = results["blurred"]
+    for name, error in one["corrected"].items():
+        text.row(name, f"{error:.4f}", f"{error / one['linear']:.2f}")
+    wanted(one["corrected"]["auto"] < MOST_CORRECTED * one["linear"], "the correction of blurred fringes")
 
-    study.add("\nFlicker of 2 % RMS per frame (`--flicker 0.02`), mean of three scans:\n")
-    study.table("steps", "none, rad RMS", "flicker, over none", "error over sigma")
-    for steps in (3, 4, 5, 6, 12):
-        none = phases.errors(phases.scan(f"bust-steps-{steps}", "--shifts", steps))[0]
-        found = [
-            phases.errors(
-                phases.scan(f"bust-flicker-{steps}-{seed}", "--shifts", steps, "--flicker", 0.02, "--seed", seed)
-            )
-            for seed in SEEDS
-        ]
-        ratio, over_sigma = (float(numpy.sqrt(numpy.mean([one[i] ** 2 for one in found]))) for i in (0, 1))
-        study.row(steps, f"{none:.4f}", f"{ratio / none:.2f}", f"{over_sigma:.2f}")
+    text.add("\nFlicker of 2 % RMS per frame (`--flicker 0.02`), mean of three scans:\n")
+    text.table("steps", "none, rad RMS", "flicker, over none", "error over sigma")
+    for steps in FLICKER_STEPS:
+        found = results[f"flicker, {steps} steps"]
+        none = found[0]["none"]
+        ratio, over_sigma = (float(numpy.sqrt(numpy.mean([one["flicker"][i] ** 2 for one in found]))) for i in (0, 1))
+        text.row(steps, f"{none:.4f}", f"{ratio / none:.2f}", f"{over_sigma:.2f}")
         if steps == 12:
             wanted(ratio < MOST_FLICKER * none, "flicker of 12 steps")
 
-    study.add("\nSteps estimated under a second harmonic of 25 % (gamma 2), 12 steps:\n")
-    scan = phases.scan("bust-steps-gamma", "--shifts", 12, "--display-gamma", 2.0)
-    nominal = phases.errors(scan)[0]
-    estimated = phases.errors(scan, "--algorithm", "global-carre")[0]
-    study.add(f"nominal steps {nominal:.4f} rad RMS, estimated steps {estimated:.4f} rad RMS.")
-    wanted(estimated < 1.05 * nominal, "estimated steps")
+    text.add("\nSteps estimated under a second harmonic of 25 % (gamma 2), 12 steps:\n")
+    (one,) = results["steps"]
+    text.add(f"nominal steps {one['nominal']:.4f} rad RMS, estimated steps {one['estimated']:.4f} rad RMS.")
+    wanted(one["estimated"] < 1.05 * one["nominal"], "estimated steps")
 
-    study.add("\nMeshes of four views, gamma 1.8, not corrected: error over sigma of the vertices.\n")
-    study.table("steps", "error over sigma")
+    text.add("\nMeshes of four views, gamma 1.8, not corrected: error over sigma of the vertices.\n")
+    text.table("steps", "error over sigma")
     for steps in STEPS:
-        scan = study.made(
-            f"bust-mesh-{steps}",
-            "simulate",
-            "bust",
-            "--rig",
-            phases.rig,
-            "--views",
-            4,
-            "--shifts",
-            steps,
-            "--display-gamma",
-            GAMMA,
-        )
-        ratio = mesh_ratio(study, scan)
-        study.row(steps, f"{ratio:.2f}")
+        text.row(steps, f"{results[f'mesh, {steps} steps'][0]:.2f}")
     if failures:
-        raise SystemExit("figures: not as wanted: " + ", ".join(failures))
+        raise NotAsWanted(", ".join(failures))

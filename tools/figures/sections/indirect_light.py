@@ -1,10 +1,17 @@
 """Indirect light: a part that lights its own concave sides, with coarse, mixed and fine sequences of fringes."""
-from half_rig import half_rig
-
 TITLE = "Indirect light"
 
 ALBEDO = 0.8
 VIEWS = 6
+PARTS = ("groove", "bracket")
+SEQUENCES = {
+    "1, 8, 64 fringes": (1, 8, 64),
+    "1, 4, 16 fringes": (1, 4, 16),
+    "53, 58, 64 fringes": (53, 58, 64),
+    "16 fringes and Gray code": None,
+    "proposed": None,
+}
+CASES = {f"{part}: {sequence}": 1 for part in PARTS for sequence in SEQUENCES}
 MOST_OVER_SIGMA = 1.3
 MOST_OVER_DIRECT = 1.5  # RMS of the proposed sequence over that without the bounce
 
@@ -13,41 +20,45 @@ def periods(values):
     return ",".join(f"{value:.6g}" for value in values)
 
 
-class Scans:
-    """Scans of a part, with one bounce or none."""
+def sequence_options(sequence, plan):
+    """The options of `frangia simulate` for a sequence; `plan` is what `frangia plan` proposes."""
+    if sequence == "proposed":
+        return "--periods", periods(plan["period_px"])
+    if SEQUENCES[sequence] is None:
+        return "--sequence", "gray", "--fringes", 16
+    width = plan["period_px"][0] * plan["fringes"][0]
+    return "--periods", periods(width / n for n in SEQUENCES[sequence])
 
-    def __init__(self, study):
-        self.study, self.rig = study, half_rig(study.program, study.work)
-        self.plan = study.run("plan", "--rig", self.rig, "--indirect", "--sigma", 0.05)
-        width = self.plan["period_px"][0] * self.plan["fringes"][0]
-        self.sequences = {
-            "1, 8, 64 fringes": ("--periods", periods(width / n for n in (1, 8, 64))),
-            "1, 4, 16 fringes": ("--periods", periods(width / n for n in (1, 4, 16))),
-            "53, 58, 64 fringes": ("--periods", periods(width / n for n in (53, 58, 64))),
-            "16 fringes and Gray code": ("--sequence", "gray", "--fringes", 16),
-            "proposed": ("--periods", periods(self.plan["period_px"])),
+
+def measure(study, case, seed):
+    part, sequence = case.split(": ")
+    plan = study.run("plan", "--rig", study.half_rig, "--indirect", "--sigma", 0.05)
+    found = {"plan": plan}
+    bounce = ("--bounces", 1, "--albedo", ALBEDO)
+    for name, options, reconstruction in (
+        ("direct", (), ()),
+        ("bounced", bounce, ()),
+        ("ignored", bounce, ("--ignore-indirect-light",)),
+    ):
+        scan = study.simulated(
+            part, "--rig", study.half_rig, "--views", VIEWS, *sequence_options(sequence, plan), *options
+        )
+        mesh, answer = study.reconstructed(scan, *reconstruction)
+        comparison = study.run("inspect", mesh, "--reference", scan / "truth.ply", "--scan", scan)
+        found[name] = {
+            **{key: comparison[key] for key in ("rms_mm", "p99_mm", "sigma_ratio")},
+            "light": answer.get("indirect_light"),
         }
-
-    def mesh(self, part, sequence, *options, ignore=False):
-        """The comparison with the true surface, and what the program says about indirect light."""
-        name = f"{part}-{sequence}-{'-'.join(map(str, options))}".replace(" ", "").replace(",", "_")
-        scan = self.study.made(
-            name, "simulate", part, "--rig", self.rig, "--views", VIEWS, *self.sequences[sequence], *options
-        )
-        mesh = self.study.work / "indirect.ply"
-        found = self.study.run("reconstruct", scan, "-o", mesh, *(("--ignore-indirect-light",) if ignore else ()))
-        return self.study.run("inspect", mesh, "--reference", scan / "truth.ply", "--scan", scan), found.get(
-            "indirect_light"
-        )
+    return found
 
 
-def measure(study):
-    scans, failures = Scans(study), []
-    fringes = ", ".join(f"{count:g}" for count in scans.plan["fringes"])
-    study.add(
-        f"Bracket and groove of 90°, {VIEWS} views, digital rig with half the pixels of its camera on a side, rendered without and with one diffuse bounce (`--bounces 1 --albedo {ALBEDO}`). The proposed sequence is that of `frangia plan --indirect --sigma 0.05`: {fringes} fringes, probability of a wrong order {scans.plan['wrong_order']:.0e}. Errors of the vertices in mm; `frangia reconstruct` finds the reflectance and corrects what the surface predicts; the ignored error is that of `--ignore-indirect-light`. Wanted: error over sigma at most {MOST_OVER_SIGMA}; RMS of the proposed sequence at most {MOST_OVER_DIRECT} times that without the bounce.\n"
+def report(text, results):
+    failures, plan = [], next(iter(results.values()))[0]["plan"]
+    fringes = ", ".join(f"{count:g}" for count in plan["fringes"])
+    text.add(
+        f"Bracket and groove of 90°, {VIEWS} views, digital rig with half the pixels of its camera on a side, rendered without and with one diffuse bounce (`--bounces 1 --albedo {ALBEDO}`). The proposed sequence is that of `frangia plan --indirect --sigma 0.05`: {fringes} fringes, probability of a wrong order {plan['wrong_order']:.0e}. Errors of the vertices in mm; `frangia reconstruct` finds the reflectance and corrects what the surface predicts; the ignored error is that of `--ignore-indirect-light`. Wanted: error over sigma at most {MOST_OVER_SIGMA}; RMS of the proposed sequence at most {MOST_OVER_DIRECT} times that without the bounce.\n"
     )
-    study.table(
+    text.table(
         "part",
         "sequence",
         "RMS direct",
@@ -58,29 +69,27 @@ def measure(study):
         "error over sigma",
         "reflectance found",
     )
-    for part in ("groove", "bracket"):
-        for sequence in scans.sequences:
-            direct, none = scans.mesh(part, sequence)
-            bounced, light = scans.mesh(part, sequence, "--bounces", 1, "--albedo", ALBEDO)
-            ignored = scans.mesh(part, sequence, "--bounces", 1, "--albedo", ALBEDO, ignore=True)[0]
-            ratio, over = bounced["rms_mm"] / direct["rms_mm"], bounced["sigma_ratio"]
-            found = f"{light['reflectance']:.2f}" if light else "none"
-            study.row(
-                part,
-                sequence,
-                f"{direct['rms_mm']:.4f}",
-                f"{ignored['rms_mm']:.4f}",
-                f"{bounced['rms_mm']:.4f}",
-                f"{ratio:.2f}",
-                f"{bounced['p99_mm']:.4f}",
-                f"{over:.2f} ({direct['sigma_ratio']:.2f} direct)",
-                found,
-            )
-            if over > MOST_OVER_SIGMA:
-                failures.append(f"error over sigma of {part}, {sequence}")
-            if none:
-                failures.append(f"indirect light where there is none, {part}, {sequence}")
-            if sequence == "proposed" and ratio > MOST_OVER_DIRECT:
-                failures.append(f"the proposed sequence on {part}")
+    for case, (one,) in results.items():
+        part, sequence = case.split(": ")
+        direct, bounced, ignored = one["direct"], one["bounced"], one["ignored"]
+        ratio, over, light = bounced["rms_mm"] / direct["rms_mm"], bounced["sigma_ratio"], bounced["light"]
+        found = f"{light['reflectance']:.2f}" if light else "none"
+        text.row(
+            part,
+            sequence,
+            f"{direct['rms_mm']:.4f}",
+            f"{ignored['rms_mm']:.4f}",
+            f"{bounced['rms_mm']:.4f}",
+            f"{ratio:.2f}",
+            f"{bounced['p99_mm']:.4f}",
+            f"{over:.2f} ({direct['sigma_ratio']:.2f} direct)",
+            found,
+        )
+        if over > MOST_OVER_SIGMA:
+            failures.append(f"error over sigma of {part}, {sequence}")
+        if direct["light"]:
+            failures.append(f"indirect light where there is none, {part}, {sequence}")
+        if sequence == "proposed" and ratio > MOST_OVER_DIRECT:
+            failures.append(f"the proposed sequence on {part}")
     if failures:
-        study.add("\nNot reached: " + ", ".join(failures) + ".")
+        text.add("\nNot reached: " + ", ".join(failures) + ".")

@@ -1,7 +1,6 @@
 """The way of docs/calibration.md without hardware: from a rig of which sizes are known to a measured ball bar."""
 import re
 import shutil
-import subprocess
 
 from refine_rig import balls
 from study import ROOT
@@ -34,28 +33,24 @@ def write_picture(name, svg):
     (ROOT / "docs" / "images" / f"calibration-{name}.svg").write_text(svg + "\n")
 
 
-def measure(study):
-    folder = study.work / "maker-path"
-    shutil.rmtree(folder, ignore_errors=True)
-    folder.mkdir()
+def measure(study, case, seed):
+    folder = study.work
     for rig in ("simulated-maker.toml", "simulated-digital.toml"):
         shutil.copy(ROOT / "examples" / rig, folder)
-    study.add(
+    for command in COMMANDS.splitlines():
+        study.process("--quiet", *command.split()[1:], cwd=folder, input="\n" * 20)
+    draw(study, folder / "calibration.html")
+    return balls(folder / "ball-bar.ply")
+
+
+def report(text, results):
+    errors, spacing = results["maker_path"][0]
+    text.add(
         "The commands of [calibration.md](calibration.md), on [examples/simulated-maker.toml](../examples/simulated-maker.toml), with Enter for each pose:\n"
     )
     for command in COMMANDS.splitlines():
-        study.add(f"    {command}")
-        subprocess.run(
-            [study.program, "--quiet", *command.split()[1:]],
-            check=True,
-            cwd=folder,
-            input="\n" * 20,
-            text=True,
-            stderr=subprocess.DEVNULL,
-        )
-    errors, spacing = balls(folder / "ball-bar.ply")
-    study.add()
-    study.table("", "measured", "true")
-    study.row("spacing of the balls, mm", f"{spacing:.4f}", "70")
-    study.row("form error of the balls, RMS mm", ", ".join(f"{error:.4f}" for error in errors), "0")
-    draw(study, folder / "calibration.html")
+        text.add(f"    {command}")
+    text.add()
+    text.table("", "measured", "true")
+    text.row("spacing of the balls, mm", f"{spacing:.4f}", "70")
+    text.row("form error of the balls, RMS mm", ", ".join(f"{error:.4f}" for error in errors), "0")

@@ -5,7 +5,7 @@ import sys
 from study import ROOT, NotMeasured
 
 
-def measure(study):
+def measure(study, case, seed):
     bench, docs = ROOT / "out" / "bench", ROOT / "docs"
     if not (bench / "phase.json").exists():
         raise NotMeasured("the plots of times need out/bench; run `./run bench` first")

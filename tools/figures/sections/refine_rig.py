@@ -1,9 +1,7 @@
 """A projector that was knocked after its calibration, refined by the scan itself."""
-import json
 import os
 import re
 import shutil
-import subprocess
 import tomllib
 
 import numpy
@@ -14,6 +12,9 @@ from surfaces import fit_sphere, points_of, read_ply, read_triangles
 TITLE = "A rig that drifted"
 
 TURN_DEG, SHIFT_MM = 0.1, 0.5
+RIGS = {"exact": 0, **{f"drifted, seed {seed}": seed for seed in (1, 2, 3)}}
+PARTS = ("bust", "bracket", "shaft")
+CASES = {case: 1 for case in (*RIGS, *PARTS)}
 
 
 def rotation(axis, angle):
@@ -24,8 +25,7 @@ def rotation(axis, angle):
 
 def drifted(study, scan, seed):
     """The scan with the projector of its rig.toml turned and moved in a random direction."""
-    folder = study.work / f"{scan.name}-drifted-{seed}"
-    shutil.rmtree(folder, ignore_errors=True)
+    folder = study.fresh("drifted")
     shutil.copytree(scan, folder, copy_function=os.link)
     (folder / "rig.toml").unlink()  # the link, not the scan's own
     text = (scan / "rig.toml").read_text()
@@ -41,13 +41,10 @@ def drifted(study, scan, seed):
     return folder
 
 
-def reconstruct(study, scan, mesh, *options):
-    """The answer of the program, also for a result that it does not trust: a rig that drifted far contradicts itself."""
-    command = [study.program, "--json", "reconstruct", scan, "-o", mesh, *options]
-    result = subprocess.run(command, capture_output=True, text=True)
-    if result.returncode not in (0, 5):
-        raise subprocess.CalledProcessError(result.returncode, command, result.stdout, result.stderr)
-    return json.loads(result.stdout)
+def reconstruct(study, scan, *options):
+    """Mesh and answer, also for a result that the program does not trust: a rig that drifted far contradicts itself."""
+    mesh = study.work / "mesh.ply"
+    return mesh, study.run("reconstruct", scan, "-o", mesh, *options, allowed=(0, 5))
 
 
 def balls(mesh):
@@ -119,11 +116,43 @@ def shape_error(mesh, truth):
     return numpy.sqrt(numpy.mean(distance[alike & (numpy.abs(distance) < 1.0)] ** 2)), scale
 
 
-def measure(study):
-    study.add(
+def measured_balls(study, seed):
+    scan = study.digital("ball-bar")
+    folder = drifted(study, scan, seed) if seed else scan
+    mesh, plain = reconstruct(study, folder)
+    given, _ = balls(mesh)
+    mesh, answer = reconstruct(study, folder, "--refine-rig")
+    refined, spacing = balls(mesh)
+    mesh, _ = reconstruct(study, folder, "--refine-rig", "--length", "70mm")
+    return {
+        "trusted": plain["trustworthy"],
+        "given": given,
+        "refined": refined,
+        "spacing": spacing,
+        "scaled": balls(mesh)[1],
+        "found": answer["refinement"],
+        "seconds": answer.get("seconds", {}).get("rig"),
+    }
+
+
+def measured_part(study, part):
+    scan = study.digital(part)
+    moved, errors = drifted(study, scan, 1), []
+    for folder, options in ((scan, []), (moved, []), (moved, ["--refine-rig"]), (scan, ["--refine-rig"])):
+        mesh, _ = reconstruct(study, folder, *options)
+        errors.append(shape_error(mesh, scan / "truth.ply"))
+    return errors
+
+
+def measure(study, case, seed):
+    return measured_part(study, case) if case in PARTS else measured_balls(study, RIGS[case])
+
+
+def report(text, results):
+    text.add(
         f"The projector of rig.toml turned by {TURN_DEG} degrees and moved by {SHIFT_MM} mm, each in a random direction, after a scan by the simulated digital rig (8 views, 4 rays a pixel). The spheres of the ball bar after `frangia reconstruct`; wanted: with `--refine-rig` at most 1.3 times the form error of the exact rig.\n"
     )
-    study.table(
+    text.table(
         "rig",
         "form error of the spheres, RMS mm",
         "with `--refine-rig`",
@@ -133,42 +162,25 @@ def measure(study):
         "changes determined",
         "seconds of the refinement",
     )
-    mesh = study.work / "refined.ply"
-    scan = study.simulated("ball-bar")
-    exact = None
-    for name, folder in [("exact", scan)] + [
-        (f"drifted, seed {seed}", drifted(study, scan, seed)) for seed in (1, 2, 3)
-    ]:
-        untrusted = not reconstruct(study, folder, mesh)["trustworthy"]
-        given, _ = balls(mesh)
-        answer = reconstruct(study, folder, mesh, "--refine-rig")
-        refined, spacing = balls(mesh)
-        reconstruct(study, folder, mesh, "--refine-rig", "--length", "70mm")
-        _, scaled = balls(mesh)
-        exact = exact or given
-        found = answer["refinement"]
-        study.row(
+    exact = results["exact"][0]["given"]
+    for name in RIGS:
+        (row,) = results[name]
+        found = row["found"]
+        text.row(
             name,
-            ", ".join(f"{error:.4f}" for error in given) + (" (not trusted)" if untrusted else ""),
-            ", ".join(f"{error:.4f}" for error in refined),
-            ", ".join(f"{error / best:.2f}" for error, best in zip(refined, exact)),
-            f"{spacing:.3f}",
-            f"{scaled:.3f}",
+            ", ".join(f"{error:.4f}" for error in row["given"]) + ("" if row["trusted"] else " (not trusted)"),
+            ", ".join(f"{error:.4f}" for error in row["refined"]),
+            ", ".join(f"{error / best:.2f}" for error, best in zip(row["refined"], exact)),
+            f"{row['spacing']:.3f}",
+            f"{row['scaled']:.3f}",
             "kept"
             if found["kept_rig"]
             else f"{found['directions'] - found['held_directions']} of {found['directions']}",
-            f"{answer['seconds']['rig']:.0f}" if "rig" in answer.get("seconds", {}) else "",
+            "" if row["seconds"] is None else f"{row['seconds']:.0f}",
         )
-    study.add(
+    text.add(
         "\nOther parts, seed 1: RMS distance from the true surface after the similarity that fits best, and in brackets the error of the scale, which no part determines.\n"
     )
-    study.table("part", "exact rig, mm", "drifted", "drifted, `--refine-rig`", "exact, `--refine-rig`")
-    for part in ("bust", "bracket", "shaft"):
-        scan = study.simulated(part)
-        moved = drifted(study, scan, 1)
-        rms = []
-        for folder, options in ((scan, []), (moved, []), (moved, ["--refine-rig"]), (scan, ["--refine-rig"])):
-            reconstruct(study, folder, mesh, *options)
-            error, scale = shape_error(mesh, scan / "truth.ply")
-            rms.append(f"{error:.4f} ({100 * (1 / scale - 1):+.2f} %)")
-        study.row(part, *rms)
+    text.table("part", "exact rig, mm", "drifted", "drifted, `--refine-rig`", "exact, `--refine-rig`")
+    for part in PARTS:
+        text.row(part, *(f"{error:.4f} ({100 * (1 / scale - 1):+.2f} %)" for error, scale in results[part][0]))

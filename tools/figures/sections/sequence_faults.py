@@ -1,156 +1,20 @@
 """Faults of a projected sequence, declared wrongly in scan.toml: which are named rightly."""
-import json
+import base64
+import functools
 import math
-import pathlib
 import re
 import shutil
-import subprocess
 
 import cv2
 import numpy as np
+
+from fringe_scenes import FIELD, GAIN_E, READ_E, Scene, fringes, gray, small_rig, toml_of, wall, write_scan
 
 PAGE = "figures-capture.md"
 TITLE = "Sequences that do not fit scan.toml"
 
 SCANS = 20
-GAIN_E, READ_E = 78.43, 8.0  # the camera noise of the sample scans: electrons per count, electrons
-FIELD = 1280
 PARTS = ["plate", "bracket", "ball-bar", "blade"]
-
-
-def toml_of(patterns):
-    """scan.toml of one view."""
-    lines = ['format = "frangia-scan"', "version = 2"]
-    for pattern in patterns:
-        lines.append("[[pattern]]")
-        lines += [f"{key} = {json.dumps(value)}" for key, value in pattern["keys"].items()]
-    return "\n".join(lines + ["[[view]]", 'folder = "views/000"', ""])
-
-
-def small_rig(study):
-    """The digital rig with a camera of 320 x 256 pixels."""
-    text = (study.made("rig-source", "simulate", "plate", "--views", 1, "--samples", 1) / "rig.toml").read_text()
-    camera, rest = text.split("[camera.noise]")
-    numbers = lambda values: [float(value) for value in values.split(",")]
-    camera = re.sub(r"size_px = \[(.*?)\]", "size_px = [320, 256]", camera)
-    camera = re.sub(r"focal_px = \[(.*?)\]", lambda m: f"focal_px = {[v / 3 for v in numbers(m[1])]}", camera)
-    camera = re.sub(
-        r"principal_point_px = \[(.*?)\]",
-        lambda m: f"principal_point_px = {[(v + 0.5) / 3 - 0.5 for v in numbers(m[1])]}",
-        camera,
-    )
-    path = study.work / "small-rig.toml"
-    path.write_text(camera + "[camera.noise]" + rest)
-    return path
-
-
-class Scene:
-    """A part, rendered once without noise: the mean, the modulation and the projector column at each pixel.
-
-    Frames of any sequence follow from them by the model I = A + B cos(2 pi u / period + shift).
-    """
-
-    def __init__(self, study, rig, part):
-        folder = study.made(
-            f"clean-{part}",
-            "simulate",
-            part,
-            "--rig",
-            rig,
-            "--views",
-            1,
-            "--samples",
-            1,
-            "--no-noise",
-            "--bits",
-            16,
-            "--periods",
-            FIELD,
-            160,
-            20,
-        )
-        frames = lambda name: [
-            cv2.imread(str(folder / "views" / "000" / f"{name}-{k}.png"), cv2.IMREAD_UNCHANGED).astype(float) / 257
-            for k in range(4)
-        ]
-        column = None
-        for period in (FIELD, 160, 20):
-            i = frames(f"p{period}")
-            phase = np.arctan2(i[3] - i[1], i[0] - i[2])
-            if column is None:
-                column = np.mod(phase, 2 * math.pi) / (2 * math.pi) * period
-            column = column + period * (np.mod(phase / (2 * math.pi) - column / period + 0.5, 1) - 0.5)
-        self.mean = sum(i) / 4
-        self.modulation = np.hypot(i[3] - i[1], i[0] - i[2]) / 2
-        self.column = column
-
-    def fringe(self, period, shift_deg):
-        return self.mean + self.modulation * np.cos(2 * math.pi * self.column / period + math.radians(shift_deg))
-
-    def stripes(self, bits, stripe, bit, binary=False, inverse=False):
-        number = np.floor((self.column + 0.5) / stripe).astype(int)
-        code = number if binary else number ^ (number >> 1)
-        bright = (code >> (bits - 1 - bit)) & 1
-        return self.mean + self.modulation * np.where((bright == 1) != inverse, 1, -1)
-
-
-def wall(generator):
-    """A bumpy wall that fills nearly the whole field, so that the borders of the widest stripes are seen."""
-    scene = Scene.__new__(Scene)
-    y, x = np.mgrid[0:256, 0:320]
-    bumps = sum(
-        generator.uniform(5, 15) * np.sin(x * generator.uniform(0.01, 0.04) + y * generator.uniform(0.01, 0.04))
-        for _ in range(3)
-    )
-    scene.column = 20 + 1240 * x / 319 + bumps
-    scene.modulation = 60 + 20 * np.sin(0.02 * y)
-    scene.mean = 1.2 * scene.modulation + 20
-    return scene
-
-
-def fringes(counts, steps=4):
-    """Declared patterns and what is really shown: the same."""
-    shifts = [360 * k / steps for k in range(steps)]
-    return [
-        {
-            "keys": {"name": f"f{count}", "kind": "fringe", "period_px": FIELD / count, "shifts_deg": list(shifts)},
-            "shown": {"period": FIELD / count, "shifts": list(shifts)},
-        }
-        for count in counts
-    ]
-
-
-def gray():
-    """Fringes of 40 px with a Gray code of 20 px stripes."""
-    code = {
-        "keys": {"name": "gray", "kind": "gray", "bits": 6, "stripe_px": 20},
-        "shown": {"frames": [(bit, False, False) for bit in range(6)]},
-    }
-    return fringes([32]) + [code]
-
-
-def write_scan(folder, scene, patterns, rig, generator):
-    shutil.rmtree(folder, ignore_errors=True)
-    (folder / "views" / "000").mkdir(parents=True)
-    shutil.copy(rig, folder / "rig.toml")
-    (folder / "scan.toml").write_text(toml_of(patterns))
-    for pattern in patterns:
-        shown = pattern["shown"]
-        if "shifts" in shown:
-            clean = [scene.fringe(shown["period"], shift) for shift in shown["shifts"]]
-        else:
-            clean = [
-                scene.mean - scene.modulation if one is None else scene.stripes(6, 20, one[0], one[1], one[2])
-                for one in shown["frames"]
-            ]
-        for k, image in enumerate(clean):
-            sigma = np.sqrt(np.maximum(image, 0) / GAIN_E + (READ_E / GAIN_E) ** 2)
-            noisy = np.clip(np.rint(image + sigma * generator.normal(size=image.shape)), 0, 255).astype(np.uint8)
-            cv2.imwrite(
-                str(folder / "views" / "000" / f"{pattern['keys']['name']}-{k}.png"),
-                noisy,
-                [cv2.IMWRITE_PNG_COMPRESSION, 1],
-            )
 
 
 SEQUENCES = [
@@ -282,12 +146,7 @@ GRAY_FAULTS = [gray_exchanged, gray_inverted, gray_missing, gray_order, gray_bin
 
 
 def decode(study, folder):
-    result = subprocess.run(
-        [study.program, "--json", "decode", folder, "-o", study.work / "fault-stages"], capture_output=True, text=True
-    )
-    if result.returncode not in (0, 5):
-        raise RuntimeError(result.stderr)
-    return json.loads(result.stdout)
+    return study.run("decode", folder, "-o", study.work / "fault-stages", allowed=(0, 5))
 
 
 def is_named(answer, kind, names, what):
@@ -306,63 +165,67 @@ def is_named(answer, kind, names, what):
     return any(what in one for one in described) and (fits[0]["kind"] == kind or len(described) > 1)
 
 
-def faults(study, rig, scenes):
-    study.add(
-        f"`./run figures sequence_faults`: {', '.join(PARTS)}, rendered at 320 x 256 pixels; {SCANS} scans of each fault, over the parts, "
-        "sequences of 1, 8, 64; 53, 58, 64; 1, 8, 40 (five frames); and 1, 4, 16, 64 fringes, and a Gray code of six bits, on walls "
-        "that fill the field; noise as in the sample scans.\n"
-    )
-    study.table("fault", "named, and nothing else", "wanted")
-    for fault in FRINGE_FAULTS + GRAY_FAULTS:
-        named = 0
-        for i in range(SCANS):
-            generator = np.random.default_rng(1000 + i)
-            # Without levels, a start of any angle is the same as another start of another pattern and a shift in the field.
-            sequences = SEQUENCES[:1] + SEQUENCES[2:] if fault is any_start else SEQUENCES
-            patterns = gray() if fault in GRAY_FAULTS else sequences[i // 2 % len(sequences)]()
-            wanted = fault(i, patterns, generator)
-            scene = wall(generator) if fault in GRAY_FAULTS else scenes[i % len(scenes)]
-            write_scan(study.work / "fault", scene, patterns, rig, generator)
-            answer = decode(study, study.work / "fault")
-            if is_named(answer, *wanted):
-                named += 1
-            else:
-                print("  not named:", i, wanted, answer.get("reason"), flush=True)
-        study.row(fault.__doc__.splitlines()[0].rstrip("."), f"{named} of {SCANS}", "at least 19")
-    blamed = 0
-    for i in range(SCANS):
-        generator = np.random.default_rng(2000 + i)
-        patterns = gray() if i % 5 == 4 else SEQUENCES[i % 5]()
-        write_scan(study.work / "fault", scenes[i % len(scenes)], patterns, rig, generator)
-        answer = decode(study, study.work / "fault")
-        blamed += not answer["trustworthy"]
-        if not answer["trustworthy"]:
-            print("  blamed:", i, answer["reason"], flush=True)
-    study.row("none", f"{blamed} of {SCANS} blamed", "0")
+FAULTS = {fault.__doc__.splitlines()[0].rstrip("."): fault for fault in FRINGE_FAULTS + GRAY_FAULTS}
+CASES = {**{name: SCANS for name in FAULTS}, "none": SCANS, "64, 58 and 53 fringes": 10, "tilted plate": 60}
 
 
-def wrong_orders(study, rig, scenes):
-    """64, 58 and 53 fringes."""
-    wrong = kept = 0
-    for seed in range(10):
-        generator = np.random.default_rng(3000 + seed)
-        scene = scenes[seed % len(scenes)]
-        write_scan(study.work / "fault", scene, fringes([53, 58, 64]), rig, generator)
-        decode(study, study.work / "fault")
-        phase = cv2.imread(str(study.work / "fault-stages" / "absolute.tiff"), cv2.IMREAD_UNCHANGED)
-        error = phase - 2 * math.pi * scene.column * 64 / FIELD
-        measured = np.isfinite(phase) & (scene.modulation > 20)
-        kept += int(measured.sum())
-        wrong += int((np.abs(error[measured]) > math.pi).sum())
-    study.add(
-        f"\nHeterodyne, 64, 58 and 53 fringes, four steps: {wrong} wrong orders among {kept} well-modulated pixels of ten scans "
-        f"({wrong / kept:.1e}; wanted: below 1e-4)."
-    )
+@functools.cache
+def rig_and_scenes(study):
+    rig = small_rig(study)
+    return rig, [Scene(study, rig, part) for part in PARTS]
 
 
-def tilted_plate(study):
-    """Both directions of fringes on a plate that is tilted about two axes, by the equations of two pinholes."""
-    width, height, seeds = 160, 120, 60
+def answer_to_fault(study, fault, i):
+    """Whether a fault is named and nothing else, and what was wanted and said."""
+    rig, scenes = rig_and_scenes(study)
+    generator = np.random.default_rng(1000 + i)
+    # Without levels, a start of any angle is the same as another start of another pattern and a shift in the field.
+    sequences = SEQUENCES[:1] + SEQUENCES[2:] if fault is any_start else SEQUENCES
+    patterns = gray() if fault in GRAY_FAULTS else sequences[i // 2 % len(sequences)]()
+    wanted = fault(i, patterns, generator)
+    scene = wall(generator) if fault in GRAY_FAULTS else scenes[i % len(scenes)]
+    write_scan(study.work / "fault", scene, patterns, rig, generator)
+    answer = decode(study, study.work / "fault")
+    return {"named": is_named(answer, *wanted), "wanted": wanted, "reason": answer.get("reason")}
+
+
+def is_blamed(study, i):
+    """Whether a sound scan is called faulty."""
+    rig, scenes = rig_and_scenes(study)
+    generator = np.random.default_rng(2000 + i)
+    patterns = gray() if i % 5 == 4 else SEQUENCES[i % 5]()
+    write_scan(study.work / "fault", scenes[i % len(scenes)], patterns, rig, generator)
+    return not decode(study, study.work / "fault")["trustworthy"]
+
+
+def wrong_orders(study, i):
+    """Numbers of wrong and of all well-modulated pixels with 64, 58 and 53 fringes."""
+    rig, scenes = rig_and_scenes(study)
+    scene = scenes[i % len(scenes)]
+    write_scan(study.work / "fault", scene, fringes([53, 58, 64]), rig, np.random.default_rng(3000 + i))
+    decode(study, study.work / "fault")
+    phase = cv2.imread(str(study.work / "fault-stages" / "absolute.tiff"), cv2.IMREAD_UNCHANGED)
+    error = phase - 2 * math.pi * scene.column * 64 / FIELD
+    measured = np.isfinite(phase) & (scene.modulation > 20)
+    return [int((np.abs(error[measured]) > math.pi).sum()), int(measured.sum())]
+
+
+CHOICES = ("vertical", "horizontal", "fused", "best")
+INNER = (slice(8, -8), slice(8, -8))
+
+
+def packed(array):
+    """An array as text, for a result in JSON."""
+    return base64.b64encode(array.astype("<f4").tobytes()).decode()
+
+
+def unpacked(text):
+    return np.frombuffer(base64.b64decode(text), "<f4").astype(float)
+
+
+def tilted_plate(study, seed):
+    """Depth errors by direction of fringes on a plate that is tilted about two axes, by the equations of two pinholes."""
+    width, height = 160, 120
     angle = math.atan2(200, 500)
     c, s = math.cos(angle), math.sin(angle)
     rig = study.work / "plate-rig.toml"
@@ -392,55 +255,75 @@ principal_point_px = [320, 400]
     scene = Scene.__new__(Scene)
     coordinates = {"vertical": 320 + 900 * (c * px + s * z) / depth, "horizontal": 400 + 900 * py / depth}
     scene.mean, scene.modulation = np.full(z.shape, 110.0), np.linspace(30, 90, width)[None, :] * np.ones(z.shape)
-    square = {choice: np.zeros(z.shape) for choice in ("vertical", "horizontal", "fused", "best")}
-    for seed in range(seeds):
-        generator = np.random.default_rng(4000 + seed)
-        folder = study.work / "tilted"
-        every = []
-        for run, (way, side) in enumerate((("vertical", 640), ("horizontal", 480))):
-            scene.column = coordinates[way]
-            patterns = []
-            for one in (side, 80, 20):
-                pattern = {
-                    "keys": {
-                        "name": f"{way[0]}{one}",
-                        "kind": "fringe",
-                        "direction": way,
-                        "period_px": one,
-                        "shifts_deg": [0, 90, 180, 270],
-                    },
-                    "shown": {"period": one, "shifts": [0, 90, 180, 270]},
-                }
-                patterns.append(pattern)
-            if run == 0:
-                write_scan(folder, scene, patterns, rig, generator)
-            else:
-                write_scan(study.work / "tilted-rows", scene, patterns, rig, generator)
-                for file in (study.work / "tilted-rows" / "views" / "000").iterdir():
-                    shutil.copy(file, folder / "views" / "000")
-            every += patterns
-        (folder / "scan.toml").write_text(toml_of(every))
-        for choice in square:
-            study.run("decode", folder, "--directions", choice, "-o", study.work / "fault-stages")
-            found = cv2.imread(str(study.work / "fault-stages" / "depth.tiff"), cv2.IMREAD_UNCHANGED)
-            square[choice] += (found - z) ** 2 / seeds
-    inner = (slice(8, -8), slice(8, -8))
-    rms = {choice: np.sqrt(value[inner]) for choice, value in square.items()}
+    errors = {}
+    generator = np.random.default_rng(3999 + seed)
+    folder = study.work / "tilted"
+    every = []
+    for run, (way, side) in enumerate((("vertical", 640), ("horizontal", 480))):
+        scene.column = coordinates[way]
+        patterns = []
+        for one in (side, 80, 20):
+            pattern = {
+                "keys": {
+                    "name": f"{way[0]}{one}",
+                    "kind": "fringe",
+                    "direction": way,
+                    "period_px": one,
+                    "shifts_deg": [0, 90, 180, 270],
+                },
+                "shown": {"period": one, "shifts": [0, 90, 180, 270]},
+            }
+            patterns.append(pattern)
+        if run == 0:
+            write_scan(folder, scene, patterns, rig, generator)
+        else:
+            write_scan(study.work / "tilted-rows", scene, patterns, rig, generator)
+            for file in (study.work / "tilted-rows" / "views" / "000").iterdir():
+                shutil.copy(file, folder / "views" / "000")
+        every += patterns
+    (folder / "scan.toml").write_text(toml_of(every))
+    for choice in CHOICES:
+        study.run("decode", folder, "--directions", choice, "-o", study.work / "fault-stages")
+        found = cv2.imread(str(study.work / "fault-stages" / "depth.tiff"), cv2.IMREAD_UNCHANGED)
+        errors[choice] = packed((found - z)[INNER])
+    return errors
+
+
+def measure(study, case, seed):
+    if case in FAULTS:
+        return answer_to_fault(study, FAULTS[case], seed - 1)
+    if case == "none":
+        return is_blamed(study, seed - 1)
+    return tilted_plate(study, seed) if case == "tilted plate" else wrong_orders(study, seed - 1)
+
+
+def report(text, results):
+    scans = len(results["none"])
+    text.add(
+        f"`./run figures sequence_faults`: {', '.join(PARTS)}, rendered at 320 x 256 pixels; {scans} scans of each fault, over the parts, "
+        "sequences of 1, 8, 64; 53, 58, 64; 1, 8, 40 (five frames); and 1, 4, 16, 64 fringes, and a Gray code of six bits, on walls "
+        "that fill the field; noise as in the sample scans.\n"
+    )
+    text.table("fault", "named, and nothing else", "wanted")
+    for fault in FAULTS:
+        text.row(fault, f"{sum(one['named'] for one in results[fault])} of {len(results[fault])}", "at least 19")
+    text.row("none", f"{sum(results['none'])} of {scans} blamed", "0")
+    wrong, kept = np.sum(results["64, 58 and 53 fringes"], axis=0)
+    text.add(
+        f"\nHeterodyne, 64, 58 and 53 fringes, four steps: {wrong} wrong orders among {kept} well-modulated pixels of {len(results['64, 58 and 53 fringes'])} scans "
+        f"({wrong / kept:.1e}; wanted: below 1e-4)."
+    )
+
+    plates = results["tilted plate"]
+    seeds = len(plates)
+    rms = {choice: np.sqrt(np.mean([unpacked(one[choice]) ** 2 for one in plates], axis=0)) for choice in CHOICES}
     better = np.minimum(rms["vertical"], rms["horizontal"])
     ratio = rms["fused"] / better
     noise = 1 / math.sqrt(2 * seeds)  # relative standard error of each RMS
-    study.add(
+    text.add(
         f"\nA tilted plate with both directions of fringes, {seeds} seeds, RMS depth error: vertical {np.nanmean(rms['vertical']):.4f} mm, "
         f"horizontal {np.nanmean(rms['horizontal']):.4f} mm, the better one of each pixel {np.nanmean(better):.4f} mm, best "
         f"{np.nanmean(rms['best']):.4f} mm, fused {np.nanmean(rms['fused']):.4f} mm. Fused over the better direction, pixel by pixel: median "
         f"{np.nanmedian(ratio):.3f}, 99 % below {np.nanpercentile(ratio, 99):.3f} (an RMS of {seeds} seeds is uncertain by {100 * noise:.0f} %; wanted: no "
         "worse)."
     )
-
-
-def measure(study):
-    rig = small_rig(study)
-    scenes = [Scene(study, rig, part) for part in PARTS]
-    faults(study, rig, scenes)
-    wrong_orders(study, rig, scenes)
-    tilted_plate(study)

@@ -5,7 +5,7 @@ import sys
 from study import ROOT
 
 
-def measure(study):
+def measure(study, case, seed):
     subprocess.run(
         [sys.executable, ROOT / "tools" / "surface_pictures.py", study.program, ROOT / "docs" / "images"], check=True
     )
