@@ -70,7 +70,10 @@ class Results:
 
 
 def read_record():
-    """Of each section, for its part and in full: inputs, revision, seconds and number of cases of the last measurement."""
+    """Of each section, for its part and in full: inputs, revision, seconds and number of cases of the last measurement.
+
+    Measurements from before there was a record have no more than a revision.
+    """
     return json.loads(RECORD.read_text()) if RECORD.exists() else {}
 
 
@@ -93,8 +96,8 @@ def is_changed(name, is_full):
 def expected_s(name, is_full, count):
     """The time of a number of cases, from the last measurement, else from the estimate of the table."""
     entry = read_record().get(name, {})
-    last = entry.get("full" if is_full else "part") or entry.get("part")
-    return count * (last["seconds"] / last["cases"] if last else SECTIONS[name].case_s)
+    timed = [entry[kind] for kind in ("full" if is_full else "part", "part") if "seconds" in entry.get(kind, {})]
+    return count * (timed[0]["seconds"] / timed[0]["cases"] if timed else SECTIONS[name].case_s)
 
 
 def time_text(seconds):
