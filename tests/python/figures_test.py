@@ -15,6 +15,9 @@ import unittest
 
 PROGRAM = pathlib.Path(sys.argv[1]).resolve()
 SOURCE = pathlib.Path(sys.argv[2]).resolve()
+sys.path.append(str(SOURCE / "tools"))
+
+from half_rig import halved  # noqa: E402
 
 TABLE = """
 from inputs import Inputs
@@ -112,7 +115,7 @@ class Tree(unittest.TestCase):
         self.write("notes.txt", "")
         self.write("docs/page.md", "# Page\n")
         rig = (SOURCE / "examples" / "python" / "small-rig.toml").read_text()
-        self.write("rig.toml", rig)
+        self.write("rig.toml", halved(halved(rig)))
         self.write(".gitignore", "/out/\n__pycache__\n")
         self.git("init", "-q")
         self.commit("Begin")

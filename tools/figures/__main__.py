@@ -72,6 +72,8 @@ def main(program, words):
     Scans(program).remove_stale()
     try:
         failed = [name for name in names if not measure(program, name, is_full, "--again" in options)]
+    except KeyboardInterrupt:
+        sys.exit("figures: interrupted; the same command goes on with the case that was not finished")
     except subprocess.CalledProcessError as error:
         sys.exit(f"figures: {' '.join(map(str, error.cmd))} ended with {error.returncode}: {error.stderr}")
     if failed:
