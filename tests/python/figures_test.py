@@ -252,6 +252,9 @@ class Measurements(Tree):
         self.assertIn("2 of 6 cases are to be measured", self.figures("toy", "--full"))  # it takes the part's results
         self.assertEqual(self.page().count("Measured by"), 1)
         self.assertIn(f"`./run figures toy --full`, 6 of 6 cases, at revision {second}.", self.page())
+        page = self.page()
+        self.figures("toy")  # all cases are known, so the page stays that of the full measurement
+        self.assertEqual(self.page(), page)
         self.append("notes.txt", "not committed")
         self.figures("toy", "--full")
         self.assertIn(f"at revision {second} with changes.", self.page())

@@ -36,6 +36,7 @@ class Results:
     """The results of a section with the same inputs, one line of JSON for each case: (result, seconds) by (case, seed)."""
 
     def __init__(self, name, inputs):
+        self.inputs = inputs
         self.path = ROOT / "out" / "figures" / "cases" / name / f"{inputs}.jsonl"
         self.path.parent.mkdir(parents=True, exist_ok=True)
         others = sorted(
@@ -125,33 +126,47 @@ def run_cases(section, study, results, left):
         print(f"  {number} of {len(left)}: {case}, seed {seed}: {time_text(results.known[case, seed][1])}", flush=True)
 
 
+def say_what_is_measured(name, section, is_full, count, left):
+    """What a section measures, and how long it takes."""
+    lines = [f"==> figures {name}: {section.__doc__.splitlines()[0]}"]
+    lines.append(f"{left} of {count} cases are to be measured, about {time_text(expected_s(name, is_full, left))}")
+    if left < count:
+        lines.append(f"{count - left} are known by the same inputs; `--again` measures them again")
+    every = len(cases_of(section, name, True))
+    if every > count:
+        lines.append(f"`--full` has {every} cases, about {time_text(expected_s(name, True, every))}")
+    print("\n" + "\n".join(lines), flush=True)
+
+
+def write_results(name, section, text, results, cases):
+    """Writes the page of a section and its record."""
+    part, every, at = cases_of(section, name, False), cases_of(section, name, True), revision()
+    title = getattr(section, "TITLE", None)
+    if title:
+        which = f"{' --full' * (cases == every)}`, {len(cases)} of {len(every)} cases," if part != every else "`"
+        text.add(f"\nMeasured by `./run figures {name}{which} at revision {at}.")
+        page = ROOT / "docs" / getattr(section, "PAGE", "figures.md")
+        write_section(page, list(SECTIONS), name, title, str(text), cases == every)
+    entry = read_record().get(name, {})
+    for kind, measured in (("part", part), ("full", every)):
+        if all(case in cases for case in measured):
+            seconds = round(results.seconds(measured))
+            entry[kind] = {"inputs": results.inputs, "revision": at, "seconds": seconds, "cases": len(measured)}
+    write_record(name, entry)
+
+
 def measure(program, name, is_full, again=False):
     """Measures a section and writes its page and its record; False where a result is not as wanted."""
-    section, inputs = importlib.import_module(name), inputs_checksum(name, SECTIONS[name])
-    every, cases = cases_of(section, name, True), cases_of(section, name, is_full)
-    results = Results(name, inputs)
+    section, results = importlib.import_module(name), Results(name, inputs_checksum(name, SECTIONS[name]))
     if again:
         results.forget()
+    every = cases_of(section, name, True)
+    cases = every if all(case in results.known for case in every) else cases_of(section, name, is_full)
     left = [case for case in cases if case not in results.known]
-    print(
-        f"\n==> figures {name}: {section.__doc__.splitlines()[0]}\n"
-        f"{len(left)} of {len(cases)} cases are to be measured, about {time_text(expected_s(name, is_full, len(left)))}"
-        + (
-            f"; {len(cases) - len(left)} are known by the same inputs, `--again` measures them again"
-            if len(left) < len(cases)
-            else ""
-        )
-        + (
-            f"; `--full` has {len(every)} cases, about {time_text(expected_s(name, True, len(every)))}"
-            if len(every) > len(cases)
-            else ""
-        ),
-        flush=True,
-    )
-    text = Text()
+    say_what_is_measured(name, section, is_full, len(cases), len(left))
+    text, by_case = Text(), {case: [] for case, _ in cases}
     try:
         run_cases(section, Study(program, name, SECTIONS[name]), results, left)
-        by_case = {case: [] for case, _ in cases}
         for case, seed in cases:
             by_case[case].append(results.known[case, seed][0])
         if hasattr(section, "report"):
@@ -163,27 +178,5 @@ def measure(program, name, is_full, again=False):
         print(f"{text}\n\nfigures: {name} is not as wanted, and its page stays as it is: {reason}", flush=True)
         return False
     print(f"\n{text}", flush=True)
-    part, at = cases_of(section, name, False), revision()
-    title = getattr(section, "TITLE", None)
-    if title:
-        which = f"{' --full' * (cases == every)}`, {len(cases)} of {len(every)} cases," if part != every else "`"
-        text.add(f"\nMeasured by `./run figures {name}{which} at revision {at}.")
-        write_section(
-            ROOT / "docs" / getattr(section, "PAGE", "figures.md"),
-            list(SECTIONS),
-            name,
-            title,
-            str(text),
-            cases == every,
-        )
-    entry = read_record().get(name, {})
-    for kind, measured in (("part", part), ("full", every)):
-        if all(case in cases for case in measured):
-            entry[kind] = {
-                "inputs": inputs,
-                "revision": at,
-                "seconds": round(results.seconds(measured)),
-                "cases": len(measured),
-            }
-    write_record(name, entry)
+    write_results(name, section, text, results, cases)
     return True
