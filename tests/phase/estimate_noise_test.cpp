@@ -3,9 +3,12 @@
 #include <cmath>
 #include <cstdint>
 #include <random>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
+
+#include "frangia/phase/internal/row_rounds.h"
 
 #include "support/display_fringes.h"
 #include "support/synthetic_fringes.h"
@@ -94,6 +97,49 @@ TEST(NoiseSamples, PoolingOverViewsReducesTheScatter) {
   pooled = std::sqrt(pooled / kTrials);
   EXPECT_LT(pooled, 0.5 * alone) << "alone " << alone << ", pooled " << pooled;
   EXPECT_LT(pooled, 0.02);
+}
+
+/// Four frames of 640 x 400 pixels; `light` and `sigma` are of the pixel, in counts.
+template <typename Light, typename Sigma>
+FrameStack frames_with_noise(const Light& light, const Sigma& sigma) {
+  std::mt19937 generator(5);
+  std::normal_distribution<double> noise(0.0, 1.0);
+  FrameStack stack{.pattern = quarter_steps(), .frames = {}, .white_level = 255};
+  for (const double shift : stack.pattern.shifts_rad) {
+    Image<std::uint8_t> image(640, 400);
+    for (int y = 0; y < image.height(); ++y) {
+      for (int x = 0; x < image.width(); ++x) {
+        const double counts = light(x, y) * (1.0 + 0.5 * std::cos(0.1 * x + 0.02 * y + shift));
+        image(x, y) =
+            static_cast<std::uint8_t>(std::lround(counts + sigma(x, y) * noise(generator)));
+      }
+    }
+    stack.frames.emplace_back(std::move(image));
+  }
+  return stack;
+}
+
+TEST(EstimateNoise, ReadsNoMoreRowsThanFillTheBins) {
+  const RowRounds rounds(640, 400, 32'768, 400'000);
+  ASSERT_GT(rounds.count(), 1);
+  std::vector<char> in_first(400, 0);
+  rounds.for_each_row(0, [&](int y) { in_first[static_cast<std::size_t>(y)] = 1; });
+  const FrameStack stack = frames_with_noise(
+      [](int x, int) { return 40.0 + 0.1 * x; },
+      [&](int, int y) { return in_first[static_cast<std::size_t>(y)] != 0 ? 1.0 : 4.0; });
+  EXPECT_NEAR(estimate_noise({&stack, 1}).variance(70.0), 1.0 + 1.0 / 12.0, 0.1);
+}
+
+TEST(EstimateNoise, ReadsMoreRowsForASmallPart) {
+  // A part of 20 x 60 pixels in front of a dark background. Without it there is one brightness.
+  const auto light = [](int x, int y) {
+    return x >= 300 && x < 320 && y >= 100 && y < 160 ? 150.0 : 40.0;
+  };
+  const FrameStack stack =
+      frames_with_noise(light, [&](int x, int y) { return std::sqrt(0.5 + light(x, y) / 50.0); });
+  const NoiseModel noise = estimate_noise({&stack, 1});
+  EXPECT_NEAR(noise.variance(40.0), 0.5 + 40.0 / 50.0 + 1.0 / 12.0, 0.1);
+  EXPECT_NEAR(noise.variance(150.0), 0.5 + 150.0 / 50.0 + 1.0 / 12.0, 1.2);
 }
 
 TEST(EstimateNoise, IsQuantizationNoiseWithoutFrames) {
