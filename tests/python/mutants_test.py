@@ -1,4 +1,4 @@
-"""Which places of a source `./run lint mutants` changes, and that it changes nothing else: mutants_test.py SOURCE_DIR"""
+"""Which places of a source `./run lint mutants` changes, and what it leaves: mutants_test.py SOURCE_DIR"""
 import pathlib
 import sys
 
@@ -8,8 +8,11 @@ import sites  # noqa: E402 (below the path)
 
 def changed(text):
     """The lines that the changes of a text make, without indentation."""
-    return [(text[:site.start] + choice + text[site.end:]).strip()
-            for site in sites.sites("a.cpp", text) for choice in site.choices]
+    return [
+        (text[: site.start] + choice + text[site.end :]).strip()
+        for site in sites.sites("a.cpp", text)
+        for choice in site.choices
+    ]
 
 
 def check(text, expected):
@@ -22,7 +25,10 @@ check("sum = a + b;", ["sum = a - b;"])
 check("sum = a * b / c;", ["sum = a / b / c;", "sum = a * b * c;"])
 check("all += size;", ["all -= size;"])
 check("if (a < b && !c) return;", ["if (a > b && !c) return;", "if (a < b || !c) return;", "if (a < b && c) return;"])
-check("if (a == b ||\n    c >= d)", ["if (a != b ||\n    c >= d)", "if (a == b &&\n    c >= d)", "if (a == b ||\n    c <= d)"])
+check(
+    "if (a == b ||\n    c >= d)",
+    ["if (a != b ||\n    c >= d)", "if (a == b &&\n    c >= d)", "if (a == b ||\n    c <= d)"],
+)
 check("return -x;", ["return x;"])
 check("f(-x, a - b)", ["f(x, a - b)", "f(-x, a + b)"])
 check("const bool on = true;", ["const bool on = false;"])
@@ -35,12 +41,31 @@ check("n = 1'000;", ["n = 1001;", "n = 999;"])
 check("x = 0.0F;", ["x = 1.0F;"])
 check("x = 1e-12;", [])  # keeps a divisor from zero
 
-# What is not changed: types, declarations, comments, directives, literals, the values in messages, capacities, progress.
-for text in ["std::vector<Eigen::Matrix<double, 3, 1>> points;", "const float* p; int& r = *q; T&& t;", "auto&& [a, b] = c;",
-             "x = y;  // 1 + 2", "/* 1 +\n 2 */", "#define TWO 2", '#include "a_1.h"', 'text = "1 + 2";', "c = '1';",
-             'text = R"(1 + 2 "3")";', 'fail("{} of {}", i + 1, n);', "static_assert(2 > 1);", "points.reserve(3 * n);",
-             "run.report((i + 1.0) / n);", "using A = B<3>;", "p->x;", "Vector3d v2;", "i++;", "const auto f = [&](int x) {};"]:
+# What stays: types, declarations, comments, directives, literals, values in messages, capacities, progress.
+for text in [
+    "std::vector<Eigen::Matrix<double, 3, 1>> points;",
+    "const float* p; int& r = *q; T&& t;",
+    "auto&& [a, b] = c;",
+    "x = y;  // 1 + 2",
+    "/* 1 +\n 2 */",
+    "#define TWO 2",
+    '#include "a_1.h"',
+    'text = "1 + 2";',
+    "c = '1';",
+    'text = R"(1 + 2 "3")";',
+    'fail("{} of {}", i + 1, n);',
+    "static_assert(2 > 1);",
+    "points.reserve(3 * n);",
+    "run.report((i + 1.0) / n);",
+    "using A = B<3>;",
+    "p->x;",
+    "Vector3d v2;",
+    "i++;",
+    "const auto f = [&](int x) {};",
+]:
     check(text, [])
-check('require(n > 2, "of {} pixels", n + 1);', ['require(n < 2, "of {} pixels", n + 1);'] +
-      [f'require(n > {n}, "of {{}} pixels", n + 1);' for n in (3, 1)])
+check(
+    'require(n > 2, "of {} pixels", n + 1);',
+    ['require(n < 2, "of {} pixels", n + 1);'] + [f'require(n > {n}, "of {{}} pixels", n + 1);' for n in (3, 1)],
+)
 check("a = b[1];\n// 5\n", ["a = b[2];\n// 5", "a = b[0];\n// 5"])

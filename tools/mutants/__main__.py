@@ -42,7 +42,7 @@ class Change:
 
     def __init__(self, site, text, rng):
         self.path, self.source = site.path, text
-        self.text = text[:site.start] + rng.choice(site.choices) + text[site.end:]
+        self.text = text[: site.start] + rng.choice(site.choices) + text[site.end :]
         self.line = text.count("\n", 0, site.start) + 1
         self.before = text.splitlines()[self.line - 1].strip()
         self.after = self.text.splitlines()[self.line - 1].strip()
@@ -58,8 +58,11 @@ def draw(module, seed, base):
         path = str(source.relative_to(ROOT))
         texts[path] = source.read_text()
         lines = None if base is None else changed_lines(base, path)
-        found += [site for site in sites.sites(path, texts[path])
-                  if lines is None or texts[path].count("\n", 0, site.start) + 1 in lines]
+        found += [
+            site
+            for site in sites.sites(path, texts[path])
+            if lines is None or texts[path].count("\n", 0, site.start) + 1 in lines
+        ]
     rng = random.Random(f"{module} {seed}")
     rng.shuffle(found)
     return [Change(site, texts[site.path], rng) for site in found]
@@ -89,15 +92,21 @@ class Tests:
         passed, self.cpu_s, output = tree.run(program, ["*"], 3600, f"--gtest_output=json:{report}")
         if not passed:
             raise Unusable(f"the tests of {tree.module} fail without a change:\n{output[-2000:]}")
-        self.seconds = {f"{suite['name']}.{test['name']}": float(test["time"].rstrip("s"))
-                        for suite in json.loads(report.read_text())["testsuites"] for test in suite["testsuite"]}
+        self.seconds = {
+            f"{suite['name']}.{test['name']}": float(test["time"].rstrip("s"))
+            for suite in json.loads(report.read_text())["testsuites"]
+            for test in suite["testsuite"]
+        }
         self.texts = {path: path.read_text() for path in set(self.sources.values())}
 
     def passes(self, path):
         header = path.removeprefix("src/").removesuffix(".cpp") + ".h"
         stem = pathlib.Path(path).stem
-        about = [name for name, source in self.sources.items()
-                 if source.stem.startswith(stem) or f'"{header}"' in self.texts[source]]
+        about = [
+            name
+            for name, source in self.sources.items()
+            if source.stem.startswith(stem) or f'"{header}"' in self.texts[source]
+        ]
         others = set(self.sources) - set(about)
         quick = [name for name in self.sources if name in others and self.seconds.get(name, 0) <= QUICK_S]
         slow = [name for name in self.sources if name in others and self.seconds.get(name, 0) > QUICK_S]
@@ -117,12 +126,17 @@ class Tests:
 def try_changes(tree, changes, count):
     """The numbers of changes that were tried, and the survivors."""
     tests = Tests(tree)
-    print(f"{len(tests.sources)} tests of {tree.module} take {tests.cpu_s:.1f} s of processor time without a change", flush=True)
+    print(
+        f"{len(tests.sources)} tests of {tree.module} take {tests.cpu_s:.1f} s of processor time without a change",
+        flush=True,
+    )
     equivalent, unchanged = read_equivalent(), {}
     tried, known, survivors = 0, 0, []
     for change in changes:
         if tried == count:
             break
+        if change.path not in tree.commands:  # of a part that this build leaves out
+            continue
         if (change.path, change.before, change.after) in equivalent:
             known += 1
             continue
@@ -158,7 +172,7 @@ def main():
         sys.exit(f"mutants: there is no module '{options.module}' in src/frangia")
     changes = draw(options.module, options.seed, None if options.all else options.base)
     if not changes:
-        print(f"no operator or constant in the sources of {options.module} changed since {options.base}; --all takes all lines")
+        print(f"nothing to change in {options.module} since {options.base}; --all takes all lines")
         return
     tree = options.tree.resolve()
     work = tree / "mutants" / options.module
@@ -183,8 +197,10 @@ def main():
     if survivors:
         print("\nSurvivors: each needs a test, or its reason in tools/mutants/equivalent.txt")
         print(*survivors, sep="\n")
-    print(f"\n{options.module}, seed {options.seed}: {tried - len(survivors)} of {tried} changes killed, "
-          f"{len(survivors)} survive; {known} known as equivalent left out")
+    print(
+        f"\n{options.module}, seed {options.seed}: {tried - len(survivors)} of {tried} changes killed, "
+        f"{len(survivors)} survive; {known} known as equivalent left out"
+    )
     if len(survivors) > MOST_SURVIVORS * tried:
         sys.exit(f"mutants: more than {MOST_SURVIVORS:.0%} survive")
 

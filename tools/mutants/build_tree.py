@@ -13,7 +13,6 @@ import shlex
 import shutil
 import signal
 import subprocess
-import time
 
 MEMORY_BYTES = 8 << 30  # a changed capacity must not take the machine
 
@@ -27,7 +26,7 @@ def replaced(words, option, value):
     if option not in words:
         return words
     at = words.index(option)
-    return words[:at] + ([option, value] if value is not None else []) + words[at + 2:]
+    return words[:at] + ([option, value] if value is not None else []) + words[at + 2 :]
 
 
 class BuildTree:
@@ -54,17 +53,22 @@ class BuildTree:
                 if f"/src/frangia/{self.module}/" in source:
                     words = shlex.split(entry["command"])
                     if "-fPIC" not in words or "-fno-semantic-interposition" in words or "-flto" in words:
-                        raise Unusable(f"{source} is compiled without -fPIC, so that a changed function could be inlined; "
-                                       "configure with CMAKE_POSITION_INDEPENDENT_CODE and without LTO")
+                        raise Unusable(
+                            f"{source} is compiled without -fPIC, so that a changed function could be inlined; "
+                            "configure with CMAKE_POSITION_INDEPENDENT_CODE and without LTO"
+                        )
                     found[os.path.relpath(source, self.root)] = words
         return found
 
     def _link_words(self):
-        printed = subprocess.run(["ninja", "-C", self.tree, "-t", "commands", f"test_{self.module}"],
-                                 capture_output=True, text=True)
+        printed = subprocess.run(
+            ["ninja", "-C", self.tree, "-t", "commands", f"test_{self.module}"], capture_output=True, text=True
+        )
         if printed.returncode:
-            raise Unusable(f"{self.tree} has no program test_{self.module}: src/frangia/{self.module} needs tests in "
-                           f"tests/{self.module}")
+            raise Unusable(
+                f"{self.tree} has no program test_{self.module}: src/frangia/{self.module} needs tests in "
+                f"tests/{self.module}"
+            )
         link = next(part for part in printed.stdout.splitlines()[-1].split(" && ") if " -o " in part)
         words = shlex.split(link)
         self.built_program = self.tree / words[words.index("-o") + 1]
@@ -73,11 +77,20 @@ class BuildTree:
         words = replaced(words, "-o", str(self.program))
         first_object = next(i for i, word in enumerate(words) if word.endswith(".o"))
         linker = next((["-fuse-ld=" + name] for name in ("mold", "lld", "gold") if shutil.which("ld." + name)), [])
-        return (words[:first_object] + linker + ["-Wl,-z,muldefs", str(self.object)] + words[first_object:])
+        return (
+            words[:first_object]
+            + linker
+            + ["-Wl,-z,muldefs", "-Wl,--as-needed", str(self.object)]
+            + words[first_object:]
+        )
 
     def _quick(self, words):
         """A compiler's words for a module's source, made quick and for the copy of the sources."""
-        words = [word.replace(str(self.root / "src"), str(self.source_root)) for word in words if word not in ("-MD", "-Werror")]
+        words = [
+            word.replace(str(self.root / "src"), str(self.source_root))
+            for word in words
+            if word not in ("-MD", "-Werror")
+        ]
         words = [re.sub(r"^-O[23s]$", "-O1", word) for word in words]
         for option in ("-MT", "-MF"):
             words = replaced(words, option, None)
@@ -92,7 +105,9 @@ class BuildTree:
             self.header = self.work / "common" / text.name
             self.header.parent.mkdir()
             shutil.copy(text, self.header)
-            making = replaced(replaced(replaced(words, "-include", None), "-c", str(self.header)), "-o", f"{self.header}.gch")
+            making = replaced(
+                replaced(replaced(words, "-include", None), "-c", str(self.header)), "-o", f"{self.header}.gch"
+            )
             at = making.index("-c")
             self._call(making[:at] + ["-x", "c++-header"] + making[at:], check=True)
         return replaced(words, "-include", str(self.header))
@@ -118,6 +133,7 @@ class BuildTree:
     def run(self, program, names, cpu_s, *options):
         """Runs tests of a program; returns whether they passed, their processor time and their output. A test
         that takes more than cpu_s of processor time, or waits for long, is a failure."""
+
         def limit():
             resource.setrlimit(resource.RLIMIT_CPU, (int(cpu_s) + 1, int(cpu_s) + 2))
             resource.setrlimit(resource.RLIMIT_AS, (MEMORY_BYTES, MEMORY_BYTES))
@@ -126,9 +142,15 @@ class BuildTree:
         before = resource.getrusage(resource.RUSAGE_CHILDREN)
         log = self.work / "tests.log"
         with log.open("w") as sink:
-            process = subprocess.Popen([program, f"--gtest_filter={':'.join(names)}", "--gtest_brief=1", *options],
-                                       cwd=self.work, stdin=subprocess.DEVNULL, stdout=sink, stderr=sink,
-                                       preexec_fn=limit, start_new_session=True)
+            process = subprocess.Popen(
+                [program, f"--gtest_filter={':'.join(names)}", "--gtest_brief=1", *options],
+                cwd=self.work,
+                stdin=subprocess.DEVNULL,
+                stdout=sink,
+                stderr=sink,
+                preexec_fn=limit,
+                start_new_session=True,
+            )
             try:
                 code = process.wait(timeout=60 + 20 * cpu_s)
             except subprocess.TimeoutExpired:
@@ -146,6 +168,11 @@ class BuildTree:
     def tests(self, program):
         """Name and source of each test."""
         listing = self.work / "list.json"
-        subprocess.run([program, "--gtest_list_tests", f"--gtest_output=json:{listing}"], check=True, capture_output=True)
-        return {f"{suite['name']}.{test['name']}": pathlib.Path(test["file"])
-                for suite in json.loads(listing.read_text())["testsuites"] for test in suite["testsuite"]}
+        subprocess.run(
+            [program, "--gtest_list_tests", f"--gtest_output=json:{listing}"], check=True, capture_output=True
+        )
+        return {
+            f"{suite['name']}.{test['name']}": pathlib.Path(test["file"])
+            for suite in json.loads(listing.read_text())["testsuites"]
+            for test in suite["testsuite"]
+        }

@@ -8,7 +8,8 @@ TOKEN = re.compile(
     r"""(?P<number>(?<![\w.])(?:0[xX][\da-fA-F']+|\d[\d']*(?:\.\d*)?(?:[eE][+-]?\d+)?)[a-zA-Z]*)
     |(?P<comment>//[^\n]*|/\*.*?\*/|^[ \t]*\#(?:\\\n|[^\n])*)
     |(?P<text>R"(?P<mark>\w*)\(.*?\)(?P=mark)"|"(?:\\.|[^"\\\n])*"|'(?:\\.|[^'\\\n])+')""",
-    re.S | re.M | re.X)
+    re.S | re.M | re.X,
+)
 HIDDEN = "\x01"  # what must not be changed, one for each character of it
 
 # Their arguments decide nothing that a result shows: capacities, progress.
@@ -17,10 +18,29 @@ DECLARATIONS = re.compile(r"^[ \t]*(?:using|typedef|template|namespace|struct|cl
 TEMPLATE_ARGUMENTS = re.compile(r"(?<=\w)<[^<>;(){}]*>")
 
 # A comparison is reversed: the bound alone, as in < and <=, tells nothing between numbers that are measured.
-OTHER = {"+": "-", "-": "+", "*": "/", "/": "*", "%": "*", "<": ">", ">": "<", "<=": ">=", ">=": "<=", "==": "!=",
-         "!=": "==", "&&": "||", "||": "&&", "+=": "-=", "-=": "+=", "*=": "/=", "/=": "*="}
+OTHER = {
+    "+": "-",
+    "-": "+",
+    "*": "/",
+    "/": "*",
+    "%": "*",
+    "<": ">",
+    ">": "<",
+    "<=": ">=",
+    ">=": "<=",
+    "==": "!=",
+    "!=": "==",
+    "&&": "||",
+    "||": "&&",
+    "+=": "-=",
+    "-=": "+=",
+    "*=": "/=",
+    "/=": "*=",
+}
 # clang-format writes a blank on both sides of binary operators, and on neither side of the marks of types.
-BINARY = re.compile(r"(?<=[\w)\]}\x01]) (" + "|".join(map(re.escape, sorted(OTHER, key=len, reverse=True))) + r")(?=\s)")
+BINARY = re.compile(
+    r"(?<=[\w)\]}\x01]) (" + "|".join(map(re.escape, sorted(OTHER, key=len, reverse=True))) + r")(?=\s)"
+)
 UNARY = re.compile(r"(?<=[(\[{ ])(?:!(?=[\w(])|(?<![\w)\]}] )-(?=[\w(])|(?<=return )-(?=[\w(]))")
 WORD = re.compile(r"\b(?:true|false)\b")
 SMALLEST = 1e-6  # constants below it keep a divisor from zero
@@ -29,6 +49,7 @@ SMALLEST = 1e-6  # constants below it keep a divisor from zero
 @dataclasses.dataclass(frozen=True)
 class Site:
     """A place in a source, and the texts that can stand there instead."""
+
     path: str
     start: int
     end: int
@@ -87,7 +108,9 @@ def sites(path, text):
     visible = changeable(text)
     found = [Site(path, *operator.span(1), (OTHER[operator[1]],)) for operator in BINARY.finditer(visible)]
     found += [Site(path, *operator.span(), ("",)) for operator in UNARY.finditer(visible)]
-    found += [Site(path, *word.span(), ({"true": "false", "false": "true"}[word[0]],)) for word in WORD.finditer(visible)]
+    found += [
+        Site(path, *word.span(), ({"true": "false", "false": "true"}[word[0]],)) for word in WORD.finditer(visible)
+    ]
     for token in TOKEN.finditer(visible):
         if token["number"]:
             found.append(Site(path, *token.span(), other_constants(token[0])))
