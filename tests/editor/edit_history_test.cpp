@@ -215,6 +215,24 @@ TEST(EditHistory, DropsUndoneStepsWhenAnotherStepFollows) {
   EXPECT_EQ(history.steps()[1].operation, "reverse-orientation");
 }
 
+TEST(EditHistory, WorksOutTheNextStateAndKeepsThePresentOne) {
+  EditHistory history(random_mesh(1));
+  history.apply({"offset", "0.1mm"});
+  history.apply({"orient", ""});
+  EXPECT_TRUE(history.undo());
+  const EditState before = history.state();
+  const EditHistory next = history.applied({"reverse-orientation", ""});
+  const EditHistory redone = history.redone();
+  const EditHistory undone = history.undone();
+  EXPECT_TRUE(history.state() == before);
+  EXPECT_EQ(history.steps().size(), 2U) << "the undone step can be done again";
+  EXPECT_EQ(next.steps()[1].operation, "reverse-orientation");
+  EXPECT_EQ(redone.done(), 2U);
+  EXPECT_EQ(undone.done(), 0U);
+  history.apply({"reverse-orientation", ""});
+  EXPECT_TRUE(history.state() == next.state());
+}
+
 TEST(EditHistory, StoresOnlyWhatChanged) {
   EditHistory history(testing::sphere({0, 0, 0}, 10.0, 60));
   history.apply({"select-ball", "10,0,0,1"});

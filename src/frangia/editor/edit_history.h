@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <vector>
 
 #include "frangia/editor/edit_operation.h"
@@ -26,6 +27,15 @@ class EditHistory {
   bool undo();
   bool redo();  ///< applies the last undone step again
 
+  /// The history after a step, for those who decide later whether it becomes the present one: a
+  /// history is moved without failing. Both share the stored changes.
+  ///
+  /// @errors   as apply_step
+  [[nodiscard]] EditHistory applied(const EditStep& step, const Run& run = {}) const;
+  /// The history after the last step is undone; the same without one.
+  [[nodiscard]] EditHistory undone() const;
+  [[nodiscard]] EditHistory redone() const;  ///< likewise, after a step is applied again
+
   /// Mesh, selection and settings after the applied steps.
   [[nodiscard]] const EditState& state() const { return state_; }
   [[nodiscard]] const Mesh& mesh() const { return state_.mesh; }  ///< mesh after the applied steps
@@ -38,7 +48,7 @@ class EditHistory {
  private:
   EditState state_;
   std::vector<EditStep> steps_;
-  std::vector<MeshDelta> deltas_;
+  std::vector<std::shared_ptr<const MeshDelta>> deltas_;
   std::size_t done_ = 0;
 };
 

@@ -64,7 +64,9 @@ EditScript read_edit_script(const std::filesystem::path& path) {
   }
 }
 
-void write_edit_script(const std::filesystem::path& path, const EditScript& script) {
+void write_edit_script(const std::filesystem::path& path,
+                       const EditScript& script,
+                       Durability durability) {
   nlohmann::ordered_json json;
   json["format"] = kFormat;
   json["version"] = kVersion;
@@ -76,8 +78,16 @@ void write_edit_script(const std::filesystem::path& path, const EditScript& scri
     if (!step.value.empty()) item["value"] = step.value;
     json["steps"].push_back(std::move(item));
   }
-  AtomicFile file(path);
-  file.stream() << json.dump(1) << '\n';
+  const std::string text = json.dump(1) + '\n';
+  if (text.size() > kMaxTextFileBytes) {
+    fail(path,
+         fmt::format("the steps take {} bytes, more than the {} that are read again; export the "
+                     "mesh, and begin a history with it",
+                     text.size(),
+                     kMaxTextFileBytes));
+  }
+  AtomicFile file(path, durability);
+  file.stream() << text;
   file.commit();
 }
 

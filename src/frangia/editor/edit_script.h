@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <vector>
 
+#include "frangia/core/durability.h"
 #include "frangia/editor/edit_operation.h"
 
 namespace frangia {
@@ -23,7 +24,10 @@ struct EditScript {
 
 /// Writes a script.
 ///
-/// @errors   Error(File) when the file cannot be written
-void write_edit_script(const std::filesystem::path& path, const EditScript& script);
+/// @errors   Error(Input) when it is longer than read_edit_script reads; Error(File) when the file
+///          cannot be written
+void write_edit_script(const std::filesystem::path& path,
+                       const EditScript& script,
+                       Durability durability = Durability::Buffered);
 
 }  // namespace frangia
