@@ -94,4 +94,38 @@ await tell(home, async () => {
   expect(once.size > 0 && resumed.size === once.size, `${resumed.size} frames instead of ${once.size}`);
   for (const [name, bytes] of once) expect(bytes.equals(resumed.get(name) ?? Buffer.alloc(0)), `${name} differs from an uninterrupted scan`);
   passed(`${once.size} frames equal those of an uninterrupted scan`);
+
+  // An edit whose answer is lost is sent again, and is made once.
+  const idle = (state) => state.jobs.every((job) => job.state !== 'running' && job.state !== 'waiting');
+  await page.waitForSelector('#build:not([disabled])');
+  await page.click('#build');
+  await waitFor(page, (state) => state.project.surface && idle(state));
+  let sent = 0;
+  await page.route('**/api/commands/edit', async (route) => {
+    if (sent++ > 0) return route.continue();
+    await route.fetch();
+    await route.abort('connectionreset');
+  });
+  await page.keyboard.press('6');
+  await page.waitForSelector('#undo');
+  await page.keyboard.press('i');
+  while (sent < 2) await page.waitForTimeout(50);
+  const edited = await waitFor(page, (state) => state.project.surface.steps.length > 0 && idle(state));
+  expect(edited.project.surface.steps.length === 1, 'an edit whose answer was lost is made twice');
+  expect(edited.project.revision === 2, `the revision is ${edited.project.revision} after a surface and an edit`);
+  passed('an edit whose answer was lost is made once');
+
+  // Built again, the surface is another version; the first one is there with its edit, which can be replayed.
+  await page.keyboard.press('5');
+  await page.getByText('Build again', { exact: true }).click();
+  const again = await waitFor(page, (state) => state.project.current_version === 2 && idle(state));
+  expect(again.project.surface.steps.length === 0, 'a new surface has edits');
+  await page.waitForSelector('#replay:not([disabled])');
+  await page.locator('#versions').scrollIntoViewIfNeeded();
+  await look(page, shots, 'versions');
+  await page.click('#replay');
+  await waitFor(page, (state) => state.project.surface.steps_done === 1 && idle(state));
+  await page.click('[data-version="1"] button:not([disabled])');
+  await waitFor(page, (state) => state.project.current_version === 1 && state.project.surface.steps_done === 1 && idle(state));
+  passed('the surfaces are versions with their edits');
 }, 'the scan survived');

@@ -27,6 +27,7 @@ STUDIES = [
     "inputs",
     "mutated_files",
     "batch_faults",
+    "transactions",
 ]
 BEGIN, END = "<!-- begin table: written by `./run faults` -->", "<!-- end table -->"
 

@@ -37,7 +37,7 @@ TEST(EncodeMesh, KeepsEveryArrayToTheBit) {
   }
   mesh.triangle_marks.assign(mesh.triangles.size(), Mark::Measured);
   mesh.triangle_marks[3] = Mark::Synthesized;
-  const std::string packed = encode_mesh(mesh);
+  const std::string packed = encode_mesh(mesh, 7);
   const auto positions = array_in<float>(packed, "positions");
   ASSERT_EQ(positions.size(), 3 * mesh.vertices_mm.size());
   EXPECT_EQ(std::memcmp(positions.data(), mesh.vertices_mm.data(), positions.size() * 4), 0);
@@ -48,15 +48,16 @@ TEST(EncodeMesh, KeepsEveryArrayToTheBit) {
   EXPECT_EQ(array_in<std::uint16_t>(packed, "views"), mesh.views);
   EXPECT_EQ(array_in<std::uint8_t>(packed, "marks")[3], 2);
   EXPECT_EQ(array_in<float>(packed, "normals").size(), positions.size());
+  EXPECT_NE(packed.find(R"("values":{"revision":7})"), std::string::npos);
 }
 
 TEST(EncodeMesh, PacksAnEmptyMesh) {
-  EXPECT_TRUE(array_in<std::uint32_t>(encode_mesh({}), "triangles").empty());
+  EXPECT_TRUE(array_in<std::uint32_t>(encode_mesh({}, 1), "triangles").empty());
 }
 
 TEST(EncodeSelection, IsOneFlagForEachTriangle) {
   const Selection selection{1, 0, 0, 1, 1};
-  EXPECT_EQ(array_in<std::uint8_t>(encode_selection(selection), "selected"), selection);
+  EXPECT_EQ(array_in<std::uint8_t>(encode_selection(selection, 2), "selected"), selection);
 }
 
 TEST(EncodePoints, KeepsAtMostTheNumberAsked) {

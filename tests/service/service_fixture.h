@@ -4,7 +4,9 @@
 #include <chrono>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <memory>
+#include <mutex>
 #include <string>
 #include <thread>
 #include <utility>
@@ -38,7 +40,16 @@ class ServiceTest : public ::testing::Test {
     options.command_lines = [](const ProjectProgress& project) {
       return CommandLines{{"edit", {project.folder.name, std::to_string(project.steps.size())}}};
     };
-    service_ = std::make_unique<Service>(std::move(options), [this] { ++changes_; });
+    service_ = std::make_unique<Service>(std::move(options), [this] {
+      ++changes_;
+      const std::lock_guard lock(hook_mutex_);
+      if (hook_) hook_();
+    });
+  }
+  /// Calls a function at every change of the state, on the thread that made it.
+  void at_changes(std::function<void()> hook) {
+    const std::lock_guard lock(hook_mutex_);
+    hook_ = std::move(hook);
   }
   [[nodiscard]] nlohmann::json state() const { return nlohmann::json::parse(service_->state()); }
   nlohmann::json command(const std::string& name,
@@ -76,6 +87,8 @@ class ServiceTest : public ::testing::Test {
 
   testing::TemporaryFolder folder_;
   std::atomic<int> changes_ = 0;
+  std::recursive_mutex hook_mutex_;
+  std::function<void()> hook_;
   std::unique_ptr<Service> service_;
 };
 

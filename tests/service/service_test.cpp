@@ -93,7 +93,7 @@ TEST_F(ServiceTest, ReplaysItsStepsByTheCommandLineToTheSameMesh) {
   const Mesh exported = read_mesh(service_->exported("box.ply").path);
   const auto folder = folder_.path() / "projects" / "box";
   EditState state{.mesh = read_mesh(folder / "surface.ply"), .selection = {}};
-  const EditScript script = read_edit_script(folder / "edits.json");
+  const EditScript script = read_edit_script(folder / "edits-2.json");
   for (const EditStep& step : script.steps)
     apply_step(state, step);
   EXPECT_EQ(exported.triangles, state.mesh.triangles);

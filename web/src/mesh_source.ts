@@ -48,7 +48,7 @@ export class MeshSource {
 
   /** Brings the points of the joined setups, which colour the mesh. */
   async showSetups(): Promise<void> {
-    const key = JSON.stringify([this.session.state?.project?.name, this.surface?.summary]);
+    const key = JSON.stringify([this.session.state?.project?.name, this.surface?.version, this.surface?.summary]);
     if (key === this.setupsShown) return;
     this.setupsShown = key;
     const joined = (this.surface?.summary?.setups ?? []).filter((setup) => setup.joined);

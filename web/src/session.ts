@@ -4,6 +4,15 @@ import type { Hit, Ray } from './viewer';
 const KEY = 'frangia-key';
 const ID = 'frangia-id';
 
+/** Statuses by which a proxy says that the server gave no answer. */
+const UNANSWERED = [502, 503, 504];
+const ATTEMPTS = 6;
+
+const pause = (milliseconds: number): Promise<void> => new Promise((resolve) => setTimeout(resolve, milliseconds));
+
+/** An id that no other command has. Pages without TLS have no `crypto.randomUUID`. */
+const newId = (): string => Array.from(crypto.getRandomValues(new Uint8Array(16)), (byte) => byte.toString(16).padStart(2, '0')).join('');
+
 export type Layer = 'none' | 'camera' | 'phase' | 'modulation' | 'status' | 'depth' | 'points';
 
 /** A refusal of the server, in its words. */
@@ -108,9 +117,19 @@ export class Session {
     this.listen();
   }
 
+  /** Runs a command once. Where the connection breaks before the answer, it is sent again with the same id. */
   async command<T = Record<string, unknown>>(name: string, argument: object = {}): Promise<T> {
-    const response = await this.post(`/api/commands/${name}`, argument);
-    return (await response.json()) as T;
+    const body = { ...argument, id: newId() };
+    for (let attempt = 1; ; attempt++) {
+      try {
+        const response = await this.post(`/api/commands/${name}`, body);
+        return (await response.json()) as T;
+      } catch (error) {
+        const answered = error instanceof Refusal && !UNANSWERED.includes(error.status);
+        if (answered || attempt === ATTEMPTS) throw error;
+        await pause(300 * 1.6 ** attempt);
+      }
+    }
   }
 
   /** Sends a file to compare with, in pieces; `sent` hears the share that has arrived. */

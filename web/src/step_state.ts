@@ -5,7 +5,7 @@ import type { Project } from './types';
 export function reachable(project: Project | null, step: StepName): boolean {
   if (step === 'project') return true;
   if (step === 'scan' || step === 'live' || step === 'rig') return project !== null;
-  if (step === 'surface' && project?.surface_loading) return true;
+  if (step === 'surface' && project && (project.surface_loading || project.versions.length > 0)) return true;
   return Boolean(project?.surface);
 }
 

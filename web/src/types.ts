@@ -24,6 +24,8 @@ export interface Job {
   stage: string;
   error: string;
   seconds: number;
+  /** That the job made or wrote out. */
+  revision: number | null;
   log: LogLine[];
 }
 export type StationState = 'waiting' | 'capturing' | 'done' | 'skipped';
@@ -224,7 +226,17 @@ export interface Comparison {
 export interface Preview extends Step {
   revision: number;
 }
+/** A surface that was built; `previous` was shown then, 0 for none. */
+export interface Version {
+  number: number;
+  previous: number;
+  built_s: number;
+  steps: number;
+  steps_done: number;
+}
 export interface Surface {
+  /** Its number among the versions. */
+  version: number;
   /** Levels of detail, the coarsest first. */
   levels: { triangles: number; error_mm: number }[];
   comparison: Comparison | null;
@@ -261,7 +273,13 @@ export interface Project {
   /** The surface exists, and is being read. */
   surface_loading: boolean;
   surface: Surface | null;
-  exports: { name: string; bytes: number }[];
+  /** Of the surface, its edits and versions; each change makes the next one. */
+  revision: number;
+  versions: Version[];
+  /** Number of the version that is shown; 0 for none. */
+  current_version: number;
+  /** Of which version and revision an exported surface is. */
+  exports: { name: string; bytes: number; version: number | null; revision: number | null }[];
   reference: { name: string; format: string } | null;
   commands: { rig?: string[]; scan?: string[]; reconstruct?: string[]; edit?: string[]; inspect?: string[] };
 }

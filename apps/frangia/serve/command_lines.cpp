@@ -81,15 +81,18 @@ CommandLines command_lines(const ProjectProgress& project) {
                        : std::vector<std::string>{"frangia", "devices", folder.rig().string()};
   }
   if (project.scan_complete) {
-    lines["reconstruct"] = {
-        "frangia", "reconstruct", folder.scan.string(), "-o", folder.surface().string()};
+    lines["reconstruct"] = {"frangia",
+                            "reconstruct",
+                            folder.scan.string(),
+                            "-o",
+                            (folder.exports() / (folder.name + ".ply")).string()};
     if (project.capture.algorithm != "auto") {
       lines["reconstruct"].insert(lines["reconstruct"].end(),
                                   {"--algorithm", project.capture.algorithm});
     }
   }
   if (project.has_surface) {
-    std::vector<std::string> edit = {"frangia", "edit", folder.surface().string()};
+    std::vector<std::string> edit = {"frangia", "edit", project.surface.string()};
     for (const EditStep& step : project.steps) {
       edit.push_back("--" + step.operation);
       if (!step.value.empty()) edit.push_back(step.value);
@@ -100,7 +103,7 @@ CommandLines command_lines(const ProjectProgress& project) {
       const std::filesystem::path edited = folder.exports() / (folder.name + ".ply");
       if (!project.steps.empty()) edit.insert(edit.end(), {"-o", edited.string()});
       lines["inspect"] =
-          inspect_line(*project.comparison, project.steps.empty() ? folder.surface() : edited);
+          inspect_line(*project.comparison, project.steps.empty() ? project.surface : edited);
     }
     lines["edit"] = edit;
   }

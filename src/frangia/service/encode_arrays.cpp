@@ -12,9 +12,10 @@ constexpr std::size_t kPerPoint = 3;
 
 }  // namespace
 
-std::string encode_mesh(const Mesh& mesh) {
+std::string encode_mesh(const Mesh& mesh, int revision) {
   static_assert(sizeof(Eigen::Vector3f) == kPerPoint * sizeof(float));
   ArrayPacker packer;
+  packer.set_values({{"revision", revision}});
   const std::size_t vertices = mesh.vertices_mm.size();
   packer.add("positions",
              "float32",
@@ -41,8 +42,9 @@ std::string encode_mesh(const Mesh& mesh) {
   return packer.pack();
 }
 
-std::string encode_selection(const Selection& selection) {
+std::string encode_selection(const Selection& selection, int revision) {
   ArrayPacker packer;
+  packer.set_values({{"revision", revision}});
   packer.add("selected", "uint8", selection.data(), selection.size());
   return packer.pack();
 }

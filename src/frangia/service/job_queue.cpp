@@ -10,6 +10,15 @@
 namespace frangia {
 namespace {
 
+/// What an exception says; nothing where that does not fit into the memory.
+std::string words_of(const std::exception& error) noexcept {
+  try {
+    return error.what();
+  } catch (const std::bad_alloc&) {
+    return {};
+  }
+}
+
 bool has_finished(const Job& job) {
   return job.state != JobState::Waiting && job.state != JobState::Running;
 }
@@ -90,6 +99,11 @@ bool JobQueue::is_busy() const {
   return unfinished() > 0;
 }
 
+void JobQueue::set_revision(int revision) noexcept {
+  const std::lock_guard lock(mutex_);
+  if (running_) running_->job.revision = revision;
+}
+
 void JobQueue::serve() {
   for (;;) {
     TaskPtr next;
@@ -104,6 +118,7 @@ void JobQueue::serve() {
       if (ending_) return;
       next = *waiting();
       next->job.state = JobState::Running;
+      running_ = next;
       next->began = Clock::now();
     }
     on_change_();
@@ -134,15 +149,16 @@ void JobQueue::run_task(const TaskPtr& task) {
   try {
     run.check();  // stopped while it waited
     task->work(run);
-    finish(task, JobState::Done, "");
+    finish(task, JobState::Done, {});
   } catch (const Error& error) {
+    const bool stopped = error.kind() == ErrorKind::Cancelled;
     finish(task,
-           error.kind() == ErrorKind::Cancelled ? JobState::Stopped : JobState::Failed,
-           error.kind() == ErrorKind::Cancelled ? "" : error.what());
+           stopped ? JobState::Stopped : JobState::Failed,
+           stopped ? std::string() : words_of(error));
   } catch (const std::bad_alloc&) {
     finish(task, JobState::Failed, "this does not fit into the memory of the machine");
   } catch (const std::exception& error) {
-    finish(task, JobState::Failed, error.what());
+    finish(task, JobState::Failed, words_of(error));
   }
 }
 
@@ -154,14 +170,15 @@ void JobQueue::change(const TaskPtr& task, const std::function<void(Job&)>& edit
   on_change_();
 }
 
-void JobQueue::finish(const TaskPtr& task, JobState state, const std::string& error) {
+void JobQueue::finish(const TaskPtr& task, JobState state, std::string error) noexcept {
   {
     const std::lock_guard lock(mutex_);
     task->job.seconds = std::chrono::duration<double>(Clock::now() - task->began).count();
     task->job.state = state;
-    task->job.error = error;
+    task->job.error = std::move(error);
     if (state == JobState::Done) task->job.progress = 1.0;
     task->work = {};  // frees what it holds
+    running_.reset();
   }
   on_change_();
 }

@@ -7,6 +7,7 @@
 #include <functional>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <stop_token>
 #include <string>
 #include <thread>
@@ -41,6 +42,7 @@ struct Job {
   std::vector<JobLogLine> log;         ///< the last kMostLogLines sentences
   std::string error;                   ///< why it failed; empty otherwise
   double seconds = 0.0;                ///< since it began to run, or its duration
+  std::optional<int> revision{};       ///< that it made or wrote out
 };
 
 /// Long tasks, one after the other on a thread of the queue's own. They go on whoever watches them.
@@ -51,7 +53,8 @@ class JobQueue {
   static constexpr std::size_t kMostWaiting = 8;     ///< jobs that have not finished
   static constexpr std::size_t kMostLogLines = 200;  ///< of a job
 
-  /// `on_change` is called after every change, on the thread that made it, without a lock held.
+  /// `on_change` is called after every change, on the thread that made it, without a lock held. It
+  /// does not throw.
   explicit JobQueue(std::function<void()> on_change);
   JobQueue(const JobQueue&) = delete;
   JobQueue& operator=(const JobQueue&) = delete;
@@ -71,6 +74,8 @@ class JobQueue {
   [[nodiscard]] std::vector<Job> jobs() const;
   /// Whether a job waits or runs.
   [[nodiscard]] bool is_busy() const;
+  /// Called by the job that runs: states the revision that it made or wrote out.
+  void set_revision(int revision) noexcept;
 
  private:
   using Clock = std::chrono::steady_clock;
@@ -85,7 +90,7 @@ class JobQueue {
   void serve();
   void run_task(const TaskPtr& task);
   void change(const TaskPtr& task, const std::function<void(Job&)>& edit);
-  void finish(const TaskPtr& task, JobState state, const std::string& error);
+  void finish(const TaskPtr& task, JobState state, std::string error) noexcept;
   void forget_oldest();
   [[nodiscard]] std::size_t unfinished() const;
 
@@ -93,6 +98,7 @@ class JobQueue {
   mutable std::mutex mutex_;
   std::condition_variable wake_;
   std::deque<TaskPtr> tasks_;  ///< oldest first
+  TaskPtr running_;
   int next_number_ = 1;
   bool ending_ = false;
   std::thread thread_;  ///< last: starts when everything else exists

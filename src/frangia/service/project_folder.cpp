@@ -31,12 +31,8 @@ std::int64_t modified_s(const std::filesystem::path& path) {
 
 std::int64_t newest_s(const ProjectFolder& project) {
   std::int64_t newest = 0;
-  for (const auto& path : {project.folder,
-                           project.scan,
-                           project.derived,
-                           project.surface(),
-                           project.edits(),
-                           project.stations()})
+  for (const auto& path :
+       {project.folder, project.scan, project.derived, project.versions(), project.stations()})
     newest = std::max(newest, modified_s(path));
   return newest;
 }
@@ -51,8 +47,9 @@ std::filesystem::path ProjectFolder::cloud(std::size_t station) const {
   return derived / "clouds" / fmt::format("{:03}.bin", station);
 }
 
-std::filesystem::path ProjectFolder::setup_cloud(std::size_t joined) const {
-  return derived / "clouds" / fmt::format("setup-{}.bin", joined);
+std::filesystem::path ProjectFolder::reference(const std::string& format, int number) const {
+  return derived / (number == 0 ? fmt::format("reference.{}", format)
+                                : fmt::format("reference-{}.{}", number, format));
 }
 
 ProjectFolder project_in(const std::filesystem::path& folder) {
@@ -83,7 +80,7 @@ std::vector<ProjectEntry> ProjectLibrary::list() const {
     entries.push_back({project.name,
                        newest_s(project),
                        is_file(project.scan / "scan.toml"),
-                       is_file(project.surface())});
+                       is_file(project.versions()) || is_file(project.derived / "surface.ply")});
   }
   std::sort(entries.begin(), entries.end(), [](const ProjectEntry& a, const ProjectEntry& b) {
     return a.modified_s != b.modified_s ? a.modified_s > b.modified_s : a.name < b.name;

@@ -14,24 +14,20 @@ struct ProjectFolder {
   std::string name;               ///< for people: the name of the folder
   std::filesystem::path folder;   ///< absolute
   std::filesystem::path scan;     ///< scan folder; the same as `folder` for a plain scan folder
-  std::filesystem::path derived;  ///< for surface.ply, edits.json, stations.json, clouds, exports
+  std::filesystem::path derived;  ///< for surfaces, stations.json, clouds, exports
 
   /// Rig with its devices that a scan is captured with.
   [[nodiscard]] std::filesystem::path rig() const { return folder / "rig.toml"; }
   /// Settings of the capture, see read_capture_settings.
   [[nodiscard]] std::filesystem::path capture() const { return derived / "capture.json"; }
-  /// Reconstructed mesh, before edits.
-  [[nodiscard]] std::filesystem::path surface() const { return derived / "surface.ply"; }
-  /// Figures of the reconstruction, JSON.
-  [[nodiscard]] std::filesystem::path summary() const { return derived / "surface.json"; }
-  /// Script of the edits, see read_edit_script.
-  [[nodiscard]] std::filesystem::path edits() const { return derived / "edits.json"; }
+  /// Names the surfaces, their edits and which is shown, JSON; each has a folder in `versions`. A
+  /// project of an older program has none, but surface.ply in its place.
+  [[nodiscard]] std::filesystem::path versions() const { return derived / "versions.json"; }
   /// Quality of each station, JSON.
   [[nodiscard]] std::filesystem::path stations() const { return derived / "stations.json"; }
-  /// A reference of the surface, of one of `reference_formats`.
-  [[nodiscard]] std::filesystem::path reference(const std::string& format) const {
-    return derived / ("reference." + format);
-  }
+  /// A reference of the surface, of one of `reference_formats`. Each one has the next number, so
+  /// that it never takes the place of the one before; 0: that of an older program.
+  [[nodiscard]] std::filesystem::path reference(const std::string& format, int number) const;
   /// The file in which a reference arrives.
   [[nodiscard]] std::filesystem::path reference_part() const { return derived / "reference.part"; }
   /// Name and format of the reference, JSON.
@@ -42,8 +38,6 @@ struct ProjectFolder {
   [[nodiscard]] std::filesystem::path residuals() const { return derived / "residuals.json"; }
   /// Folder of the exported files.
   [[nodiscard]] std::filesystem::path exports() const { return derived / "exports"; }
-  /// Registered points of a joined setup, counted from 0, packed by encode_points.
-  [[nodiscard]] std::filesystem::path setup_cloud(std::size_t joined) const;
   /// Points of a station, packed by encode_points.
   [[nodiscard]] std::filesystem::path cloud(std::size_t station) const;
 };

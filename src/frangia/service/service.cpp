@@ -37,20 +37,34 @@ ProjectProgress progress_of(const OpenProject& project) {
   }
   progress.has_surface = project.surface != nullptr;
   if (project.surface) {
+    if (project.versions) {
+      if (const SurfaceVersion* version = project.versions->find(project.surface->version))
+        progress.surface = files_of(project.folder, *version).surface();
+    }
     const auto& steps = project.surface->steps;
     const auto done = static_cast<std::ptrdiff_t>(project.surface->done);
     progress.steps.assign(steps.begin(), steps.begin() + done);
     if (const auto& shown = project.surface->comparison) {
       const ToleranceLimits& limits = shown->found.summary.limits;
-      progress.comparison = {project.folder.reference(project.reference.format),
-                             shown->best_fit,
-                             shown->start + 1,
-                             shown->found.poses.size(),
-                             limits.lower,
-                             limits.upper};
+      progress.comparison = {
+          project.folder.reference(project.reference.format, project.reference.number),
+          shown->best_fit,
+          shown->start + 1,
+          shown->found.poses.size(),
+          limits.lower,
+          limits.upper};
     }
   }
   return progress;
+}
+
+/// Whether a job has finished; false for number 0.
+bool is_over(const std::vector<Job>& jobs, int number) {
+  const bool begun = !jobs.empty() && jobs.back().number >= number;
+  return number != 0 && begun && std::none_of(jobs.begin(), jobs.end(), [&](const Job& job) {
+           return job.number == number &&
+                  (job.state == JobState::Waiting || job.state == JobState::Running);
+         });
 }
 
 }  // namespace
@@ -58,7 +72,13 @@ ProjectProgress progress_of(const OpenProject& project) {
 Service::Implementation::Implementation(ServiceOptions options, std::function<void()> on_change)
     : options_(std::move(options)),
       library_(options_.projects),
-      on_change_(std::move(on_change)),
+      on_change_([told = std::move(on_change)]() noexcept {
+        try {
+          told();
+        } catch (const std::exception&) {  // NOLINT(bugprone-empty-catch): whoever listens hears
+                                           // of the next change
+        }
+      }),
       projects_(library_.list()),
       queue_(on_change_) {}
 
@@ -73,6 +93,8 @@ std::string Service::Implementation::command(const std::string& name, const std:
       {"start-scan", &Implementation::start_scan},
       {"rescan-station", &Implementation::rescan_station},
       {"reconstruct", &Implementation::start_reconstruct},
+      {"open-version", &Implementation::start_open_version},
+      {"replay-edits", &Implementation::start_replay},
       {"find-devices", &Implementation::start_find_devices},
       {"set-devices", &Implementation::start_set_devices},
       {"test-devices", &Implementation::start_test_devices},
@@ -97,13 +119,39 @@ std::string Service::Implementation::command(const std::string& name, const std:
   require(found != kCommands.end(), "there is no such command");
   static const std::set<std::string> kWithoutFolder = {
       "create-project", "open-project", "close-project", "find-devices", "stop-job"};
+  CommandArguments arguments(text, name);
+  // A job is stopped at once, whatever another command is at.
+  if (name == "stop-job") return stop_job(arguments).dump();
+  const std::lock_guard one_at_a_time(command_mutex_);
+  Json answer = answer_given(arguments.key());
+  if (!answer.is_null()) return answer.dump();
   if (!kWithoutFolder.contains(name)) require_folder();
-  CommandArguments arguments(text);
-  return (this->*found->second)(arguments).dump();
+  answer = (this->*found->second)(arguments);
+  {
+    const std::lock_guard lock(mutex_);
+    answer["revision"] = project_ && project_->versions ? project_->versions->revision : 0;
+  }
+  answered_.keep(arguments.key(), answer);
+  return answer.dump();
+}
+
+nlohmann::ordered_json Service::Implementation::answer_given(const CommandKey& key) const {
+  if (const Json* known = answered_.find(key)) {
+    Json answer = *known;
+    answer["repeated"] = true;
+    return answer;
+  }
+  const std::lock_guard lock(mutex_);
+  const AnsweredCommand* known =
+      project_ && project_->versions ? project_->versions->find(key) : nullptr;
+  if (known == nullptr) return {};
+  require_same_command(key, known->key);
+  return {{"revision", known->revision}, {"repeated", true}};
 }
 
 std::string Service::Implementation::state() const {
   ServiceView view;
+  view.jobs = queue_.jobs();  // before the project: what a job did is shown when it is over
   {
     const std::lock_guard lock(mutex_);
     view.version = options_.version;
@@ -113,7 +161,8 @@ std::string Service::Implementation::state() const {
   }
   if (view.project && options_.command_lines)
     view.commands = options_.command_lines(progress_of(*view.project));
-  view.jobs = queue_.jobs();
+  if (view.project && is_over(view.jobs, view.project->open_job))
+    view.project->surface_loading = false;  // it failed, or was stopped
   return state_json(view);
 }
 
@@ -144,7 +193,11 @@ std::string Service::Implementation::cloud(std::size_t station) const {
   return read_text_file(project.cloud(station), kMostBytes);
 }
 std::string Service::Implementation::setup_cloud(std::size_t joined) const {
-  const auto file = folder().setup_cloud(joined);
+  const OpenProject project = opened();
+  if (!project.surface || !project.versions) return {};
+  const SurfaceVersion* version = project.versions->find(project.surface->version);
+  if (version == nullptr) return {};
+  const auto file = files_of(project.folder, *version).setup_cloud(joined);
   std::error_code ignored;
   if (!std::filesystem::is_regular_file(file, ignored)) return {};
   constexpr std::uint64_t kMostBytes = 16'000'000;
@@ -217,7 +270,7 @@ Service::Service(ServiceOptions options, std::function<void()> on_change)
 Service::~Service() = default;
 
 void Service::open_folder(const std::filesystem::path& folder) {
-  implementation_->open(project_in(folder));
+  implementation_->open_folder(folder);
 }
 
 std::string Service::command(const std::string& name, const std::string& arguments) {
@@ -230,7 +283,7 @@ std::string Service::state() const {
 
 std::string Service::mesh() const {
   const SurfacePtr surface = implementation_->surface();
-  return surface ? encode_mesh(surface->picture->mesh()) : std::string();
+  return surface ? encode_mesh(surface->picture->mesh(), surface->mesh_revision) : std::string();
 }
 
 std::string Service::level(std::size_t level) const {
@@ -240,12 +293,15 @@ std::string Service::level(std::size_t level) const {
 
 std::string Service::selection() const {
   const SurfacePtr surface = implementation_->surface();
-  return surface ? encode_selection(*surface->selection) : std::string();
+  return surface ? encode_selection(*surface->selection, surface->selection_revision)
+                 : std::string();
 }
 
 std::string Service::selection(std::size_t level) const {
   const SurfacePtr surface = implementation_->surface();
-  return surface ? surface->picture->packed_selection(level, *surface->selection) : std::string();
+  return surface ? surface->picture->packed_selection(
+                       level, *surface->selection, surface->selection_revision)
+                 : std::string();
 }
 
 std::string Service::preview() const {
@@ -260,6 +316,7 @@ std::string Service::deviations(std::size_t level) const {
       values_of_level(surface->comparison->found.deviation_mm, *surface->picture->levels()[level]);
   ArrayPacker packer;
   packer.add("deviation_mm", "float32", values.data(), values.size());
+  packer.set_values({{"revision", surface->comparison->revision}});
   return packer.pack();
 }
 

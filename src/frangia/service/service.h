@@ -45,6 +45,7 @@ struct ProjectProgress {
   int setup = 0;                                     ///< the present one
   bool scan_complete = false;                        ///< the scan can be reconstructed
   bool has_surface = false;                          ///< a surface was reconstructed and read
+  std::filesystem::path surface{};                   ///< its file, before edits
   std::vector<EditStep> steps;                       ///< applied edits
   CaptureSettings capture;                           ///< of the scan
   std::optional<ProgressOfComparison> comparison{};  ///< of the present surface
@@ -99,7 +100,8 @@ class Service {
   void open_folder(const std::filesystem::path& folder);
 
   /// Runs a command with its arguments as a JSON object and returns a JSON object. Long work is
-  /// started as a job, whose number is returned as "job".
+  /// started as a job, whose number is returned as "job". A command whose argument "id" is that of
+  /// one that was accepted before is not run again: its answer is returned.
   ///
   /// @errors   Error(Input) that names the command, the argument or what is missing; errors of the
   ///          command

@@ -15,6 +15,7 @@ export const EXPORT = {
   'export.encoding': ['Encoding', 'Kodierung'],
   'export.binary': ['Binary', 'Binär'],
   'export.ascii': ['Text', 'Text'],
+  'export.of': ['surface {version}, revision {revision}', 'Fläche {version}, Stand {revision}'],
   'export.files': ['Files', 'Dateien'],
   'export.none': ['Exported files appear here.', 'Hier erscheinen exportierte Dateien.'],
   'export.download': ['Download', 'Herunterladen'],

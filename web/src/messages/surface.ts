@@ -3,6 +3,18 @@ import type { Rows } from './rows';
 /** Texts of the step Surface. */
 export const SURFACE = {
   'surface.build': ['Build again', 'Neu berechnen'],
+  'surface.unread': ['The surface was not read.', 'Die Fläche wurde nicht gelesen.'],
+  'surface.read': ['Read the surface', 'Fläche lesen'],
+  'surface.revision': ['Revision', 'Stand'],
+  'surface.versions': ['Surfaces', 'Flächen'],
+  'surface.version': ['Surface {number}', 'Fläche {number}'],
+  'surface.edits': ['{count} edits', '{count} Schritte'],
+  'surface.editsOne': ['1 edit', '1 Schritt'],
+  'surface.show': ['Show', 'Zeigen'],
+  'surface.shown': ['Shown', 'Gezeigt'],
+  'surface.showVersion': ['Show surface {number}', 'Fläche {number} zeigen'],
+  'surface.replay': ['Replay the {count} edits of surface {version}', 'Die {count} Schritte der Fläche {version} wiederholen'],
+  'surface.replayOne': ['Replay the edit of surface {version}', 'Den Schritt der Fläche {version} wiederholen'],
   'surface.loading': ['The surface is being read.', 'Die Fläche wird gelesen.'],
   'surface.none': [
     'There is no surface yet. Scan first, then build it.',

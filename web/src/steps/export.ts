@@ -115,7 +115,10 @@ export function exportStep(app: App): TemplateResult {
         ${project.exports.map(
           (file) =>
             html`<div class="file">
-              <b>${file.name}</b><span class="num quiet">${bytes(file.bytes, number)}</span>
+              <b>${file.name}</b
+              ><span class="num quiet"
+                >${bytes(file.bytes, number)}${file.revision === null ? '' : html`<br />${t('export.of', { version: file.version ?? 0, revision: number(file.revision) })}`}</span
+              >
               <button
                 class="btn small"
                 @click=${() => app.exporting.download(file.name)}

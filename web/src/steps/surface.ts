@@ -8,6 +8,7 @@ import { number, t } from '../messages';
 import { choice, plain } from '../ui';
 import { comparing } from './compare';
 import { joins } from './scan_setups';
+import { versions } from './surface_versions';
 import type { Summary } from '../types';
 import type { SectionAxis, Shading } from '../viewer';
 
@@ -137,12 +138,30 @@ export function sectionPlane(app: App): TemplateResult {
   }`;
 }
 
+/** The surface is not in memory: it is being read, its reading was stopped, or there is none. */
+function absent(app: App): TemplateResult {
+  const { surface_loading: loading, versions: all, current_version: current } = app.project;
+  if (loading || all.length === 0)
+    return html`<section class="group">
+      <p class="quiet">${t(loading ? 'surface.loading' : 'surface.none')}</p>
+    </section>`;
+  return html`<section class="group">
+      <p class="quiet">${t('surface.unread')}</p>
+      <button
+        class="btn wide"
+        id="read"
+        ?disabled=${app.busy}
+        @click=${() => app.command('open-version', { version: current })}
+      >
+        ${t('surface.read')}
+      </button>
+    </section>
+    ${versions(app)}`;
+}
+
 export function surfaceStep(app: App): TemplateResult {
   const { surface } = app.project;
-  if (!surface)
-    return html`<section class="group">
-      <p class="quiet">${t(app.project.surface_loading ? 'surface.loading' : 'surface.none')}</p>
-    </section>`;
+  if (!surface) return absent(app);
   const { look, viewer } = app;
   const size = viewer.size;
   const { summary } = surface;
@@ -181,6 +200,8 @@ export function surfaceStep(app: App): TemplateResult {
         }
         <dt>${t('surface.size')}</dt>
         <dd class="num">${number(size.x, 1)} × ${number(size.y, 1)} × ${number(size.z, 1)}<span>mm</span></dd>
+        <dt>${t('surface.revision')}</dt>
+        <dd class="num">${number(app.project.revision)}</dd>
         <dt>${t('surface.triangles')}</dt>
         <dd class="num">${number(surface.triangles)}</dd>
         ${
@@ -205,5 +226,6 @@ export function surfaceStep(app: App): TemplateResult {
             </button>`
           : ''
       }
-    </section>`;
+    </section>
+    ${versions(app)}`;
 }

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "frangia/core/check_nesting.h"
+#include "frangia/core/crc32.h"
 #include "frangia/core/error.h"
 
 namespace frangia {
@@ -15,14 +16,34 @@ namespace {
   throw Error(ErrorKind::Input, fmt::format("{}: {}", key, what));
 }
 
+/// @errors   Error(Input) for an id that is none
+void check_id(const std::string& id) {
+  constexpr std::size_t kShortest = 8;
+  constexpr std::size_t kLongest = 64;
+  const bool plain = std::all_of(id.begin(), id.end(), [](char c) {
+    return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '-' ||
+           c == '_';
+  });
+  if (!plain || id.size() < kShortest || id.size() > kLongest)
+    fail_argument("id", "8 to 64 letters, digits, - and _ are missing here");
+}
+
 }  // namespace
 
-CommandArguments::CommandArguments(const std::string& text) {
+CommandArguments::CommandArguments(const std::string& text, const std::string& command) {
   constexpr std::size_t kMostBytes = 1'000'000;
   require(text.size() <= kMostBytes, "the command is longer than 1 MB; send a shorter one");
   check_json_nesting(text, "command");
   json_ = text.empty() ? nlohmann::json::object() : nlohmann::json::parse(text, nullptr, false);
   require(json_.is_object(), "the arguments of a command are a JSON object; send one, such as {}");
+  if (const auto id = text_if_given("id")) {
+    check_id(*id);
+    key_.id = *id;
+    json_.erase("id");
+    const std::string said =
+        command + json_.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+    key_.digest = crc32(said);
+  }
 }
 
 const nlohmann::json* CommandArguments::find(const char* key) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <map>
 #include <optional>
 #include <set>
@@ -11,6 +12,14 @@
 
 namespace frangia {
 
+/// What tells a command from others, so that the same one is not carried out twice.
+struct CommandKey {
+  std::string id;            ///< chosen by the client; empty: without one
+  std::uint32_t digest = 0;  ///< of the command and its arguments
+
+  bool operator==(const CommandKey&) const = default;
+};
+
 /// The arguments of a command: a JSON object whose every key is read exactly once.
 ///
 /// @errors   each function throws Error(Input) that names the key and what it should be
@@ -19,8 +28,11 @@ class CommandArguments {
   /// Beyond any length, angle or time of a rig, and small enough for times and sums of them.
   static constexpr double kLargest = 1e7;
 
-  /// Parses at most 1 MB of JSON.
-  explicit CommandArguments(const std::string& text);
+  /// Parses at most 1 MB of JSON. `command` is the name of the command.
+  explicit CommandArguments(const std::string& text, const std::string& command = "");
+
+  /// The argument `id`, which every command may have: 8 to 64 letters, digits, `-` and `_`.
+  [[nodiscard]] const CommandKey& key() const { return key_; }
 
   [[nodiscard]] std::string text(const char* key);  ///< a string; required
   [[nodiscard]] std::string text_or(const char* key, const std::string& otherwise);
@@ -50,6 +62,7 @@ class CommandArguments {
   [[nodiscard]] const nlohmann::json* find(const char* key);
 
   nlohmann::json json_;
+  CommandKey key_;
   std::set<std::string> read_;
 };
 

@@ -9,10 +9,14 @@
 
 #include <nlohmann/json.hpp>
 
+#include "frangia/pipeline/reconstruct.h"
 #include "frangia/service/calibration_wizard.h"
+#include "frangia/service/internal/answered_commands.h"
 #include "frangia/service/internal/command_arguments.h"
+#include "frangia/service/internal/exported_files.h"
 #include "frangia/service/internal/state_json.h"
 #include "frangia/service/internal/surface_model.h"
+#include "frangia/service/internal/surface_versions.h"
 #include "frangia/service/job_queue.h"
 #include "frangia/service/live_preview.h"
 #include "frangia/service/project_folder.h"
@@ -25,7 +29,7 @@ class Service::Implementation {
  public:
   Implementation(ServiceOptions options, std::function<void()> on_change);
 
-  void open(const ProjectFolder& folder);
+  void open_folder(const std::filesystem::path& folder);
   std::string command(const std::string& name, const std::string& text);
   [[nodiscard]] std::string state() const;
   [[nodiscard]] SurfacePtr surface() const;
@@ -43,6 +47,13 @@ class Service::Implementation {
  private:
   using Json = nlohmann::ordered_json;
 
+  /// What a job makes of the present model. The number is the revision that it becomes or, of what
+  /// is shown beside the surface and not kept, a count.
+  using SurfaceWork = std::function<SurfaceModel(const SurfaceModel&, int, const Run&)>;
+
+  void open(const ProjectFolder& folder);
+  /// The answer to a command that was carried out before; null otherwise.
+  Json answer_given(const CommandKey& key) const;
   Json create_project(CommandArguments& arguments);
   Json open_project(CommandArguments& arguments);
   Json close_project(CommandArguments& arguments);
@@ -53,6 +64,8 @@ class Service::Implementation {
   Json start_scan(CommandArguments& arguments);
   Json rescan_station(CommandArguments& arguments);
   Json start_reconstruct(CommandArguments& arguments);
+  Json start_open_version(CommandArguments& arguments);
+  Json start_replay(CommandArguments& arguments);
 
   Json start_find_devices(CommandArguments& arguments);
   Json start_set_devices(CommandArguments& arguments);
@@ -75,12 +88,18 @@ class Service::Implementation {
   Json start_fit(CommandArguments& arguments);
   Json start_export(CommandArguments& arguments);
   Json start_zip(const ProjectFolder& project);
+  /// On the queue's thread: writes an export and shows it.
+  void put_export(const ProjectFolder& project,
+                  const std::string& name,
+                  std::optional<ExportOrigin> origin,
+                  const std::function<void(const std::filesystem::path&)>& write,
+                  const Run& run);
   Json stop_job(CommandArguments& arguments);
 
   /// Starts a job. A live preview that runs is stopped first: it holds the devices and the thread.
   Json started(const char* kind, std::function<void(const Run&)> work);
-  Json started_edit(const char* kind, std::function<SurfacePtr(SurfaceModel&, const Run&)> work);
-  Json started_edit(std::function<SurfacePtr(SurfaceModel&, const Run&)> work);
+  Json started_change(const CommandKey& key, SurfaceWork work);
+  Json started_view(const char* kind, SurfaceWork work);
   Json started_live(const LiveSettings& settings);
   void stop_live();
   /// Reads the rig, its devices and the settings of the capture again.
@@ -90,12 +109,41 @@ class Service::Implementation {
   /// @errors   Error(Input) when the folder of the open project was deleted
   void require_folder() const;
   void require_idle() const;
-  /// On the queue's thread.
-  void load_surface(const ProjectFolder& project, const Run& run);
-  /// On the queue's thread. Shows a surface, and then its finer level.
-  void show_surface(const SurfacePtr& surface, const Run& run);
-  /// On the queue's thread. The next model counts on, so that no two meshes share a revision.
-  void drop_model();
+  // The following are of the queue's thread.
+  /// The surfaces of the project, read again where that failed before.
+  ///
+  /// @errors   as read_surface_versions
+  std::shared_ptr<const SurfaceVersions> versions_of(const ProjectFolder& project);
+  /// The current version, which is read unless it is there. `otherwise` is said when there is none.
+  const SurfaceModel& model_of(const ProjectFolder& project, const char* otherwise, const Run& run);
+  /// Drops the model of another project.
+  void use(const ProjectFolder& project);
+  /// A change of the surface from its beginning to its end.
+  void change_surface(const ProjectFolder& project,
+                      const CommandKey& key,
+                      const SurfaceWork& work,
+                      const Run& run);
+  void rebuild_surface(const ProjectFolder& project,
+                       const CommandKey& key,
+                       const ReconstructOptions& options,
+                       const Run& run);
+  void open_version(const ProjectFolder& project,
+                    const CommandKey& key,
+                    int number,
+                    const Run& run);
+  /// The end of each change: writes which versions there are, and shows the model. Returns what to
+  /// say when the disk did not confirm it; throws when nothing has changed, or nobody knows.
+  [[nodiscard]] std::string commit(const ProjectFolder& project,
+                                   SurfaceModel next,
+                                   SurfaceVersions versions,
+                                   const Run& run);
+  /// Makes a model the present one. `versions` may be null: they stay.
+  void show(std::unique_ptr<SurfaceModel> model,
+            std::shared_ptr<const SurfaceVersions> versions) noexcept;
+  /// Adds the finer level of the picture, if it is missing and nothing hinders it.
+  void refine(const Run& run) noexcept;
+  void forget_surface() noexcept;
+
   void change(const std::function<void(OpenProject&)>& edit);
   void refresh_projects();
   [[nodiscard]] OpenProject opened() const;
@@ -105,21 +153,22 @@ class Service::Implementation {
 
   ServiceOptions options_;
   ProjectLibrary library_;
-  std::function<void()> on_change_;
+  std::function<void()> on_change_;  ///< does not throw
+  std::mutex command_mutex_;         ///< one command at a time is accepted
+  AnsweredCommands answered_;
   mutable std::mutex mutex_;
   std::vector<ProjectEntry> projects_;
   std::shared_ptr<const DeviceSearch> search_;
   std::optional<OpenProject> project_;
-  std::unique_ptr<SurfaceModel> model_;  ///< of the queue's thread
-  int revision_ = 0;                     ///< of the queue's thread
+  // The following are of the queue's thread.
+  std::filesystem::path model_folder_;   ///< whose model it is, see ProjectFolder::derived
+  std::unique_ptr<SurfaceModel> model_;  ///< null until it is read
+  int shown_ = 0;                        ///< previews and comparisons so far
   JobQueue queue_;                       ///< last: its thread uses everything else
 };
 
 /// Reads the rig of a project, its devices and the settings of the capture into `project`. A
 /// damaged file is reported by the step that needs it.
 void read_rig_of(const ProjectFolder& folder, OpenProject& project);
-
-/// Files in a project's exports, by name.
-[[nodiscard]] std::vector<ExportEntry> exports_of(const ProjectFolder& project);
 
 }  // namespace frangia

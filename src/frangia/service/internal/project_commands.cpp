@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include "frangia/core/error.h"
-#include "frangia/core/read_text_file.h"
 #include "frangia/devices/device_settings.h"
 #include "frangia/devices/device_table.h"
 #include "frangia/rig/read_rig.h"
@@ -139,30 +138,37 @@ void Service::Implementation::open(const ProjectFolder& folder) {
   project.exports = exports_of(folder);
   project.reference = reference_of(folder);
   project.scan_begun = std::filesystem::exists(folder.scan / "capture", ignored);
-  const bool loads = std::filesystem::exists(folder.surface(), ignored);
-  project.surface_loading = loads;
-  read_rig_of(folder, project);
+  bool loads = true;
   try {
-    project.summary = read_text_file(folder.summary());
-  } catch (const Error&) {
-    project.summary.clear();  // none was made, or it was deleted
+    const auto versions = std::make_shared<const SurfaceVersions>(read_surface_versions(folder));
+    loads = versions->current != 0;
+    project.versions = versions;
+  } catch (const Error&) {  // NOLINT(bugprone-empty-catch): the job below says what is wrong
   }
+  project.surface_loading = loads;
+  const bool writable = project.lock != nullptr;
+  read_rig_of(folder, project);
   {
     const std::lock_guard lock(mutex_);
     project_ = std::move(project);
   }
   on_change_();
-  static_cast<void>(queue_.start("open", [this, folder, loads](const Run& run) {
-    drop_model();
+  const int job = queue_.start("open", [this, folder, loads, writable](const Run& run) {
+    use(folder);
+    model_.reset();
     if (!loads) return;
-    try {
-      load_surface(folder, run);
-    } catch (...) {
-      change([](OpenProject& opened) { opened.surface_loading = false; });
-      throw;
-    }
-  }));
+    static_cast<void>(model_of(folder, "there is no surface", run));
+    refine(run);
+    if (writable) remove_leftovers(folder, *versions_of(folder));
+  });
+  change([job](OpenProject& opened) { opened.open_job = job; });
 }
+
+void Service::Implementation::open_folder(const std::filesystem::path& folder) {
+  const std::lock_guard one_at_a_time(command_mutex_);
+  open(project_in(folder));
+}
+
 nlohmann::ordered_json Service::Implementation::create_project(CommandArguments& arguments) {
   const std::string name = arguments.text("name");
   const NewRig rig{.part = arguments.text_or("part", "bust"),

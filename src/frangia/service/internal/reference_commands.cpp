@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -8,6 +9,7 @@
 #include "frangia/core/error.h"
 #include "frangia/core/make_folder.h"
 #include "frangia/core/read_text_file.h"
+#include "frangia/core/sync_to_disk.h"
 #include "frangia/service/compare_surface.h"
 #include "frangia/service/internal/implementation.h"
 
@@ -23,15 +25,25 @@ void require_reference_format(const std::string& format) {
           "a reference is an STL, PLY, OBJ, 3MF or STEP file; choose another file");
 }
 
+/// Names the reference, whose file is there: the commit point.
+void commit_reference(const ProjectFolder& project, const ProjectReference& reference) {
+  AtomicFile file(project.reference_name(), Durability::Synced);
+  const nlohmann::json json{
+      {"name", reference.name}, {"format", reference.format}, {"number", reference.number}};
+  file.stream() << json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) << '\n';
+  file.commit();
+}
+
 }  // namespace
 
 ProjectReference reference_of(const ProjectFolder& project) {
   try {
     const auto json = nlohmann::json::parse(read_text_file(project.reference_name()));
-    ProjectReference known{json.at("name"), json.at("format")};
+    ProjectReference known{json.at("name"), json.at("format"), json.value("number", 0)};
     require_reference_format(known.format);
     std::error_code ignored;
-    if (std::filesystem::is_regular_file(project.reference(known.format), ignored)) return known;
+    if (std::filesystem::is_regular_file(project.reference(known.format, known.number), ignored))
+      return known;
   } catch (const std::exception&) {  // NOLINT(bugprone-empty-catch): there is none
   }
   return {};
@@ -60,7 +72,8 @@ void Service::Implementation::add_to_reference(std::size_t offset, const std::st
 
 nlohmann::ordered_json Service::Implementation::set_reference(CommandArguments& arguments) {
   const ProjectFolder project = folder();
-  const ProjectReference wanted{arguments.text("name"), arguments.text("format")};
+  const ProjectReference before = opened().reference;
+  ProjectReference wanted{arguments.text("name"), arguments.text("format"), before.number + 1};
   const std::size_t bytes = arguments.whole("bytes", 1, kMostReferenceBytes);
   arguments.check_all_read();
   require_reference_format(wanted.format);
@@ -70,20 +83,27 @@ nlohmann::ordered_json Service::Implementation::set_reference(CommandArguments& 
   std::error_code error;
   const auto present = std::filesystem::file_size(project.reference_part(), error);
   require(!error && present == bytes, "the file has not arrived completely; send it again");
-  for (const std::string& format : reference_formats())
-    std::filesystem::remove(project.reference(format), error);
-  std::filesystem::rename(project.reference_part(), project.reference(wanted.format), error);
+  sync_to_disk(project.reference_part());
+  const auto file = project.reference(wanted.format, wanted.number);
+  std::filesystem::rename(project.reference_part(), file, error);
   if (error) {
     throw Error(
         ErrorKind::File,
         fmt::format(
             "{}: cannot be renamed: {}", project.reference_part().string(), error.message()));
   }
-  AtomicFile file(project.reference_name());
-  const nlohmann::json json{{"name", wanted.name}, {"format", wanted.format}};
-  file.stream() << json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) << '\n';
-  file.commit();
-  change([&](OpenProject& opened) { opened.reference = wanted; });
+  try {
+    commit_reference(project, wanted);
+  } catch (...) {
+    if (reference_of(project) == before) {  // otherwise the disk did not confirm the last step
+      std::filesystem::rename(file, project.reference_part(), error);
+    } else {
+      change([&](OpenProject& opened) { std::swap(opened.reference, wanted); });
+    }
+    throw;
+  }
+  change([&](OpenProject& opened) { std::swap(opened.reference, wanted); });
+  std::filesystem::remove(project.reference(before.format, before.number), error);
   return Json::object();
 }
 
@@ -103,11 +123,15 @@ nlohmann::ordered_json Service::Implementation::start_compare(CommandArguments& 
   options.tolerance.check();
   const ProjectReference reference = opened().reference;
   require(!reference.name.empty(), "there is no reference; choose a file to compare with first");
-  return started("compare", [this, project, reference, options](const Run& run) {
-    require(model_ != nullptr, "there is no surface to compare; reconstruct it first");
-    show_surface(model_->compare(project.reference(reference.format), reference.name, options, run),
-                 run);
-  });
+  return started_view(
+      "compare",
+      [project, reference, options](const SurfaceModel& model, int count, const Run& run) {
+        return model.compared(project.reference(reference.format, reference.number),
+                              reference.name,
+                              options,
+                              count,
+                              run);
+      });
 }
 
 }  // namespace frangia

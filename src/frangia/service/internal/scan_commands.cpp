@@ -1,73 +1,14 @@
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
 
 #include <fmt/format.h>
 
 #include "frangia/core/angles.h"
-#include "frangia/core/atomic_file.h"
 #include "frangia/core/error.h"
-#include "frangia/core/make_folder.h"
-#include "frangia/files/write_mesh.h"
-#include "frangia/pipeline/reconstruct.h"
-#include "frangia/service/encode_arrays.h"
 #include "frangia/service/internal/implementation.h"
 
 namespace frangia {
 namespace {
-
-/// Of each setup, for the picture of how they join: a millimetre apart on a part of a hand's size.
-constexpr std::size_t kPointsOfSetup = 60'000;
-
-/// What the registration did to the turntable, for pages that word it themselves. `plain` where
-/// these figures say everything that its own words do.
-nlohmann::ordered_json json_of_turntable(const RegistrationReport& report) {
-  return {{"plain", report.untrusted_reason().empty() && report.undetermined.empty()},
-          {"kept", report.kept_rig},
-          {"overlap", report.overlap},
-          {"moved_mm", report.axis_moved_mm()},
-          {"turned_deg", deg_from_rad(report.axis_turned_rad())},
-          {"angles_deg", deg_from_rad(report.largest_turn_rad())},
-          {"closure_deg", std::abs(deg_from_rad(report.closure_after_rad))}};  // NaN: null
-}
-
-/// Figures of a reconstruction, as surface.json keeps them.
-std::string summary_of(const Reconstruction& result) {
-  nlohmann::ordered_json json{{"points", result.points}, {"views", result.views}};
-  if (result.registration) {
-    json["registration"] = result.registration->text();
-    json["rms_before_mm"] = result.registration->rms_before_mm;
-    json["rms_after_mm"] = result.registration->rms_after_mm;
-    json["turntable"] = json_of_turntable(*result.registration);
-  }
-  json["untrusted_reason"] = result.untrusted_reason;
-  json["setups"] = nlohmann::ordered_json::array();
-  for (const SetupJoin& join : result.setups) {
-    const Eigen::AngleAxisd turn(join.part_pose.linear());
-    json["setups"].push_back({{"number", join.number},
-                              {"views", join.views},
-                              {"joined", join.joined},
-                              {"ambiguous", join.ambiguous},
-                              {"turned_deg", deg_from_rad(turn.angle())},
-                              {"moved_mm", join.part_pose.translation().norm()},
-                              {"overlap", join.overlap},  // NaN is written as null
-                              {"violation", join.free_space_violation}});
-  }
-  return json.dump();
-}
-
-/// Keeps the points of the joined setups, and none of an earlier reconstruction.
-void write_setup_clouds(const ProjectFolder& project, const std::vector<PointCloud>& clouds) {
-  std::error_code error;
-  for (std::size_t i = clouds.size(); std::filesystem::remove(project.setup_cloud(i), error); ++i) {
-  }
-  if (!clouds.empty()) make_folder(project.derived / "clouds");
-  for (std::size_t i = 0; i < clouds.size(); ++i) {
-    AtomicFile file(project.setup_cloud(i));
-    file.stream() << encode_points(clouds[i], kPointsOfSetup);
-    file.commit();
-  }
-}
 
 /// A setup begins when the one before is done: the part cannot be turned back.
 void require_setup_done(const std::vector<ProjectStation>& stations, int setup) {
@@ -157,40 +98,15 @@ nlohmann::ordered_json Service::Implementation::rescan_station(CommandArguments&
   require_idle();
   std::vector<ProjectStation> stations = before.stations;
   stations[station] = {.angle_deg = stations[station].angle_deg, .setup = stations[station].setup};
-  std::filesystem::remove(project.scan / "scan.toml");
-  std::filesystem::remove_all(project.scan / "views" / fmt::format("{:03}", station));
-  write_stations(project, stations);
+  write_stations(project, stations);  // if this fails, nothing has changed
   change([&](OpenProject& now) {
     now.stations = stations;
     now.scan_complete = false;
   });
+  std::filesystem::remove(project.scan / "scan.toml");
+  std::filesystem::remove_all(project.scan / "views" / fmt::format("{:03}", station));
   CommandArguments none("{}");
   return start_scan(none);
 }
 
-nlohmann::ordered_json Service::Implementation::start_reconstruct(CommandArguments& arguments) {
-  const ProjectFolder project = folder();
-  ReconstructOptions options;
-  options.fusion.voxel_mm = arguments.positive("voxel_mm").value_or(options.fusion.voxel_mm);
-  arguments.check_all_read();
-  options.decode.algorithm = opened().capture.algorithm;
-  options.keep_points_of_setups = kPointsOfSetup;
-  return started("reconstruct", [this, project, options](const Run& run) {
-    const Reconstruction result = reconstruct(read_scan(project.scan, run), options, run);
-    run.stage("files");
-    make_folder(project.derived);
-    std::error_code ignored;
-    std::filesystem::remove(project.edits(), ignored);  // they belong to the mesh before
-    write_mesh(project.surface(), result.mesh, {}, run);
-    write_setup_clouds(project, result.setup_points);
-    AtomicFile summary(project.summary());
-    summary.stream() << summary_of(result);
-    summary.commit();
-    change([&](OpenProject& opened) { opened.summary = summary_of(result); });
-    load_surface(project, run);
-    if (!result.untrusted_reason.empty())
-      run.warn("do not trust this surface: " + result.untrusted_reason);
-    refresh_projects();
-  });
-}
 }  // namespace frangia

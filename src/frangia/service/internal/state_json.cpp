@@ -30,7 +30,8 @@ Json json_of_job(const Job& job) {
             {"progress", job.progress},
             {"stage", job.stage},
             {"error", job.error},
-            {"seconds", job.seconds}};
+            {"seconds", job.seconds},
+            {"revision", job.revision ? Json(*job.revision) : Json()}};
   json["log"] = Json::array();
   constexpr std::size_t kShown = 40;
   for (std::size_t i = job.log.size() > kShown ? job.log.size() - kShown : 0; i < job.log.size();
@@ -62,31 +63,51 @@ Json json_of_capture(const CaptureSettings& settings) {
           {"algorithm", settings.algorithm}};
 }
 
+Json json_of_versions(const SurfaceVersions& versions) {
+  Json all = Json::array();
+  for (const SurfaceVersion& version : versions.all) {
+    all.push_back({{"number", version.number},
+                   {"previous", version.previous},
+                   {"built_s", version.built_s},
+                   {"steps", version.steps},
+                   {"steps_done", version.done}});
+  }
+  return all;
+}
+
 Json json_of_project(const OpenProject& project, const CommandLines& commands) {
-  Json json{
-      {"name", project.folder.name},
-      {"can_scan", project.can_scan},
-      {"scan_begun", project.scan_begun},
-      {"scan_complete", project.scan_complete},
-      {"capture", json_of_capture(project.capture)},
-      {"rig", project.rig ? json_of_rig(*project.rig) : Json()},
-      {"rig_fault", project.rig_fault},
-      {"rig_begun", project.start.has_value()},
-      {"residuals_s", project.residuals_s},
-      {"devices", json_of_devices(project.devices)},
-      {"live", project.live ? json_of_live(*project.live) : Json()},
-      {"calibration", project.wizard ? json_of_wizard(project.wizard->state()) : Json()},
-      {"table_angle",
-       project.unknown_angle
-           ? Json{{"last_deg",
-                   number_or_null(project.unknown_angle->last_deg().value_or(kMissing))}}
-           : Json()},
-      {"stations", json_of_stations(project.stations)},
-      {"surface_loading", project.surface_loading},
-      {"surface", project.surface ? json_of_surface(*project.surface, project.summary) : Json()}};
+  Json json{{"name", project.folder.name},
+            {"can_scan", project.can_scan},
+            {"scan_begun", project.scan_begun},
+            {"scan_complete", project.scan_complete},
+            {"capture", json_of_capture(project.capture)},
+            {"rig", project.rig ? json_of_rig(*project.rig) : Json()},
+            {"rig_fault", project.rig_fault},
+            {"rig_begun", project.start.has_value()},
+            {"residuals_s", project.residuals_s},
+            {"devices", json_of_devices(project.devices)},
+            {"live", project.live ? json_of_live(*project.live) : Json()},
+            {"calibration", project.wizard ? json_of_wizard(project.wizard->state()) : Json()},
+            {"table_angle",
+             project.unknown_angle
+                 ? Json{{"last_deg",
+                         number_or_null(project.unknown_angle->last_deg().value_or(kMissing))}}
+                 : Json()},
+            {"stations", json_of_stations(project.stations)},
+            {"surface_loading", project.surface_loading},
+            {"surface", project.surface ? json_of_surface(*project.surface) : Json()}};
+  const SurfaceVersions none;
+  const SurfaceVersions& versions = project.versions ? *project.versions : none;
+  json["revision"] = versions.revision;
+  json["current_version"] = versions.current;
+  json["versions"] = json_of_versions(versions);
   json["exports"] = Json::array();
-  for (const ExportEntry& file : project.exports)
-    json["exports"].push_back({{"name", file.name}, {"bytes", file.bytes}});
+  for (const ExportEntry& file : project.exports) {
+    json["exports"].push_back({{"name", file.name},
+                               {"bytes", file.bytes},
+                               {"version", file.origin ? Json(file.origin->version) : Json()},
+                               {"revision", file.origin ? Json(file.origin->revision) : Json()}});
+  }
   json["reference"] = project.reference.name.empty() ? Json()
                                                      : Json{{"name", project.reference.name},
                                                             {"format", project.reference.format}};

@@ -14,7 +14,9 @@
 #include "frangia/rig/rig.h"
 #include "frangia/service/calibration_wizard.h"
 #include "frangia/service/capture_settings.h"
+#include "frangia/service/internal/exported_files.h"
 #include "frangia/service/internal/surface_model.h"
+#include "frangia/service/internal/surface_versions.h"
 #include "frangia/service/job_queue.h"
 #include "frangia/service/live_preview.h"
 #include "frangia/service/project_folder.h"
@@ -22,12 +24,6 @@
 #include "frangia/service/service.h"
 
 namespace frangia {
-
-/// A file in a project's exports.
-struct ExportEntry {
-  std::string name;
-  std::size_t bytes = 0;
-};
 
 /// A device of the rig and its last test, whose answer is empty before it.
 struct ProjectDevice {
@@ -46,6 +42,9 @@ struct DeviceSearch {
 struct ProjectReference {
   std::string name;    ///< for people, as the file was called; empty: there is none
   std::string format;  ///< one of reference_formats
+  int number = 0;      ///< of its file, see ProjectFolder::reference
+
+  bool operator==(const ProjectReference&) const = default;
 };
 
 /// The reference of a project; without a name when there is none.
@@ -69,9 +68,11 @@ struct OpenProject {
   std::vector<ProjectStation> stations;
   /// Why the scan did not go on: the angle of its turntable is unknown.
   std::optional<UnknownTableAngle> unknown_angle;
-  std::string summary;           ///< JSON of the reconstruction; empty without one
-  SurfacePtr surface;            ///< null without one, or until it is read
-  bool surface_loading = false;  ///< there is one, which is being read
+  /// Null when versions.json cannot be read, until it can.
+  std::shared_ptr<const SurfaceVersions> versions;
+  SurfacePtr surface;            ///< the current version; null without one, or until it is read
+  bool surface_loading = false;  ///< there is one, and `open_job` reads it
+  int open_job = 0;              ///< number of the job; 0: it begins in a moment
   std::vector<ExportEntry> exports;
   ProjectReference reference;
 };

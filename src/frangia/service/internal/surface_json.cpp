@@ -72,8 +72,10 @@ Json json_of_comparison(const ShownComparison& shown) {
 
 }  // namespace
 
-nlohmann::ordered_json json_of_surface(const SurfaceSnapshot& surface, const std::string& summary) {
-  Json json{{"mesh_revision", surface.mesh_revision},
+nlohmann::ordered_json json_of_surface(const SurfaceSnapshot& surface) {
+  const std::string& summary = *surface.summary;
+  Json json{{"version", surface.version},
+            {"mesh_revision", surface.mesh_revision},
             {"selection_revision", surface.selection_revision},
             {"vertices", surface.vertices},
             {"triangles", surface.triangles},

@@ -7,12 +7,15 @@
 #include <functional>
 #include <numeric>
 #include <set>
+#include <type_traits>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include "frangia/core/check_nesting.h"
 #include "frangia/core/error.h"
 #include "frangia/core/parallel.h"
+#include "frangia/core/read_text_file.h"
 #include "frangia/editor/edit_preview.h"
 #include "frangia/editor/edit_script.h"
 #include "frangia/features/feature_points.h"
@@ -137,49 +140,110 @@ void describe(const Mesh& mesh, SurfaceSnapshot& snapshot, const Run& run) {
     snapshot.holes.resize(SurfaceSnapshot::kMostHoles);
 }
 
+/// Applies steps without pictures of what is in between. `fault` says what an error means.
+void apply_all(EditHistory& history,
+               const std::vector<EditStep>& steps,
+               std::vector<StepChange>& changes,
+               const char* fault,
+               const Run& run) {
+  MeshCounts before = counts_of(history.mesh());
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    run.report(static_cast<double>(i) / static_cast<double>(steps.size()));
+    const Mesh mesh_before = history.mesh();
+    try {
+      history.apply(steps[i], {.stop = run.stop});
+    } catch (const Error& error) {
+      if (error.kind() == ErrorKind::Cancelled) throw;
+      throw Error(error.kind(),
+                  fmt::format("{}: step {} is {} {}: {}",
+                              fault,
+                              i + 1,
+                              steps[i].operation,
+                              steps[i].value,
+                              error.what()));
+    }
+    const MeshCounts after = equal_bytes(mesh_before.triangles, history.mesh().triangles)
+                                 ? before
+                                 : counts_of(history.mesh());
+    changes.push_back(change_of(mesh_before, before, history.state(), after));
+    before = after;
+  }
+}
+
+/// The figures that a reconstruction left; empty where it left none.
+std::string summary_in(const std::filesystem::path& file) {
+  std::error_code ignored;
+  if (!std::filesystem::exists(file, ignored)) return {};
+  try {
+    std::string text = read_text_file(file);
+    check_json_nesting(text, file);
+    return text;
+  } catch (const Error&) {
+    return {};  // the surface can be shown without
+  }
+}
+
 }  // namespace
 
-SurfaceModel::SurfaceModel(const ProjectFolder& project, int revision, const Run& run)
-    : project_(project), revision_(revision) {
-  history_.emplace(read_mesh(project.surface(), run));
+static_assert(std::is_nothrow_move_assignable_v<SurfaceModel>,
+              "a model that was prepared becomes the present one without failing");
+
+SurfaceModel::SurfaceModel(const VersionFiles& files, int version, int revision, const Run& run) {
+  EditHistory history(read_mesh(files.surface(), run));
   std::error_code ignored;
-  if (std::filesystem::exists(project.edits(), ignored)) {
-    const EditScript script = read_edit_script(project.edits());
-    MeshCounts before = counts_of(mesh());
-    for (std::size_t i = 0; i < script.steps.size(); ++i) {
-      run.report(static_cast<double>(i) / static_cast<double>(script.steps.size()));
-      const Mesh mesh_before = mesh();
-      history_->apply(script.steps[i], {.stop = run.stop});
-      const MeshCounts after =
-          equal_bytes(mesh_before.triangles, mesh().triangles) ? before : counts_of(mesh());
-      changes_.push_back(change_of(mesh_before, before, history_->state(), after));
-      before = after;
-    }
+  if (std::filesystem::exists(files.edits, ignored)) {
+    const EditScript script = read_edit_script(files.edits);
+    apply_all(
+        history, script.steps, changes_, "the saved edits do not suit the saved surface", run);
     for (std::size_t i = script.done; i < script.steps.size(); ++i)
-      history_->undo();
+      history.undo();
   }
-  publish(run);
+  history_ = std::make_shared<const EditHistory>(std::move(history));
+  auto first = std::make_shared<SurfaceSnapshot>();
+  first->version = version;
+  first->summary = std::make_shared<const std::string>(summary_in(files.summary()));
+  snapshot_ = std::move(first);
+  publish(revision, run);
 }
 
-SurfacePtr SurfaceModel::apply(const EditStep& step, const Run& run) {
-  const SurfacePtr before = snapshot_;
-  history_->apply(step, run);
-  shown_.resize(history_->done());  // those of steps that were undone are gone
-  changes_.resize(history_->done());
-  save();
-  auto next = std::make_shared<SurfaceSnapshot>(*publish(run));
-  changes_.back() =
-      change_of(before->picture->mesh(), counts_of(*before), history_->state(), counts_of(*next));
-  return show(std::move(next));
+SurfaceModel SurfaceModel::applied(const EditStep& step, int revision, const Run& run) const {
+  SurfaceModel next = *this;
+  next.history_ = std::make_shared<const EditHistory>(history_->applied(step, run));
+  next.forget_undone();
+  next.changes_.emplace_back();
+  next.publish(revision, run);
+  auto shown = std::make_shared<SurfaceSnapshot>(*next.snapshot_);
+  next.changes_.back() =
+      change_of(mesh(), counts_of(*snapshot_), next.history_->state(), counts_of(*shown));
+  next.show(std::move(shown));
+  return next;
 }
 
-SurfacePtr SurfaceModel::select_component_of(std::size_t triangle, const Run& run) {
+SurfaceModel SurfaceModel::replayed(const std::vector<EditStep>& steps,
+                                    int revision,
+                                    const Run& run) const {
+  SurfaceModel next = *this;
+  next.forget_undone();
+  EditHistory history = *history_;
+  apply_all(history,
+            steps,
+            next.changes_,
+            "the edits do not suit this surface, and nothing was changed",
+            run);
+  next.history_ = std::make_shared<const EditHistory>(std::move(history));
+  next.publish(revision, run);
+  return next;
+}
+
+SurfaceModel SurfaceModel::with_component_of(std::size_t triangle,
+                                             int revision,
+                                             const Run& run) const {
   require(triangle < mesh().triangles.size(), "the surface has no such triangle; pick another one");
   const auto number = connected_components(mesh()).component_of[triangle];
-  return apply({"select-component", std::to_string(number)}, run);
+  return applied({"select-component", std::to_string(number)}, revision, run);
 }
 
-SurfacePtr SurfaceModel::fit(const std::string& kind, const Run& run) {
+SurfaceModel SurfaceModel::with_fit(const std::string& kind, const Run& run) const {
   const Selection& selection = history_->state().selection;
   require(count_selected(selection) > 0, "nothing is selected; select the surface to be fitted");
   Mesh part = mesh();
@@ -205,10 +269,12 @@ SurfacePtr SurfaceModel::fit(const std::string& kind, const Run& run) {
                         .form_mm = found.fit.form_mm,
                         .points = found.fit.points});
   if (next->fits.size() > SurfaceSnapshot::kMostFits) next->fits.erase(next->fits.begin());
-  return show(std::move(next));
+  SurfaceModel shown = *this;
+  shown.show(std::move(next));
+  return shown;
 }
 
-SurfacePtr SurfaceModel::preview(const EditStep& step, const Run& run) {
+SurfaceModel SurfaceModel::with_preview(const EditStep& step, int count, const Run& run) const {
   EditState state = history_->state();
   apply_step(state, step, run);
   run.stage("preview");
@@ -219,83 +285,102 @@ SurfacePtr SurfaceModel::preview(const EditStep& step, const Run& run) {
   auto shown = std::make_shared<SurfacePreview>();
   shown->step = step;
   shown->change = change_of(mesh(), counts_of(*snapshot_), state, counts_of(state.mesh));
-  shown->revision = ++previews_;
+  shown->revision = count;
+  packer.set_values({{"revision", count}});
   shown->arrays = std::make_shared<const std::string>(packer.pack());
   auto next = std::make_shared<SurfaceSnapshot>(*snapshot_);
   next->preview = std::move(shown);
-  return show(std::move(next));
+  SurfaceModel model = *this;
+  model.show(std::move(next));
+  return model;
 }
 
-SurfacePtr SurfaceModel::drop_preview() {
+SurfaceModel SurfaceModel::without_preview() const {
   auto next = std::make_shared<SurfaceSnapshot>(*snapshot_);
   next->preview.reset();
-  return show(std::move(next));
+  SurfaceModel model = *this;
+  model.show(std::move(next));
+  return model;
 }
 
-SurfacePtr SurfaceModel::compare(const std::filesystem::path& reference,
-                                 const std::string& name,
-                                 const CompareOptions& options,
-                                 const Run& run) {
+SurfaceModel SurfaceModel::compared(const std::filesystem::path& reference,
+                                    const std::string& name,
+                                    const CompareOptions& options,
+                                    int count,
+                                    const Run& run) const {
   auto shown = std::make_shared<ShownComparison>();
   shown->found = compare_surface(mesh(), reference, options, run);
-  shown->revision = ++comparisons_;
+  shown->revision = count;
   shown->reference = name;
   shown->best_fit = options.best_fit;
   shown->start = options.start;
   auto next = std::make_shared<SurfaceSnapshot>(*snapshot_);
   next->comparison = std::move(shown);
-  return show(std::move(next));
+  SurfaceModel model = *this;
+  model.show(std::move(next));
+  return model;
 }
 
-SurfacePtr SurfaceModel::undo(const Run& run) {
-  require(history_->undo(), "there is no step to undo");
-  save();
-  return publish(run);
+SurfaceModel SurfaceModel::undone(int revision, const Run& run) const {
+  require(history_->done() > 0, "there is no step to undo");
+  SurfaceModel next = *this;
+  next.history_ = std::make_shared<const EditHistory>(history_->undone());
+  next.publish(revision, run);
+  return next;
 }
 
-SurfacePtr SurfaceModel::redo(const Run& run) {
-  require(history_->redo(), "there is no step to redo");
-  save();
-  return publish(run);
+SurfaceModel SurfaceModel::redone(int revision, const Run& run) const {
+  require(history_->done() < history_->steps().size(), "there is no step to redo");
+  SurfaceModel next = *this;
+  next.history_ = std::make_shared<const EditHistory>(history_->redone());
+  next.publish(revision, run);
+  return next;
 }
 
-SurfacePtr SurfaceModel::publish(const Run& run) {
+void SurfaceModel::publish(int revision, const Run& run) {
   const EditState& state = history_->state();
   const std::size_t done = history_->done();
   shown_.resize(history_->steps().size() + 1);
-  ++revision_;
   auto next = std::make_shared<SurfaceSnapshot>();
   if (shown_[done]) {  // undone or done again: the picture is known
     *next = *shown_[done];
-  } else if (snapshot_ && same_picture(snapshot_->picture->mesh(), state.mesh)) {
+  } else if (snapshot_->picture && same_picture(snapshot_->picture->mesh(), state.mesh)) {
     *next = *snapshot_;
   } else {
-    next->mesh_revision = revision_;
+    next->version = snapshot_->version;
+    next->summary = snapshot_->summary;
+    next->mesh_revision = revision;
     describe(state.mesh, *next, run);
   }
   next->preview.reset();
-  if (shown_[done] && *next->selection == state.selection) return show(std::move(next));
-  next->selected = count_selected(state.selection);
-  next->selection = std::make_shared<const Selection>(state.selection);
-  next->selection_revision = revision_;
-  return show(std::move(next));
+  if (!shown_[done] || *next->selection != state.selection) {
+    next->selected = count_selected(state.selection);
+    next->selection = std::make_shared<const Selection>(state.selection);
+    next->selection_revision = revision;
+  }
+  show(std::move(next));
 }
 
-SurfacePtr SurfaceModel::refine(const Run& run) {
-  if (!snapshot_->picture->is_coarse()) return nullptr;
+SurfaceModel SurfaceModel::refined(const Run& run) const {
+  SurfaceModel finer = *this;
   auto next = std::make_shared<SurfaceSnapshot>(*snapshot_);
   next->picture = snapshot_->picture->refined(run);
-  return show(std::move(next));
+  finer.show(std::move(next));
+  return finer;
 }
 
-SurfacePtr SurfaceModel::show(std::shared_ptr<SurfaceSnapshot> next) {
+void SurfaceModel::show(std::shared_ptr<SurfaceSnapshot> next) {
   next->steps = history_->steps();
   next->done = history_->done();
   next->changes = changes_;
   snapshot_ = std::move(next);
   shown_[history_->done()] = snapshot_;
   forget_far_pictures();
-  return snapshot_;
+}
+
+void SurfaceModel::forget_undone() {
+  shown_.resize(snapshot_->done + 1);
+  changes_.resize(snapshot_->done);
 }
 
 void SurfaceModel::forget_far_pictures() {
@@ -311,10 +396,6 @@ void SurfaceModel::forget_far_pictures() {
     if (away <= done) consider(shown_[done - away]);
     if (done + away < shown_.size()) consider(shown_[done + away]);
   }
-}
-
-void SurfaceModel::save() const {
-  write_edit_script(project_.edits(), {history_->steps(), history_->done()});
 }
 
 }  // namespace frangia

@@ -3,7 +3,6 @@
 #include <cstddef>
 #include <filesystem>
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,11 +11,12 @@
 #include "frangia/core/missing.h"
 #include "frangia/core/run.h"
 #include "frangia/editor/edit_history.h"
+#include "frangia/editor/edit_script.h"
 #include "frangia/geometry/median_sigma.h"
 #include "frangia/geometry/selection.h"
 #include "frangia/service/compare_surface.h"
 #include "frangia/service/internal/surface_picture.h"
-#include "frangia/service/project_folder.h"
+#include "frangia/service/internal/surface_versions.h"
 
 namespace frangia {
 
@@ -70,7 +70,8 @@ struct ShownComparison {
 
 /// What clients see of a surface. Immutable, so that a client reads it while an edit runs.
 struct SurfaceSnapshot {
-  int mesh_revision = 0;       ///< changes with the mesh
+  int version = 0;             ///< number of the SurfaceVersion
+  int mesh_revision = 0;       ///< at which this mesh was first shown
   int selection_revision = 0;  ///< of the selection of this mesh; undo brings it back, too
   std::size_t vertices = 0;
   std::size_t triangles = 0;
@@ -87,65 +88,74 @@ struct SurfaceSnapshot {
   std::shared_ptr<const Selection> selection;         ///< of the exact mesh
   std::shared_ptr<const SurfacePreview> preview;      ///< null without one
   std::shared_ptr<const ShownComparison> comparison;  ///< of the present mesh; null without one
+  std::shared_ptr<const std::string> summary;         ///< JSON of the reconstruction; may be empty
 
   static constexpr std::size_t kMostHoles = 100;
   static constexpr std::size_t kMostFits = 12;
 };
 using SurfacePtr = std::shared_ptr<const SurfaceSnapshot>;
 
-/// The surface of a project under edit. Used by one thread at a time; every change saves the steps
-/// and returns a new snapshot.
+/// A version of the surface under edit, in memory. Every change is worked out completely as another
+/// model, which shares what is the same and takes the place of this one without failing: whoever
+/// writes it to the disk in between may fail or be stopped. Revisions are those of SurfaceVersions;
+/// previews and comparisons count on their own.
 class SurfaceModel {
  public:
-  /// Reads surface.ply and applies the saved steps.
+  /// Reads the files of a version and applies its saved steps.
   ///
   /// @errors   as read_mesh, read_edit_script and apply_step
-  SurfaceModel(const ProjectFolder& project, int revision, const Run& run);
+  SurfaceModel(const VersionFiles& files, int version, int revision, const Run& run);
 
   [[nodiscard]] const Mesh& mesh() const { return history_->mesh(); }
-  /// Applies a step.
-  SurfacePtr apply(const EditStep& step, const Run& run);
+  [[nodiscard]] EditScript script() const { return {history_->steps(), history_->done()}; }
+  [[nodiscard]] const SurfacePtr& snapshot() const { return snapshot_; }
+
+  [[nodiscard]] SurfaceModel applied(const EditStep& step, int revision, const Run& run) const;
+  /// Applies the steps of another version, all or none.
+  ///
+  /// @errors   as apply_step, with the number of the step
+  [[nodiscard]] SurfaceModel replayed(const std::vector<EditStep>& steps,
+                                      int revision,
+                                      const Run& run) const;
   /// Selects the connected component of a triangle.
-  SurfacePtr select_component_of(std::size_t triangle, const Run& run);
+  [[nodiscard]] SurfaceModel with_component_of(std::size_t triangle,
+                                               int revision,
+                                               const Run& run) const;
+  [[nodiscard]] SurfaceModel undone(int revision, const Run& run) const;  ///< Error(Input): no step
+  [[nodiscard]] SurfaceModel redone(int revision, const Run& run) const;  ///< Error(Input): no step
+
   /// Fits a shape, "plane", "cylinder" or "sphere", to the selected triangles.
   ///
   /// @errors   Error(Input) for another kind, for too small a selection, or when its points do not
   ///          determine the shape
-  SurfacePtr fit(const std::string& kind, const Run& run);
+  [[nodiscard]] SurfaceModel with_fit(const std::string& kind, const Run& run) const;
   /// Tries a step and shows what it would change; the next edit drops the preview.
-  SurfacePtr preview(const EditStep& step, const Run& run);
-  SurfacePtr drop_preview();
+  [[nodiscard]] SurfaceModel with_preview(const EditStep& step, int count, const Run& run) const;
+  [[nodiscard]] SurfaceModel without_preview() const;
   /// Compares the surface with a reference, whose name is for people.
   ///
   /// @errors   as compare_surface
-  SurfacePtr compare(const std::filesystem::path& reference,
-                     const std::string& name,
-                     const CompareOptions& options,
-                     const Run& run);
-  SurfacePtr undo(const Run& run);  ///< Error(Input) without a step to undo
-  SurfacePtr redo(const Run& run);  ///< Error(Input) without a step to redo
-  [[nodiscard]] SurfacePtr snapshot() const { return snapshot_; }
-  /// The largest revision so far.
-  [[nodiscard]] int revision() const { return revision_; }
-  /// Adds the level that is drawn at rest, which a client does not have to wait for. Null when the
-  /// picture has it.
-  SurfacePtr refine(const Run& run);
+  [[nodiscard]] SurfaceModel compared(const std::filesystem::path& reference,
+                                      const std::string& name,
+                                      const CompareOptions& options,
+                                      int count,
+                                      const Run& run) const;
+  /// Whether the level that is drawn at rest is missing.
+  [[nodiscard]] bool is_coarse() const { return snapshot_->picture->is_coarse(); }
+  /// Adds that level, which a client does not have to wait for.
+  [[nodiscard]] SurfaceModel refined(const Run& run) const;
 
  private:
   /// Pictures of the steps nearest to the present one that are kept, so that undo shows them at
   /// once.
   static constexpr std::size_t kMostPictureBytes = 512UL * 1024 * 1024;
 
-  SurfacePtr publish(const Run& run);
-  SurfacePtr show(std::shared_ptr<SurfaceSnapshot> next);
+  void publish(int revision, const Run& run);
+  void show(std::shared_ptr<SurfaceSnapshot> next);
+  void forget_undone();  ///< before a step is added
   void forget_far_pictures();
-  void save() const;
 
-  ProjectFolder project_;
-  std::optional<EditHistory> history_;
-  int revision_ = 0;
-  int previews_ = 0;
-  int comparisons_ = 0;
+  std::shared_ptr<const EditHistory> history_;
   SurfacePtr snapshot_;
   std::vector<StepChange> changes_;
   std::vector<SurfacePtr> shown_;  ///< after so many steps; null: not known any more

@@ -39,9 +39,11 @@ std::string SurfacePicture::packed_level(std::size_t level) const {
   return encode_level(*mesh_, *normals_, *levels_[level], revision_);
 }
 
-std::string SurfacePicture::packed_selection(std::size_t level, const Selection& selection) const {
+std::string SurfacePicture::packed_selection(std::size_t level,
+                                             const Selection& selection,
+                                             int revision) const {
   if (level >= levels_.size()) return {};
-  return encode_selection(selection_of_level(*mesh_, selection, *levels_[level]));
+  return encode_selection(selection_of_level(*mesh_, selection, *levels_[level]), revision);
 }
 
 std::size_t SurfacePicture::bytes() const {

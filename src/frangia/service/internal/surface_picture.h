@@ -40,7 +40,9 @@ class SurfacePicture {
   /// The level, packed; empty when there is no such level.
   [[nodiscard]] std::string packed_level(std::size_t level) const;
   /// The flags of a selection of the exact mesh for the triangles of a level, packed.
-  [[nodiscard]] std::string packed_selection(std::size_t level, const Selection& selection) const;
+  [[nodiscard]] std::string packed_selection(std::size_t level,
+                                             const Selection& selection,
+                                             int revision) const;
   /// Memory of the mesh and its levels.
   [[nodiscard]] std::size_t bytes() const;
 

@@ -1,0 +1,81 @@
+#include "frangia/service/internal/surface_build.h"
+
+#include <cmath>
+#include <string>
+#include <system_error>
+
+#include <nlohmann/json.hpp>
+
+#include "frangia/core/angles.h"
+#include "frangia/core/atomic_file.h"
+#include "frangia/core/make_folder.h"
+#include "frangia/core/sync_to_disk.h"
+#include "frangia/files/write_mesh.h"
+#include "frangia/service/encode_arrays.h"
+#include "frangia/service/internal/surface_versions.h"
+
+namespace frangia {
+namespace {
+
+/// What the registration did to the turntable, for pages that word it themselves. `plain` where
+/// these figures say everything that its own words do.
+nlohmann::ordered_json json_of_turntable(const RegistrationReport& report) {
+  return {{"plain", report.untrusted_reason().empty() && report.undetermined.empty()},
+          {"kept", report.kept_rig},
+          {"overlap", report.overlap},
+          {"moved_mm", report.axis_moved_mm()},
+          {"turned_deg", deg_from_rad(report.axis_turned_rad())},
+          {"angles_deg", deg_from_rad(report.largest_turn_rad())},
+          {"closure_deg", std::abs(deg_from_rad(report.closure_after_rad))}};  // NaN: null
+}
+
+/// Figures of a reconstruction, as surface.json keeps them.
+std::string summary_of(const Reconstruction& result) {
+  nlohmann::ordered_json json{{"points", result.points}, {"views", result.views}};
+  if (result.registration) {
+    json["registration"] = result.registration->text();
+    json["rms_before_mm"] = result.registration->rms_before_mm;
+    json["rms_after_mm"] = result.registration->rms_after_mm;
+    json["turntable"] = json_of_turntable(*result.registration);
+  }
+  json["untrusted_reason"] = result.untrusted_reason;
+  json["setups"] = nlohmann::ordered_json::array();
+  for (const SetupJoin& join : result.setups) {
+    const Eigen::AngleAxisd turn(join.part_pose.linear());
+    json["setups"].push_back({{"number", join.number},
+                              {"views", join.views},
+                              {"joined", join.joined},
+                              {"ambiguous", join.ambiguous},
+                              {"turned_deg", deg_from_rad(turn.angle())},
+                              {"moved_mm", join.part_pose.translation().norm()},
+                              {"overlap", join.overlap},  // NaN is written as null
+                              {"violation", join.free_space_violation}});
+  }
+  return json.dump();
+}
+
+void write_synced(const std::filesystem::path& path, const std::string& bytes) {
+  AtomicFile file(path, Durability::Synced);
+  file.stream() << bytes;
+  file.commit();
+}
+
+}  // namespace
+
+void write_surface_build(const std::filesystem::path& folder,
+                         const Reconstruction& result,
+                         const Run& run) {
+  std::error_code ignored;
+  std::filesystem::remove_all(folder, ignored);
+  make_folder(folder, Durability::Synced);
+  const VersionFiles files{folder, {}};
+  write_mesh(files.surface(), result.mesh, {}, run);
+  sync_to_disk(files.surface());
+  write_synced(files.summary(), summary_of(result));
+  if (!result.setup_points.empty()) make_folder(folder / "clouds", Durability::Synced);
+  for (std::size_t i = 0; i < result.setup_points.size(); ++i)
+    write_synced(files.setup_cloud(i), encode_points(result.setup_points[i], kPointsOfSetup));
+  sync_to_disk(folder);
+}
+
+}  // namespace frangia

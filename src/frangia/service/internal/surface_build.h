@@ -1,0 +1,22 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+
+#include "frangia/core/run.h"
+#include "frangia/pipeline/reconstruct.h"
+
+namespace frangia {
+
+/// Of each setup, for the picture of how they join: a millimetre apart on a part of a hand's size.
+inline constexpr std::size_t kPointsOfSetup = 60'000;
+
+/// Writes the files of a new version into a folder, see VersionFiles. All are on the disk when the
+/// function returns; whatever was in the folder is not.
+///
+/// @errors   Error(File); Error(Cancelled)
+void write_surface_build(const std::filesystem::path& folder,
+                         const Reconstruction& result,
+                         const Run& run);
+
+}  // namespace frangia

@@ -1,0 +1,296 @@
+// Above 250 lines: each change of the surface from its beginning to its commit point and beyond.
+#include <chrono>
+#include <filesystem>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "frangia/core/error.h"
+#include "frangia/core/make_folder.h"
+#include "frangia/core/sync_to_disk.h"
+#include "frangia/service/internal/implementation.h"
+#include "frangia/service/internal/surface_build.h"
+
+namespace frangia {
+namespace {
+
+std::int64_t now_s() {
+  const auto since = std::chrono::system_clock::now().time_since_epoch();
+  return std::chrono::duration_cast<std::chrono::seconds>(since).count();
+}
+
+/// A file or folder that is removed unless what names it was committed, or may have been.
+class Uncommitted {
+ public:
+  explicit Uncommitted(std::filesystem::path path) : path_(std::move(path)) {}
+  Uncommitted(const Uncommitted&) = delete;
+  Uncommitted& operator=(const Uncommitted&) = delete;
+  Uncommitted(Uncommitted&&) = delete;
+  Uncommitted& operator=(Uncommitted&&) = delete;
+  ~Uncommitted() {
+    std::error_code ignored;
+    if (!kept_) std::filesystem::remove_all(path_, ignored);
+  }
+  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+  void keep() noexcept { kept_ = true; }
+
+ private:
+  std::filesystem::path path_;
+  bool kept_ = false;
+};
+
+[[noreturn]] void say_unconfirmed(const std::string& doubt) {
+  throw Error(ErrorKind::File, doubt);
+}
+
+}  // namespace
+
+nlohmann::ordered_json Service::Implementation::started_change(const CommandKey& key,
+                                                               SurfaceWork work) {
+  return started("edit", [this, project = folder(), key, work = std::move(work)](const Run& run) {
+    change_surface(project, key, work, run);
+  });
+}
+
+nlohmann::ordered_json Service::Implementation::started_view(const char* kind, SurfaceWork work) {
+  return started(kind, [this, project = folder(), work = std::move(work)](const Run& run) {
+    const SurfaceModel& model =
+        model_of(project, "there is no surface yet; reconstruct it first", run);
+    show(std::make_unique<SurfaceModel>(work(model, ++shown_, run)), nullptr);
+    refine(run);
+  });
+}
+
+nlohmann::ordered_json Service::Implementation::start_reconstruct(CommandArguments& arguments) {
+  ReconstructOptions options;
+  options.fusion.voxel_mm = arguments.positive("voxel_mm").value_or(options.fusion.voxel_mm);
+  arguments.check_all_read();
+  options.decode.algorithm = opened().capture.algorithm;
+  options.keep_points_of_setups = kPointsOfSetup;
+  return started("reconstruct",
+                 [this, project = folder(), options, key = arguments.key()](const Run& run) {
+                   rebuild_surface(project, key, options, run);
+                 });
+}
+
+/// Shows an earlier surface with its edits, or reads the present one where that was stopped.
+nlohmann::ordered_json Service::Implementation::start_open_version(CommandArguments& arguments) {
+  const auto number =
+      static_cast<int>(arguments.whole("version", 1, SurfaceVersions::kMostVersions));
+  arguments.check_all_read();
+  return started("open", [this, project = folder(), number, key = arguments.key()](const Run& run) {
+    open_version(project, key, number, run);
+  });
+}
+
+/// Applies the edits of another version to the present one, all or none.
+nlohmann::ordered_json Service::Implementation::start_replay(CommandArguments& arguments) {
+  const auto number =
+      static_cast<int>(arguments.whole("version", 1, SurfaceVersions::kMostVersions));
+  arguments.check_all_read();
+  const ProjectFolder project = folder();
+  return started_change(
+      arguments.key(),
+      [this, project, number](const SurfaceModel& model, int revision, const Run& run) {
+        const auto versions = versions_of(project);
+        const SurfaceVersion* from = versions->find(number);
+        require(from != nullptr, "version: there is no surface of this number");
+        require(number != versions->current, "version: these edits are of the surface itself");
+        require(from->done > 0, "version: this surface has no edits");
+        EditScript script = read_edit_script(files_of(project, *from).edits);
+        script.steps.resize(script.done);
+        return model.replayed(script.steps, revision, run);
+      });
+}
+
+std::shared_ptr<const SurfaceVersions> Service::Implementation::versions_of(
+    const ProjectFolder& project) {
+  {
+    const std::lock_guard lock(mutex_);
+    if (project_ && project_->versions) return project_->versions;
+  }
+  auto read = std::make_shared<const SurfaceVersions>(read_surface_versions(project));
+  change([&](OpenProject& now) { now.versions = read; });
+  return read;
+}
+
+void Service::Implementation::use(const ProjectFolder& project) {
+  if (model_folder_ == project.derived) return;
+  model_.reset();
+  model_folder_ = project.derived;
+}
+
+const SurfaceModel& Service::Implementation::model_of(const ProjectFolder& project,
+                                                      const char* otherwise,
+                                                      const Run& run) {
+  use(project);
+  const auto versions = versions_of(project);
+  const SurfaceVersion* current = versions->find(versions->current);
+  require(current != nullptr, otherwise);
+  if (model_) return *model_;
+  show(std::make_unique<SurfaceModel>(
+           files_of(project, *current), current->number, versions->revision, run),
+       versions);
+  return *model_;
+}
+
+void Service::Implementation::change_surface(const ProjectFolder& project,
+                                             const CommandKey& key,
+                                             const SurfaceWork& work,
+                                             const Run& run) {
+  const SurfaceModel& now =
+      model_of(project, "there is no surface to edit; reconstruct it first", run);
+  SurfaceVersions versions = *versions_of(project);
+  if (versions.find(key) != nullptr) return;
+  ++versions.revision;
+  SurfaceModel next = work(now, versions.revision, run);
+  SurfaceVersion& version = *versions.find(versions.current);
+  const auto before = edits_file(project, version, version.edits);  // there need not be one
+  const EditScript script = next.script();
+  version.edits = versions.revision;
+  version.steps = script.steps.size();
+  version.done = script.done;
+  versions.answer(key);
+  run.stage("files");
+  Uncommitted edits(edits_file(project, version, versions.revision));
+  write_edit_script(edits.path(), script, Durability::Synced);
+  std::string doubt;
+  try {
+    doubt = commit(project, std::move(next), std::move(versions), run);
+  } catch (const SurfaceUnknown&) {
+    edits.keep();
+    throw;
+  }
+  edits.keep();
+  refine(run);
+  if (!doubt.empty()) say_unconfirmed(doubt);
+  std::error_code ignored;
+  std::filesystem::remove(before, ignored);
+}
+
+void Service::Implementation::open_version(const ProjectFolder& project,
+                                           const CommandKey& key,
+                                           int number,
+                                           const Run& run) {
+  use(project);
+  SurfaceVersions versions = *versions_of(project);
+  const SurfaceVersion* version = versions.find(number);
+  require(version != nullptr, "version: there is no surface of this number");
+  if (number == versions.current || versions.find(key) != nullptr) {
+    static_cast<void>(model_of(project, "there is no surface", run));
+    return refine(run);
+  }
+  ++versions.revision;
+  versions.current = number;
+  versions.answer(key);
+  SurfaceModel next(files_of(project, *version), number, versions.revision, run);
+  run.stage("files");
+  const std::string doubt = commit(project, std::move(next), std::move(versions), run);
+  refine(run);
+  if (!doubt.empty()) say_unconfirmed(doubt);
+}
+
+void Service::Implementation::rebuild_surface(const ProjectFolder& project,
+                                              const CommandKey& key,
+                                              const ReconstructOptions& options,
+                                              const Run& run) {
+  use(project);
+  SurfaceVersions versions = *versions_of(project);
+  if (versions.find(key) != nullptr) return;
+  Uncommitted fresh(new_version_folder(project));
+  std::string untrusted;
+  {
+    const Reconstruction result = reconstruct(read_scan(project.scan, run), options, run);
+    run.stage("files");
+    write_surface_build(fresh.path(), result, run);
+    untrusted = result.untrusted_reason;
+  }
+  SurfaceVersion version{.number = next_version_number(project, versions),
+                         .previous = versions.current,
+                         .built_s = now_s()};
+  ++versions.revision;
+  // Read as it will be read from now on: what cannot be read is not committed.
+  SurfaceModel next({fresh.path(), {}}, version.number, versions.revision, run);
+  if (!untrusted.empty()) run.warn("do not trust this surface: " + untrusted);
+  versions.current = version.number;
+  versions.all.push_back(version);
+  versions.answer(key);
+  Uncommitted named(files_of(project, version).folder);
+  std::error_code error;
+  std::filesystem::rename(fresh.path(), named.path(), error);
+  if (error) {
+    throw Error(ErrorKind::File,
+                fmt::format("{}: cannot be renamed: {}", fresh.path().string(), error.message()));
+  }
+  sync_to_disk(folder_of(named.path()));
+  std::string doubt;
+  try {
+    doubt = commit(project, std::move(next), std::move(versions), run);
+  } catch (const SurfaceUnknown&) {
+    named.keep();
+    throw;
+  }
+  named.keep();
+  refine(run);
+  try {
+    refresh_projects();
+  } catch (const std::exception&) {  // NOLINT(bugprone-empty-catch): the list is of others, too
+  }
+  if (!doubt.empty()) say_unconfirmed(doubt);
+}
+
+std::string Service::Implementation::commit(const ProjectFolder& project,
+                                            SurfaceModel next,
+                                            SurfaceVersions versions,
+                                            const Run& run) {
+  auto model = std::make_unique<SurfaceModel>(std::move(next));
+  const auto kept = std::make_shared<const SurfaceVersions>(std::move(versions));
+  run.check();  // the last one: a stop from here on comes too late, and the change is done
+  std::string doubt;
+  try {
+    doubt = commit_surface_versions(project, *kept);
+  } catch (const SurfaceUnknown&) {
+    forget_surface();
+    throw;
+  }
+  show(std::move(model), kept);
+  queue_.set_revision(kept->revision);
+  return doubt;
+}
+
+void Service::Implementation::show(std::unique_ptr<SurfaceModel> model,
+                                   std::shared_ptr<const SurfaceVersions> versions) noexcept {
+  model_ = std::move(model);
+  {
+    const std::lock_guard lock(mutex_);
+    if (project_) {
+      project_->surface = model_->snapshot();
+      project_->surface_loading = false;
+      if (versions) project_->versions = std::move(versions);
+    }
+  }
+  on_change_();
+}
+
+void Service::Implementation::refine(const Run& run) noexcept {
+  try {
+    if (model_ && model_->is_coarse())
+      show(std::make_unique<SurfaceModel>(model_->refined(run)), nullptr);
+  } catch (const std::exception&) {  // NOLINT(bugprone-empty-catch): the coarser level is shown
+  }
+}
+
+void Service::Implementation::forget_surface() noexcept {
+  model_.reset();
+  {
+    const std::lock_guard lock(mutex_);
+    if (project_) {
+      project_->surface.reset();
+      project_->versions.reset();
+      project_->surface_loading = false;
+    }
+  }
+  on_change_();
+}
+
+}  // namespace frangia
