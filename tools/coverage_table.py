@@ -37,4 +37,7 @@ for name in sorted(modules, key=lambda name: (name == "all", name)):
     )
 text = "\n".join(lines) + "\n"
 print(text)
-pathlib.Path(sys.argv[2]).write_text(text)
+page = pathlib.Path(sys.argv[2])
+old = page.read_text() if page.exists() else ""
+_, mark, rest = old.partition("\n## ")  # the sections that others write
+page.write_text(text + mark + rest)

@@ -2,7 +2,7 @@
 //
 //   node accessible.mjs PROGRAM
 import path from 'node:path';
-import { axe, coarsenCamera, expect, launch, newHome, newLink, openPage, passed, requireChromium, slowdown, startServer, stateOf, tell } from './harness.mjs';
+import { axe, coarsenCamera, expect, launch, newHome, newLink, openPage, passed, PATIENCE, requireChromium, settled, startServer, stateOf, tell } from './harness.mjs';
 
 const program = path.resolve(process.argv[2]);
 requireChromium();
@@ -17,7 +17,7 @@ async function command(page, name, argument = {}) {
     });
     if (!answer.ok) throw new Error(`${name}: ${await answer.text()}`);
   }, [name, argument]);
-  const end = Date.now() + 90_000 * slowdown;
+  const end = Date.now() + PATIENCE;
   while ((await stateOf(page)).jobs.some((job) => ['waiting', 'running'].includes(job.state) && job.kind !== 'live')) {
     expect(Date.now() < end, `${name} does not end`);
     await page.waitForTimeout(100);
@@ -52,7 +52,7 @@ await tell(home, async () => {
   await inEachLook(async (which) => {
     for (const key of ['2', '4']) {
       await page.keyboard.press(key);
-      await page.waitForTimeout(60);
+      await settled(page);
       await axe(page, `step ${key} before the scan, ${which}`);
     }
   });
@@ -65,7 +65,8 @@ await tell(home, async () => {
   await inEachLook(async (which) => {
     for (const key of ['1', '2', '4', '5', '6', '7', '3']) {
       await page.keyboard.press(key);
-      await page.waitForTimeout(key === '3' ? 400 : 60);
+      if (key === '3') await page.waitForSelector('#live-points');
+      await settled(page);
       await axe(page, `step ${key}, ${which}`);
     }
     passed(`every step, ${which}`);
@@ -95,6 +96,6 @@ await tell(home, async () => {
   await stranger.emulateMedia({ colorScheme: 'light' });
   await axe(stranger, 'without a key, light');
   await server.end('SIGTERM');
-  await page.waitForSelector('.notice.warn[role=alert]', { timeout: 30_000 * slowdown });
+  await page.waitForSelector('.notice.warn[role=alert]');
   await axe(page, 'the server is gone');
 }, 'axe finds no violation');

@@ -26,7 +26,7 @@ const elsewhere = [`http://127.0.0.1:${other.address().port}`, `http://localhost
 /** Everything that a page may try, in the page. Returns what it could read, by the way it took. */
 async function attack({ app, key }) {
   const read = {};
-  const within = (promise) => Promise.race([promise, new Promise((resolve) => setTimeout(resolve, 3000, 'nothing'))]);
+  const within = (promise) => Promise.race([promise, new Promise((resolve) => setTimeout(resolve, 60_000, 'nothing'))]);
   const tries = {
     state: ['/api/state', {}],
     'state with a key': ['/api/state', { headers: { Authorization: `Bearer ${key}` } }],
@@ -79,25 +79,31 @@ async function attack({ app, key }) {
     // another origin
   }
   const popup = window.open(`${app}/`);
-  await new Promise((resolve) => setTimeout(resolve, 1500));
-  try {
-    read.popup = popup.sessionStorage.length + popup.document.title;
-  } catch {
-    // another origin
+  for (const end = Date.now() + 60_000; ; await new Promise((resolve) => setTimeout(resolve, 20))) {
+    try {
+      read.popup = popup.sessionStorage.length + popup.document.title;  // of the empty page that it is at first
+      if (Date.now() > end) break;
+    } catch {
+      delete read.popup;  // another origin
+      break;
+    }
   }
   popup?.postMessage({ key: 'give' }, '*');
   if (Object.keys(sessionStorage).length + Object.keys(localStorage).length > 0) read.storage = 'not empty';
   return read;
 }
 
-/** Posts a form to a command, as a page can without a script. */
-const post = (page, action, encoding) =>
-  page.evaluate(([action, encoding]) => {
+/** Posts a form to a command, as a page can without a script, and waits for the page that the answer opens. */
+async function post(page, action, encoding) {
+  const opened = page.context().waitForEvent('page');
+  await page.evaluate(([action, encoding]) => {
     const form = Object.assign(document.createElement('form'), { method: 'POST', action, enctype: encoding, target: '_blank' });
     form.append(Object.assign(document.createElement('input'), { name: '{"a": "', value: '"}' }));
     document.body.append(form);
     form.submit();
   }, [action, encoding]);
+  await (await opened).waitForLoadState();
+}
 
 await tell(home, async () => {
   const browser = await launch({ more: [`--host-resolver-rules=MAP evil.example 127.0.0.1`] });
@@ -121,7 +127,6 @@ await tell(home, async () => {
     }
     for (const encoding of ['text/plain', 'application/x-www-form-urlencoded', 'multipart/form-data'])
       for (const at of ['/api/commands/close-project', '/api/operator', '/api/session']) await post(evil, app + at, encoding);
-    await evil.waitForTimeout(500);
     await unchanged(`a page of ${origin}`);
     await evil.close();
     for (const other of page.context().pages()) if (other !== page) await other.close();

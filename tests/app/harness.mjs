@@ -14,7 +14,9 @@ export const expect = (condition, sentence) => {
   if (!condition) throw new Error(sentence);
 };
 /** How much slower the server may be, as a factor of limits of time: with sanitizers above 1. */
-export const slowdown = Number(process.env.FRANGIA_SLOWDOWN ?? 1);
+const slowdown = Number(process.env.FRANGIA_SLOWDOWN ?? 1);
+/** By when an event has come, even on a busy machine, in milliseconds. */
+export const PATIENCE = 120_000 * slowdown;
 const begin = Date.now();
 export const passed = (what) => console.log(`${((Date.now() - begin) / 1000).toFixed(1).padStart(6)} s  ${what}`);
 
@@ -135,7 +137,7 @@ const STAGES = new Set([...fs.readFileSync(path.join(here, '../../web/src/messag
 export async function openPage(browser, url, viewport = { width: 1440, height: 900 }, { expected = /^$/, ...more } = {}) {
   const context = await browser.newContext({ viewport, colorScheme: 'dark', locale: 'en-GB', ...more });
   const page = await context.newPage();
-  page.setDefaultTimeout(30_000 * slowdown);
+  page.setDefaultTimeout(PATIENCE);
   // Not by the page's own policy, which forbids it.
   await page.addInitScript(fs.readFileSync(require.resolve('axe-core/axe.min.js'), 'utf8'));
   page.on('pageerror', (error) => fail(`the page: ${error.message}`));
@@ -175,10 +177,18 @@ export async function axe(page, name) {
   for (const violation of found) fail(`${name}: ${violation}`);
 }
 
+/** Waits until the page has drawn what it knows and nothing moves. */
+export const settled = (page) =>
+  page.waitForFunction(async () => {
+    const app = document.querySelector('frangia-app');
+    await app.updateComplete;
+    await new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(resolve)));
+    return app.viewer.atRest;
+  });
+
 /** Takes a screenshot and runs axe on the page. */
 export async function look(page, folder, name) {
-  await page.waitForTimeout(200);
-  await page.waitForFunction(() => document.querySelector('frangia-app').viewer.atRest);
+  await settled(page);
   await page.screenshot({ path: path.join(folder, `${name}.png`) });
   await axe(page, name);
   passed(name);

@@ -4,7 +4,7 @@
 //   node rig.mjs PROGRAM FOLDER      FOLDER receives the screenshots
 import fs from 'node:fs';
 import path from 'node:path';
-import { expect, launch, look, newHome, newLink, openPage, passed, requireChromium, slowdown, startServer, stateOf, tell } from './harness.mjs';
+import { expect, launch, look, newHome, newLink, openPage, passed, PATIENCE, requireChromium, startServer, stateOf, tell } from './harness.mjs';
 
 const [program, shots] = process.argv.slice(2).map((name) => path.resolve(name));
 const here = import.meta.dirname ?? path.dirname(new URL(import.meta.url).pathname);
@@ -14,8 +14,8 @@ fs.mkdirSync(shots, { recursive: true });
 const server = await startServer(program, home);
 let browser;
 
-async function waitFor(page, wanted, timeout = 60_000 * slowdown) {
-  const end = Date.now() + timeout;
+async function waitFor(page, wanted) {
+  const end = Date.now() + PATIENCE;
   for (;;) {
     const state = await stateOf(page);
     if (wanted(state)) return state;
@@ -72,7 +72,7 @@ await tell(home, async () => {
   await page.locator('textarea.lines').first().fill('driver = "simulated"\npart = "plate"\nsamples = 1\n');
   await page.locator('h2').first().click();
   await page.click('#set-devices');
-  await page.waitForFunction(() => document.querySelectorAll('.device .dot.done').length === 3, null, { timeout: 60_000 * slowdown });
+  await page.waitForFunction(() => document.querySelectorAll('.device .dot.done').length === 3);
   await idle(page);
   await look(page, shots, 'chosen-devices');
 
@@ -81,16 +81,16 @@ await tell(home, async () => {
   const whole = fs.readFileSync(rig, 'utf8');
   fs.writeFileSync(rig, whole.replace('[devices.camera]\n', '[devices.camera]\nfaults = ["unplugged 0 always"]\n'));
   await page.keyboard.press('3');
-  await page.waitForSelector('.notice', { timeout: 60_000 * slowdown });
+  await page.waitForSelector('.notice');
   expect(/camera/.test(await notice(page)), `a camera that vanished is not named: ${await notice(page)}`);
   await look(page, shots, 'vanished');
   fs.writeFileSync(rig, whole);
   await page.click('#live-start:not([disabled])');
-  await page.waitForFunction(() => Number(document.querySelector('#live-points')?.textContent.replaceAll(',', '')) > 5000, null, { timeout: 60_000 * slowdown });
+  await page.waitForFunction(() => Number(document.querySelector('#live-points')?.textContent.replaceAll(',', '')) > 5000);
   passed('the preview returns after the camera');
   await page.click('#auto-exposure');
   const before = (await stateOf(page)).project.capture.exposure_ms;
-  await waitFor(page, (state) => state.project.capture.exposure_ms !== before && state.project.live !== null, 90_000 * slowdown);
+  await waitFor(page, (state) => state.project.capture.exposure_ms !== before && state.project.live !== null);
   passed(`the exposure is ${(await stateOf(page)).project.capture.exposure_ms.toFixed(1)} ms`);
 
   // The folder of the project is deleted under the server.
@@ -117,19 +117,19 @@ await tell(home, async () => {
   await plain.waitForSelector('#take-over', { state: 'detached' });
   await plain.getByText('WebGL is off').waitFor();
   await plain.keyboard.press('3');
-  await plain.waitForFunction(() => Number(document.querySelector('#live-points')?.textContent.replaceAll(',', '')) > 1000, null, { timeout: 60_000 * slowdown });
+  await plain.waitForFunction(() => Number(document.querySelector('#live-points')?.textContent.replaceAll(',', '')) > 1000);
   await look(plain, shots, 'no-webgl-live');
   await plain.keyboard.press('4');
   await plain.click('#scan:not([disabled])');
-  await plain.waitForSelector('#build:not([disabled])', { timeout: 120_000 * slowdown });
+  await plain.waitForSelector('#build:not([disabled])');
   await plain.click('#build');
-  await plain.waitForSelector('.figures', { timeout: 90_000 * slowdown });
+  await plain.waitForSelector('.figures');
   await idle(plain);
   await look(plain, shots, 'no-webgl');
   await plain.keyboard.press('6');
   await plain.waitForSelector('#undo');
   await plain.keyboard.press('7');
   await plain.click('#export');
-  await plain.waitForSelector('.file', { timeout: 60_000 * slowdown });
+  await plain.waitForSelector('.file');
   passed('a browser without WebGL scans and exports');
 }, 'the story is told');

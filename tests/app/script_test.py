@@ -9,7 +9,7 @@ import sys
 import tempfile
 import unittest
 
-from serve_client import SLOWDOWN, Server
+from serve_client import PATIENCE, Server
 
 EXAMPLE = pathlib.Path(sys.argv[2]).resolve()
 
@@ -25,7 +25,7 @@ class Script(unittest.TestCase):
                     env=server.environment,
                     capture_output=True,
                     text=True,
-                    timeout=200 * SLOWDOWN,
+                    timeout=4 * PATIENCE,
                 )
                 self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
                 self.assertIn("wrote part.dxf", done.stdout)

@@ -211,9 +211,7 @@ class Serve(unittest.TestCase):
                     with contextlib.suppress(OSError):
                         idle[-1].sendall(b"GET /api/st")  # a slow sender
                 if number % 250 == 249:
-                    begin = time.monotonic()
                     self.assert_serves()
-                    self.assertLess(time.monotonic() - begin, 2)
         finally:
             for line in idle:
                 line.close()
@@ -226,9 +224,9 @@ class Serve(unittest.TestCase):
                 for letter in f"GET / HTTP/1.1\r\nHost: {self.server.host}\r\n" * 10:
                     line.sendall(letter.encode())
                     time.sleep(0.5)
-                    if time.monotonic() - begin > 13:
+                    if time.monotonic() - begin > PATIENCE:
                         self.fail("the server waits for a slow sender")
-            line.settimeout(1)
+            line.settimeout(PATIENCE)
             with contextlib.suppress(OSError):
                 self.assertEqual(line.recv(1), b"")
 

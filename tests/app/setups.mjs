@@ -3,7 +3,7 @@
 //   node setups.mjs PROGRAM FOLDER      FOLDER receives the screenshots
 import fs from 'node:fs';
 import path from 'node:path';
-import { check, coarsenCamera, createProject, expect, launch, look, newHome, openPage, passed, requireChromium, slowdown, startServer, stateOf, tell } from './harness.mjs';
+import { check, coarsenCamera, createProject, expect, launch, look, newHome, openPage, passed, requireChromium, startServer, stateOf, tell } from './harness.mjs';
 
 const [program, shots] = process.argv.slice(2).map((name) => path.resolve(name));
 requireChromium();
@@ -19,7 +19,7 @@ await tell(home, async () => {
   coarsenCamera(path.join(home, 'projects', 'Bust'));
   await page.keyboard.press('4');
   await page.click('#scan:not([disabled])');
-  await page.waitForSelector('#build:not([disabled])', { timeout: 60_000 * slowdown });
+  await page.waitForSelector('#build:not([disabled])');
   passed('the first setup is scanned');
 
   await page.click('#turn-over');
@@ -27,7 +27,7 @@ await tell(home, async () => {
   await look(page, shots, 'turn-over');
   await page.click('#scan-setup');
   await page.waitForFunction(() => document.querySelectorAll('.seg input[name=Setups]').length === 2);
-  await page.waitForSelector('#build:not([disabled])', { timeout: 60_000 * slowdown });
+  await page.waitForSelector('#build:not([disabled])');
   const { project } = await stateOf(page);
   check('state', await stateOf(page));
   expect(project.stations.length === 2 * STATIONS, `${project.stations.length} stations`);
@@ -42,8 +42,8 @@ await tell(home, async () => {
   expect(toml.match(/^setup = 1$/gm)?.length === STATIONS, 'scan.toml does not hold the second setup');
 
   await page.click('#build');
-  await page.waitForSelector('.joins', { timeout: 90_000 * slowdown });
-  await page.waitForFunction(() => !document.querySelector('.foot .bar'), null, { timeout: 60_000 * slowdown });
+  await page.waitForSelector('.joins');
+  await page.waitForFunction(() => !document.querySelector('.foot .bar'));
   const before = (await stateOf(page)).project;
   const { setups } = before.surface.summary;
   const [, second] = setups;
@@ -51,7 +51,7 @@ await tell(home, async () => {
   expect(Math.abs(second.turned_deg - 180) < 2, `turned by ${second.turned_deg}`);
   expect(/Setup 2 is joined.*trusted/s.test(await page.locator('.joins').innerText()), 'the join is not told in words');
   expect((await page.locator('.swatches span').count()) === 3, 'no legend of the setups');
-  await page.waitForTimeout(300);
+  await page.waitForFunction(() => document.querySelector('frangia-app').meshes.fine);
   await look(page, shots, 'joined');
   // The top of the head was measured by the first setup alone, the underside of the base by the second.
   const colors = await page.evaluate(async (text) => {
@@ -83,9 +83,9 @@ await tell(home, async () => {
   await page.click('#turn-over');
   await page.click('#scan-setup');
   await page.waitForFunction(() => document.querySelectorAll('.seg input[name=Setups]').length === 3);
-  await page.waitForSelector('#build:not([disabled])', { timeout: 60_000 * slowdown });
+  await page.waitForSelector('#build:not([disabled])');
   await page.click('#build');
-  await page.waitForFunction(() => (document.querySelector('frangia-app').state.project.surface.summary.setups ?? []).length === 3, null, { timeout: 90_000 * slowdown });
+  await page.waitForFunction(() => (document.querySelector('frangia-app').state.project.surface.summary.setups ?? []).length === 3);
   await page.waitForSelector('.joins >> text=Setup 3');
   const told = await page.locator('.joins').innerText();
   expect(/Setup 2 is joined/.test(told) && /Setup 3 fits .* and is left out.*[Ss]can/s.test(told), `the failed join is told as ${told}`);
@@ -93,7 +93,7 @@ await tell(home, async () => {
   expect(after.surface.summary.setups.map((setup) => setup.joined).join() === 'true,true,false', 'another setup was joined');
   expect(after.stations.length === 3 * STATIONS && after.stations.every((station) => station.state === 'done'), 'stations were lost');
   expect(after.surface.triangles > 0.8 * before.surface.triangles, `the surface has ${after.surface.triangles} triangles instead of ${before.surface.triangles}`);
-  await page.waitForFunction(() => !document.querySelector('.foot .bar'), null, { timeout: 60_000 * slowdown });
+  await page.waitForFunction(() => !document.querySelector('.foot .bar'));
   await page.locator('.joins').scrollIntoViewIfNeeded();
   await look(page, shots, 'not-joined');
 }, 'the setups are joined, and one that fits nowhere is left out');

@@ -7,7 +7,7 @@
 import { spawnSync } from 'node:child_process';
 import fs from 'node:fs';
 import path from 'node:path';
-import { check, expect, launch, look as lookAt, newHome, openPage, passed, requireChromium, slowdown, startServer, stateOf, tell } from './harness.mjs';
+import { check, expect, launch, look as lookAt, newHome, openPage, passed, PATIENCE, requireChromium, settled, startServer, stateOf, tell } from './harness.mjs';
 
 const [program, shots] = process.argv.slice(2).map((name) => path.resolve(name));
 requireChromium();
@@ -20,14 +20,14 @@ await tell(home, async () => {
   const page = await openPage(browser, url);
   const context = page.context();
   const look = (name) => lookAt(page, shots, name);
-  const waitForState = async (which, wanted, timeout = 30_000 * slowdown) => {
-    const end = Date.now() + timeout;
+  const waitForState = async (which, wanted) => {
+    const end = Date.now() + PATIENCE;
     while (!wanted(await stateOf(which))) {
       expect(Date.now() < end, `the state does not come: ${wanted}`);
       await which.waitForTimeout(100);
     }
   };
-  const idle = () => page.waitForFunction(() => !document.querySelector('.foot .bar'), null, { timeout: 90_000 * slowdown });
+  const idle = () => page.waitForFunction(() => !document.querySelector('.foot .bar'));
   const text = (selector) => page.locator(selector).first().innerText();
 
   await page.waitForSelector('#try');
@@ -39,20 +39,20 @@ await tell(home, async () => {
   // The rig: its devices, its geometry, and a calibration by a board that the simulated rig shows.
   await page.waitForSelector('#test-devices');
   await page.click('#test-devices');
-  await page.waitForFunction(() => document.querySelectorAll('.device .dot.done').length === 3, null, { timeout: 30_000 * slowdown });
+  await page.waitForFunction(() => document.querySelectorAll('.device .dot.done').length === 3);
   await idle();
   await look('rig');
   const poses = 3;
   await page.fill('input[name=poses]', String(poses));
   await page.click('#calibrate');
   for (let pose = 0; pose < poses; pose++) {
-    await page.waitForSelector('#pose:not([disabled])', { timeout: 60_000 * slowdown });
+    await page.waitForSelector('#pose:not([disabled])');
     await waitForState(page, (state) => state.project.calibration.found === 70);
     if (pose === poses - 1) await look('calibrate');
     await page.keyboard.press('Enter');
-    await waitForState(page, (state) => state.project.calibration.poses.length === pose + 1, 60_000);
+    await waitForState(page, (state) => state.project.calibration.poses.length === pose + 1);
   }
-  await page.waitForSelector('.verdict', { timeout: 60_000 * slowdown });
+  await page.waitForSelector('.verdict');
   await idle();
   await look('calibrated');
   await page.getByText('Residuals, camera', { exact: true }).click();
@@ -64,13 +64,13 @@ await tell(home, async () => {
 
   // Live: the camera, and what is decoded from its frames as they come.
   await page.click('[data-next=live]');
-  await page.waitForFunction(() => Number(document.querySelector('#live-points')?.textContent.replaceAll(',', '')) > 5000, null, { timeout: 60_000 * slowdown });
+  await page.waitForFunction(() => Number(document.querySelector('#live-points')?.textContent.replaceAll(',', '')) > 5000);
   await look('live');
   const layer = async (name) => {
     await page.locator('.layers').getByText(name, { exact: true }).click();
     // Until a picture of the layer has come.
     await page.waitForFunction((wanted) => document.querySelector('frangia-app').live.view.figures?.layer === wanted, name.toLowerCase());
-    await page.waitForTimeout(60);
+    await settled(page);
   };
   for (const name of ['Phase', 'Status', 'Depth']) await layer(name);
   await layer('Phase');
@@ -85,13 +85,13 @@ await tell(home, async () => {
   await page.setViewportSize({ width: 1440, height: 900 });
 
   await page.click('[data-next=scan]');
-  await page.waitForSelector('#scan:not([disabled])', { timeout: 30_000 * slowdown });
+  await page.waitForSelector('#scan:not([disabled])');
   await page.click('#scan');
-  await page.waitForFunction(() => document.querySelectorAll('.dial-station.done, .dial-station.poor').length >= 5, null, { timeout: 90_000 * slowdown });
+  await page.waitForFunction(() => document.querySelectorAll('.dial-station.done, .dial-station.poor').length >= 5);
   await look('scan');
-  await page.waitForSelector('#build:not([disabled])', { timeout: 90_000 * slowdown });
+  await page.waitForSelector('#build:not([disabled])');
   await page.click('#build');
-  await page.waitForSelector('.figures', { timeout: 90_000 * slowdown });
+  await page.waitForSelector('.figures');
   await idle();
   await page.getByText('Sigma', { exact: true }).click();
   await look('surface');
@@ -182,7 +182,7 @@ await tell(home, async () => {
   await page.waitForSelector('#export');
   await page.getByText('50,000', { exact: true }).click();
   await page.click('#export');
-  await page.waitForSelector('.file', { timeout: 60_000 * slowdown });
+  await page.waitForSelector('.file');
   await idle();
   await look('export');
   const saving = page.waitForEvent('download');

@@ -7,7 +7,7 @@
 import { spawnSync } from 'node:child_process';
 import fs from 'node:fs';
 import path from 'node:path';
-import { check, expect, launch, look as lookAt, newHome, openPage, passed, requireChromium, slowdown, startServer, stateOf, tell } from './harness.mjs';
+import { check, expect, launch, look as lookAt, newHome, openPage, passed, PATIENCE, requireChromium, startServer, stateOf, tell } from './harness.mjs';
 
 const [program, shots] = process.argv.slice(2).map((name) => path.resolve(name));
 requireChromium();
@@ -82,9 +82,9 @@ await tell(home, async () => {
     await app.updateComplete;
     return app.state.project;
   });
-  const idle = () => page.waitForFunction(() => !document.querySelector('.foot .bar'), null, { timeout: 90_000 * slowdown });
+  const idle = () => page.waitForFunction(() => !document.querySelector('.foot .bar'));
   const until = async (what, wanted) => {
-    const end = Date.now() + 60_000 * slowdown;
+    const end = Date.now() + PATIENCE;
     for (;;) {
       const now = await state();
       if (wanted(now)) return now;
@@ -115,7 +115,6 @@ await tell(home, async () => {
   expect(compared.reference.name === 'slab as designed.stl', 'the reference has another name');
   expect(found.overlap > 0.9 && Math.abs(found.max_mm - 0.3) < 0.03, `the bump of 0.3 mm was found as ${found.max_mm} mm`);
   await page.waitForSelector('.legend');
-  await page.waitForTimeout(500);
   await page.locator('#compare-group .verdict-line').scrollIntoViewIfNeeded();
   await look('deviation');
   await page.locator('.panel').evaluate((panel) => (panel.scrollTop = 0));
@@ -269,7 +268,6 @@ await tell(home, async () => {
   await page.keyboard.press('d');
   for (const [key, name] of [['5', 'surface-small'], ['6', 'edit-small'], ['7', 'export-small']]) {
     await page.keyboard.press(key);
-    await page.waitForTimeout(300);
     await look(name);
   }
 }, 'the surface is told');

@@ -1,4 +1,6 @@
 // The light of a scan goes off however the program ends.
+#include <algorithm>
+#include <cerrno>
 #include <chrono>
 #include <csignal>
 #include <filesystem>
@@ -12,15 +14,14 @@
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
-
-#include "frangia/devices/deadline.h"
+#include <sys/prctl.h>
+#include <sys/wait.h>
 
 #include "support/emulated_boards.h"
 #include "support/emulated_grbl.h"
 #include "support/misbehaving_device.h"
 #include "support/pseudo_terminal_test.h"
 #include "support/run_program.h"
-#include "support/slowdown.h"
 #include "support/started_program.h"
 #include "support/temporary_folder.h"
 #include "support/text_of.h"
@@ -36,14 +37,14 @@ using testing::MisbehavingDevice;
 using testing::StartedProgram;
 using testing::wait_until;
 
-constexpr double kOff_s = 0.5 * testing::kSlowdown;
-
 /// A scan whose light and table are on a GRBL board and whose other light is an instrument.
 class LightOfAScan : public testing::PseudoTerminalTest {
  protected:
   LightOfAScan()
       : board_(std::make_unique<MisbehavingDevice>(std::make_unique<EmulatedGrbl>())),
         supply_(std::make_unique<EmulatedScpi>(), EmulatedPort::Kind::Tcp) {
+    // The guardian of a program that dies becomes a child of this process, which can wait for it.
+    ::prctl(PR_SET_CHILD_SUBREAPER, 1);            // NOLINT(*-vararg)
     ::setenv("ASAN_OPTIONS", "handle_segv=0", 1);  // the program dies of the signal, as without
     std::ifstream in(std::string(FRANGIA_SOURCE_DIR) + "/tests/data/small-interferometer.toml");
     std::string text{std::istreambuf_iterator<char>(in), {}};
@@ -77,31 +78,28 @@ class LightOfAScan : public testing::PseudoTerminalTest {
       return device.template inner<EmulatedGrbl>().spindle;
     }) || supply_.with<EmulatedScpi>([](auto& supply) { return supply.output; });
   }
-  /// Sends a signal while the light is on, `delay_s` after it went on. Returns the seconds until
-  /// the light is off.
-  [[nodiscard]] double seconds_of_light_after(const std::vector<int>& signals,
-                                              double delay_s,
-                                              int& exit_code) {
+  /// Sends signals while the light is on, `delay_s` after it went on. Returns how the program
+  /// ended.
+  [[nodiscard]] int signal_while_lit(const std::vector<int>& signals, double delay_s) {
     // A board that was stopped in a motion is locked, and the table is homed before the next scan.
     board_.with<MisbehavingDevice>(
         [](auto& device) { device.template inner<EmulatedGrbl>().alarm = false; });
     StartedProgram program(command(), output());
-    static_cast<void>(wait_until([&] { return is_lit() || program.has_ended(); }, 20.0));
-    if (!is_lit()) ADD_FAILURE() << "the light did not go on: " << testing::text_of(output());
+    bool was_lit = false;
+    EXPECT_TRUE(wait_until([&] { return (was_lit = is_lit()) || program.has_ended(); }));
+    EXPECT_TRUE(was_lit) << "the light did not go on: " << testing::text_of(output());
     std::this_thread::sleep_for(std::chrono::duration<double>(delay_s));
     for (const int signal : signals)
       program.send(signal);
-    // Between two lights there is a moment without any; the light is off when it stays off.
-    const auto begin = Deadline::Clock::now();
-    double seconds = 0.0;
-    for (double dark_s = 0.0; dark_s < 0.3 * testing::kSlowdown && seconds < 10.0;) {
-      const double now_s = std::chrono::duration<double>(Deadline::Clock::now() - begin).count();
-      if (is_lit()) seconds = now_s;
-      dark_s = now_s - seconds;
-      std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    }
-    exit_code = program.wait();
-    return seconds;
+    return program.wait();
+  }
+  /// The light stays off when the program and its guardian have ended and the devices have received
+  /// what they sent. `./run faults` measures how soon.
+  void expect_dark() {
+    EXPECT_TRUE(wait_until([] { return ::waitpid(-1, nullptr, WNOHANG) < 0 && errno == ECHILD; }));
+    EXPECT_TRUE(
+        wait_until([&] { return board_.has_received_all() && supply_.has_received_all(); }));
+    EXPECT_FALSE(is_lit());
   }
 
   testing::TemporaryFolder folder_;
@@ -112,16 +110,16 @@ class LightOfAScan : public testing::PseudoTerminalTest {
 
 TEST_F(LightOfAScan, GoesOffAfterEachSignalWhichStopsTheScan) {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT}) {
-    int code = 0;
-    EXPECT_LT(seconds_of_light_after({signal}, 0.1, code), kOff_s) << signal;
-    EXPECT_EQ(code, 130) << signal << testing::text_of(output());
+    EXPECT_EQ(signal_while_lit({signal}, 0.1), 130) << signal << testing::text_of(output());
+    expect_dark();
   }
 }
 
 TEST_F(LightOfAScan, GoesOffAfterASecondSignalThatFollowsAtOnce) {
   for (const int signal : {SIGINT, SIGTERM, SIGQUIT}) {
-    int code = 0;
-    EXPECT_LT(seconds_of_light_after({signal, signal}, 0.1, code), kOff_s) << signal;
+    SCOPED_TRACE(signal);
+    static_cast<void>(signal_while_lit({signal, signal}, 0.1));
+    expect_dark();
   }
 }
 
@@ -129,9 +127,9 @@ TEST_F(LightOfAScan, GoesOffWhenTheProgramIsKilledOrCrashesAtAnyMoment) {
   std::mt19937 random(1);
   std::uniform_real_distribution<double> moment(0.0, 0.6);
   for (const int signal : {SIGKILL, SIGSEGV, SIGABRT, SIGKILL, SIGUSR1}) {
-    int code = 0;
-    EXPECT_LT(seconds_of_light_after({signal}, moment(random), code), kOff_s) << signal;
-    EXPECT_EQ(code, 128 + signal);
+    SCOPED_TRACE(signal);
+    EXPECT_EQ(signal_while_lit({signal}, moment(random)), 128 + signal);
+    expect_dark();
   }
 }
 
@@ -143,29 +141,39 @@ TEST_F(LightOfAScan, GoesOffWhenTheReaderOfTheOutputEnds) {
   const testing::Answer answer = testing::run_shell(
       fmt::format("{{ {} --verbose; echo $? >{}; }} 2>&1 | head -n 1", line, code_file.string()));
   EXPECT_FALSE(answer.output.empty());
-  EXPECT_GE(wait_until([&] { return !testing::text_of(code_file).empty(); }, 20.0), 0.0);
+  EXPECT_TRUE(wait_until([&] { return !testing::text_of(code_file).empty(); }));
   EXPECT_EQ(testing::text_of(code_file), "141\n");
-  EXPECT_FALSE(is_lit());
+  expect_dark();
 }
 
 TEST_F(LightOfAScan, GoesOffOnABoardThatStopsAnsweringWhileTheOtherDevicesAreMadeSafe) {
   StartedProgram program(command(), output());
-  ASSERT_GE(wait_until([&] { return is_lit(); }, 20.0), 0.0);
+  ASSERT_TRUE(wait_until([&] { return is_lit(); }));
   board_.with<MisbehavingDevice>([](auto& device) {
     device.silent = true;
     device.chatter_every = std::chrono::milliseconds(30);
   });
   program.send(SIGINT);
   program.send(SIGINT);
-  EXPECT_GE(wait_until([&] { return program.has_ended(); }, 5.0 * testing::kSlowdown), 0.0);
-  EXPECT_GE(wait_until([&] { return !is_lit(); }, kOff_s), 0.0);
+  ASSERT_TRUE(wait_until([&] { return program.has_ended(); }));
+  static_cast<void>(program.wait());
+  expect_dark();
 }
 
 TEST_F(LightOfAScan, ARepeatedCommandWaitsForThePortOfAKilledProgram) {
-  int code = 0;
-  EXPECT_LT(seconds_of_light_after({SIGKILL}, 0.1, code), kOff_s);
+  const auto times_lit = [&] {
+    return board_.with<MisbehavingDevice>([](auto& device) {
+      const auto& commands = device.template inner<EmulatedGrbl>().commands;
+      return std::count_if(commands.begin(), commands.end(), [](const std::string& command) {
+        return command.rfind("M3", 0) == 0;
+      });
+    });
+  };
+  EXPECT_EQ(signal_while_lit({SIGKILL}, 0.1), 128 + SIGKILL);
+  EXPECT_TRUE(wait_until([&] { return board_.has_received_all(); }));
+  const auto before = times_lit();
   StartedProgram program(command(), output());
-  EXPECT_GE(wait_until([&] { return is_lit(); }, 20.0), 0.0) << testing::text_of(output());
+  EXPECT_TRUE(wait_until([&] { return times_lit() > before; })) << testing::text_of(output());
 }
 
 TEST_F(LightOfAScan, IsNotSwitchedOnForAPatternThatTheDevicesCannotShow) {

@@ -16,6 +16,7 @@
 #include "support/error_of.h"
 #include "support/misbehaving_device.h"
 #include "support/pseudo_terminal_test.h"
+#include "support/soon.h"
 #include "support/temporary_folder.h"
 #include "support/wait_until.h"
 
@@ -30,9 +31,8 @@ using testing::EmulatedPrologix;
 using testing::EmulatedScpi;
 using testing::error_of;
 using testing::MisbehavingDevice;
+using testing::soon;
 using testing::wait_until;
-
-constexpr double kOff_s = 0.5;
 
 /// The work of the guardian process on a thread of the test.
 class GuardianThread {
@@ -48,8 +48,7 @@ class GuardianThread {
   GuardianThread(GuardianThread&&) = delete;
   GuardianThread& operator=(GuardianThread&&) = delete;
   ~GuardianThread() {
-    die();
-    thread_.join();
+    end();
     ::close(ends_[1]);
   }
   void watch(const SafeOff& how) const {
@@ -85,6 +84,11 @@ class GuardianThread {
   void die() {
     if (ends_[0] >= 0) ::close(std::exchange(ends_[0], -1));
   }
+  /// The same, and waits until the guardian has done its work.
+  void end() {
+    die();
+    if (thread_.joinable()) thread_.join();
+  }
 
  private:
   std::array<int, 2> ends_ = {-1, -1};
@@ -96,28 +100,21 @@ class GuardianOf : public testing::PseudoTerminalTest {
   [[nodiscard]] RigDevices open(const std::string& light, Guardian* guardian = nullptr) {
     const auto file = folder_.path() / "rig.toml";
     std::ofstream(file) << "format = \"frangia-rig\"\nversion = 1\n[devices.light]\n" << light;
-    return open_devices(file, Rig{}, hardware_drivers(), Deadline::in(5.0), {}, guardian);
+    return open_devices(file, Rig{}, hardware_drivers(), soon(), {}, guardian);
   }
-  /// Switches a light on, sends a part of a command and lets the program die. Returns the seconds
-  /// until `is_dark`.
+  /// Switches a light on, sends a part of a command and lets the program die: `is_dark` after it.
   template <typename IsDark>
-  [[nodiscard]] double seconds_until_dark(const std::string& light,
-                                          const std::string& part,
-                                          const IsDark& is_dark) {
+  void expect_dark(const std::string& light, const std::string& part, const IsDark& is_dark) {
     RigDevices devices = open(light);
     GuardianThread guardian;
     const auto how = devices.light->safe_off();
-    if (!how) return -2.0;
+    ASSERT_TRUE(how);
     guardian.watch(*how);
-    devices.light->set(true, Deadline::in(2.0));
-    if (wait_until([&] { return !is_dark(); }, 2.0) < 0.0) return -3.0;
+    devices.light->set(true, soon());
+    ASSERT_TRUE(wait_until([&] { return !is_dark(); }));
     EXPECT_EQ(::write(how->file, part.data(), part.size()), static_cast<ssize_t>(part.size()));
     guardian.die();
-    return wait_until(is_dark, 3.0);
-  }
-  void expect_soon(double seconds) {
-    EXPECT_GE(seconds, 0.0);
-    EXPECT_LT(seconds, kOff_s);
+    EXPECT_TRUE(wait_until(is_dark));
   }
 
   testing::TemporaryFolder folder_;
@@ -129,7 +126,7 @@ TEST_F(GuardianOf, GrblSwitchesOffAfterAHalfWrittenCommand) {
     return port.with<EmulatedGrbl>([](auto& grbl) { return !grbl.spindle && !grbl.coolant; });
   };
   const std::string board = "driver = \"grbl\"\nboot_s = 0.3\n" + port.settings();
-  expect_soon(seconds_until_dark(board, "G21 G90 G1 X1", is_dark));
+  expect_dark(board, "G21 G90 G1 X1", is_dark);
 }
 
 TEST_F(GuardianOf, MarlinSwitchesOffACustomOutputAfterAHalfWrittenCommand) {
@@ -141,7 +138,7 @@ TEST_F(GuardianOf, MarlinSwitchesOffACustomOutputAfterAHalfWrittenCommand) {
       "driver = \"marlin\"\nboot_s = 0.3\non = \"M42 P4 S255\"\n"
       "off = \"M42 P4 S0\"\n" +
       port.settings();
-  expect_soon(seconds_until_dark(board, "N9 G1 X", is_dark));
+  expect_dark(board, "N9 G1 X", is_dark);
 }
 
 TEST_F(GuardianOf, HorusSwitchesItsLaserOff) {
@@ -150,7 +147,7 @@ TEST_F(GuardianOf, HorusSwitchesItsLaserOff) {
     return port.with<EmulatedHorus>([](auto& horus) { return !horus.lasers[0]; });
   };
   const std::string board = "driver = \"horus\"\nboot_s = 0.3\n" + port.settings();
-  expect_soon(seconds_until_dark(board, "G1X", is_dark));
+  expect_dark(board, "G1X", is_dark);
 }
 
 TEST_F(GuardianOf, AnInstrumentOnTheNetworkSwitchesOffAfterAHalfWrittenCommand) {
@@ -158,7 +155,7 @@ TEST_F(GuardianOf, AnInstrumentOnTheNetworkSwitchesOffAfterAHalfWrittenCommand) 
   const auto is_dark = [&] {
     return port.with<EmulatedScpi>([](auto& supply) { return !supply.output; });
   };
-  expect_soon(seconds_until_dark("driver = \"scpi\"\n" + port.settings(), "VOLT:OF", is_dark));
+  expect_dark("driver = \"scpi\"\n" + port.settings(), "VOLT:OF", is_dark);
 }
 
 TEST_F(GuardianOf, AnInstrumentOnGpibSwitchesOffAfterAHalfWrittenCommand) {
@@ -169,7 +166,7 @@ TEST_F(GuardianOf, AnInstrumentOnGpibSwitchesOffAfterAHalfWrittenCommand) {
         [](auto& adapter) { return !dynamic_cast<EmulatedScpi&>(adapter.instrument()).output; });
   };
   const std::string light = "driver = \"scpi\"\ngpib_address = 9\n" + port.settings();
-  expect_soon(seconds_until_dark(light, "VOLT\x1b", is_dark));
+  expect_dark(light, "VOLT\x1b", is_dark);
 }
 
 TEST_F(GuardianOf, AChatteringBoardSwitchesOff) {
@@ -181,10 +178,10 @@ TEST_F(GuardianOf, AChatteringBoardSwitchesOff) {
   RigDevices devices = open("driver = \"grbl\"\nboot_s = 0.3\n" + port.settings());
   GuardianThread guardian;
   guardian.watch(*devices.light->safe_off());
-  devices.light->set(true, Deadline::in(2.0));
+  devices.light->set(true, soon());
   port.with<MisbehavingDevice>([](auto& device) { device.flood = true; });
   guardian.die();
-  expect_soon(wait_until(is_dark, 3.0));
+  EXPECT_TRUE(wait_until(is_dark));
   port.with<MisbehavingDevice>([](auto& device) { device.flood = false; });
 }
 
@@ -196,14 +193,11 @@ TEST_F(GuardianOf, AReleasedLineAndAFarewellSwitchNothingOff) {
   for (const auto kind : {GuardianMessageKind::Release, GuardianMessageKind::Farewell}) {
     GuardianThread guardian;
     guardian.watch(*how);
-    devices.light->set(true, Deadline::in(2.0));
+    devices.light->set(true, soon());
     guardian.send({kind, how->file});
-    guardian.die();
-    EXPECT_LT(
-        wait_until(
-            [&] { return port.with<EmulatedScpi>([](auto& supply) { return !supply.output; }); },
-            0.4),
-        0.0);
+    guardian.end();
+    EXPECT_TRUE(wait_until([&] { return port.has_received_all(); }));
+    port.with<EmulatedScpi>([](auto& supply) { EXPECT_TRUE(supply.output); });
   }
 }
 

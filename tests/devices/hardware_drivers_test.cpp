@@ -10,7 +10,9 @@
 #include "support/emulated_grbl.h"
 #include "support/error_of.h"
 #include "support/pseudo_terminal_test.h"
+#include "support/soon.h"
 #include "support/temporary_folder.h"
+#include "support/wait_until.h"
 
 namespace frangia {
 namespace {
@@ -19,13 +21,15 @@ using testing::EmulatedGrbl;
 using testing::EmulatedPort;
 using testing::EmulatedScpi;
 using testing::error_of;
+using testing::soon;
+using testing::wait_until;
 
 class HardwareDrivers : public testing::PseudoTerminalTest {
  protected:
-  [[nodiscard]] RigDevices open(const std::string& devices, double seconds = 3.0) {
+  [[nodiscard]] RigDevices open(const std::string& devices, const Deadline& deadline = soon()) {
     const auto file = folder_.path() / "rig.toml";
     std::ofstream(file) << "format = \"frangia-rig\"\nversion = 1\n" << devices;
-    return open_devices(file, Rig{}, hardware_drivers(), Deadline::in(seconds));
+    return open_devices(file, Rig{}, hardware_drivers(), deadline);
   }
 
  private:
@@ -38,7 +42,7 @@ TEST_F(HardwareDrivers, ATurntableAndALaserShareTheirBoard) {
   RigDevices devices = open("[devices.light]\n" + line + "[devices.line]\n" + line +
                             "on = \"M8\"\noff = \"M9\"\n[devices.turntable]\n" + line +
                             "backlash_deg = 1.0\nmin_deg = -10\nmax_deg = 370\n");
-  const Deadline deadline = Deadline::in(3.0);
+  const Deadline deadline = soon();
   devices.light->set(true, deadline);
   devices.turntable->enable(true, deadline);
   devices.turntable->home(deadline);
@@ -89,11 +93,11 @@ TEST_F(HardwareDrivers, ALightWithCustomCommandsIsOffWhenOpenedAndAtTheEnd) {
         "\non = [\"OUTP ON\"]\noff = [\"OUTP OFF\"]\n"
         "error_query = \"SYST:ERR?\"\nno_error = \"0\"\n");
     port.with<EmulatedScpi>([](auto& supply) { EXPECT_FALSE(supply.output); });
-    devices.light->set(true, Deadline::in(1.0));
+    devices.light->set(true, soon());
     port.with<EmulatedScpi>([](auto& supply) { EXPECT_TRUE(supply.output); });
   }
-  std::this_thread::sleep_for(std::chrono::milliseconds(50));
-  port.with<EmulatedScpi>([](auto& supply) { EXPECT_FALSE(supply.output); });
+  EXPECT_TRUE(wait_until(
+      [&] { return port.with<EmulatedScpi>([](auto& supply) { return !supply.output; }); }));
 }
 
 TEST_F(HardwareDrivers, AMissingKeyIsNamed) {

@@ -2,7 +2,6 @@
 
 #include <array>
 #include <atomic>
-#include <chrono>
 #include <fstream>
 #include <memory>
 #include <thread>
@@ -11,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "support/temporary_folder.h"
+#include "support/wait_until.h"
 
 namespace frangia {
 namespace {
@@ -86,12 +86,13 @@ TEST_F(OpenDevices, RefusesADeviceOfAnotherKindThanItsDriver) {
   EXPECT_NE(sentence.find("another kind"), std::string::npos) << sentence;
 }
 
-/// A camera that hangs while it is made safe.
+/// A camera that hangs while it is made safe, until it is released.
 class HangingCamera final : public CameraDevice {
  public:
+  explicit HangingCamera(const std::atomic<bool>* released) : released_(released) {}
   [[nodiscard]] std::string name() const override { return "hanging camera"; }
   [[nodiscard]] std::string test(const Deadline& /*deadline*/) override { return "works"; }
-  void make_safe() noexcept override { std::this_thread::sleep_for(std::chrono::seconds(1)); }
+  void make_safe() noexcept override { released_->wait(false); }
   [[nodiscard]] const CameraInfo& info() const override { return info_; }
   CameraSettings configure(const CameraSettings& settings, const Deadline& /*at*/) override {
     return settings;
@@ -102,17 +103,20 @@ class HangingCamera final : public CameraDevice {
   }
 
  private:
+  const std::atomic<bool>* released_;
   CameraInfo info_;
 };
 
 TEST(MakeSafe, ADeviceThatHangsKeepsNoOtherOn) {
   std::atomic<bool> on = true;
-  HangingCamera camera;
+  std::atomic<bool> released = false;
+  HangingCamera camera(&released);
   TestSwitch light(&on);
   const std::array<Device*, 2> devices = {&camera, &light};
   std::jthread safe([&] { make_safe(devices); });
-  std::this_thread::sleep_for(std::chrono::milliseconds(300));
-  EXPECT_FALSE(light.is_on());
+  EXPECT_TRUE(testing::wait_until([&] { return !light.is_on(); }));
+  released = true;
+  released.notify_all();
 }
 
 TEST(MakeSafe, SwitchesMoreDevicesOffThanARigHas) {

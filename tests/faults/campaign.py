@@ -38,6 +38,10 @@ class Campaign:
     def count(self, short, long):
         return long if self.is_long else short
 
+    def latency(self, seconds):
+        """The limit of a latency: in the short run, beside other tests, only that it ends."""
+        return seconds if self.is_long else 60.0
+
     def fresh(self, name):
         """A path that does not exist, below the campaign's folder."""
         folder = self.work / f"{name}-{self.random.getrandbits(40):010x}"
@@ -71,7 +75,7 @@ class Campaign:
     def finish(self, scan, answer, what):
         """Repeats the command until the scan is complete, and compares it with the undisturbed one."""
         for _ in range(4):
-            result = subprocess.run(self.scan_command(scan), capture_output=True, text=True, timeout=60)
+            result = subprocess.run(self.scan_command(scan), capture_output=True, text=True, timeout=120)
             if result.returncode == 0:
                 break
         else:

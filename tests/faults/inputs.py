@@ -11,7 +11,7 @@ SCRIPT = pathlib.Path(__file__).resolve().parent / "mutate_inputs.py"
 def run(campaign):
     answer = Answer(
         "inputs",
-        "mutated files of every format, read by the verbs with 2 GB of memory and 5 s",
+        "mutated files of every format, read by the verbs with 2 GB of memory and 5 s of processor time",
         campaign.count(100, 10000),
     )
     command = [

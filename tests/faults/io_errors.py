@@ -36,7 +36,7 @@ def run(campaign):
             ],
             capture_output=True,
             text=True,
-            timeout=60,
+            timeout=120,
         )
         if result.returncode < 0 or result.returncode > 128:
             answer.failures.append(f"{what}: crashed with {result.returncode}: {result.stderr.strip()}")

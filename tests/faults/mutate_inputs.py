@@ -5,7 +5,7 @@
 
 Each input is a sample file of one format with one to four mutations: flipped bits, a truncation, a
 splice, a repeated part, or a number that is replaced by an extreme one. The verb that reads the
-format runs on it with 2 GB of memory and 5 s. The program must end with an exit code of its own
+format runs on it with 2 GB of memory and 5 s of processor time. The program must end with an exit code of its own
 (0, 1, 2, 3, 4 or 5) and must print no control characters. Samples are the kept inputs of the
 fuzzers and files that the program writes itself. The last line counts the runs and the faults; the
 exit code is 1 when there is a fault. A faulty input is kept in FOLDER with the command and the end
@@ -30,7 +30,8 @@ CALIBRATIONS = REPOSITORY / "tests" / "exchange" / "data"
 SMALL_RIG = REPOSITORY / "tests" / "data" / "small-interferometer.toml"
 MAX_BYTES = 2_000_000_000
 SLOWDOWN = float(os.environ.get("FRANGIA_SLOWDOWN", "1"))  # of programs with sanitizers
-MAX_SECONDS = 5 * SLOWDOWN
+MAX_SECONDS = round(5 * SLOWDOWN)  # of processor time
+PATIENCE = 120 * SLOWDOWN  # for a program that waits
 EXIT_CODES = {0, 1, 2, 3, 4, 5}
 MESHES = ["3mf", "dxf", "glb", "gltf", "obj", "off", "pcd", "ply", "stl", "xyz"]
 NUMBERS = [
@@ -213,6 +214,7 @@ def all_cases(program, folder):
 def limit():
     if SLOWDOWN == 1:  # a sanitizer reserves more than it uses
         resource.setrlimit(resource.RLIMIT_DATA, (MAX_BYTES, MAX_BYTES))
+    resource.setrlimit(resource.RLIMIT_CPU, (MAX_SECONDS, MAX_SECONDS + 5))  # SIGXCPU
     resource.setrlimit(resource.RLIMIT_FSIZE, (500_000_000, 500_000_000))
     resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
 
@@ -225,7 +227,7 @@ def is_plain(output):
     return not any(ord(c) < 32 and c != "\n" or 127 <= ord(c) < 160 or c in "\u202a\u202b\u202d\u202e" for c in text)
 
 
-def fault_of(program, command, folder, stretch):
+def fault_of(program, command, folder):
     """What is wrong with a run; None when nothing is."""
     process = subprocess.Popen(
         [program, *command],
@@ -236,12 +238,14 @@ def fault_of(program, command, folder, stretch):
         preexec_fn=limit,
     )
     try:
-        output, _ = process.communicate(timeout=MAX_SECONDS * stretch)
+        output, _ = process.communicate(timeout=PATIENCE)
     except subprocess.TimeoutExpired:
         process.kill()
         output, _ = process.communicate()
-        return f"more than {MAX_SECONDS} s", output
+        return f"still running after {PATIENCE} s", output
     code = process.returncode
+    if code == -signal.SIGXCPU:
+        return f"more than {MAX_SECONDS} s of processor time", output
     if code < 0:
         return f"ended by {signal.Signals(-code).name}", output
     if b"does not fit into the memory" in output:
@@ -253,7 +257,7 @@ def fault_of(program, command, folder, stretch):
     return None, output
 
 
-def run_one(program, case, seed, keep, stretch):
+def run_one(program, case, seed, keep):
     chance = random.Random(seed)
     data = mutate(case.sample, chance)
     command = chance.choice(case.commands)
@@ -267,7 +271,7 @@ def run_one(program, case, seed, keep, stretch):
         place.parent.mkdir(parents=True, exist_ok=True)
         place.write_bytes(data)
         words = [case.place if word == "FILE" else word for word in command]
-        what, output = fault_of(program, words, folder, stretch)
+        what, output = fault_of(program, words, folder)
     if what is None and case.is_finite and re.search(rb"\bnan\b", output.lower()):
         what = "a result that is no number"
     if what is None:
@@ -286,9 +290,6 @@ def main():
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--keep", type=pathlib.Path)
     parser.add_argument("--jobs", type=int, default=os.cpu_count())
-    parser.add_argument(
-        "--stretch", type=float, default=1.0, help="factor of the time limit, on a machine that does other work"
-    )
     arguments = parser.parse_args()
     program = str(arguments.program.resolve())
     with tempfile.TemporaryDirectory(prefix="frangia-samples-") as name:
@@ -296,11 +297,7 @@ def main():
         chance = random.Random(arguments.seed)
         runs = [(chance.choice(cases), arguments.seed * 1_000_000 + i) for i in range(arguments.count)]
         with concurrent.futures.ThreadPoolExecutor(arguments.jobs) as pool:
-            faults = [
-                fault
-                for fault in pool.map(lambda run: run_one(program, *run, arguments.keep, arguments.stretch), runs)
-                if fault
-            ]
+            faults = [fault for fault in pool.map(lambda run: run_one(program, *run, arguments.keep), runs) if fault]
     for fault in faults:
         print(fault)
     print(f"{arguments.count} mutated inputs, {len(faults)} faults")

@@ -12,8 +12,11 @@ PROGRESS = ROOT / "out" / "faults" / "transactions.json"
 
 
 def run(campaign):
-    answer = Answer("transactions", "random commands of the app with failing writes, stops, copies and ends of the server",
-                    campaign.count(8, 5000))
+    answer = Answer(
+        "transactions",
+        "random commands of the app with failing writes, stops, copies and ends of the server",
+        campaign.count(8, 5000),
+    )
     program = campaign.program.parent.parent / "tests" / "test_service"
     if not program.exists():
         raise SystemExit(f"faults: transactions needs {program}; build it")
@@ -27,8 +30,13 @@ def run(campaign):
     def batch(first):
         count = min(BATCH, answer.tried + 1 - first)
         environment = {**os.environ, "FRANGIA_FIRST_SEED": str(first), "FRANGIA_SEQUENCES": str(count)}
-        result = subprocess.run([program, "--gtest_brief=1", "--gtest_filter=SurfaceTransactions.*"], env=environment, capture_output=True,
-                                text=True, errors="replace")
+        result = subprocess.run(
+            [program, "--gtest_brief=1", "--gtest_filter=SurfaceTransactions.*"],
+            env=environment,
+            capture_output=True,
+            text=True,
+            errors="replace",
+        )
         return first, result
 
     wanted = [first for first in range(1, answer.tried + 1, BATCH) if first not in done]

@@ -1,7 +1,6 @@
 #include "frangia/geometry/half_edges.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -11,6 +10,7 @@
 #include "frangia/geometry/clean_mesh.h"
 #include "frangia/geometry/mesh.h"
 
+#include "support/processor_time.h"
 #include "support/test_meshes.h"
 
 namespace frangia {
@@ -45,10 +45,7 @@ template <typename Work>
 double least_seconds(const Work& work) {
   double least = 1e9;
   for (int i = 0; i < 3; ++i) {
-    const auto begin = std::chrono::steady_clock::now();
-    work();
-    least = std::min(
-        least, std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
+    least = std::min(least, testing::processor_seconds_of(work));
   }
   return least;
 }

@@ -16,7 +16,7 @@ using testing::error_of;
 
 /// Waits until a job has finished and returns it.
 Job finished(const JobQueue& queue, int number) {
-  for (int i = 0; i < 5000; ++i) {
+  for (int i = 0; i < 30'000; ++i) {
     for (const Job& job : queue.jobs())
       if (job.number == number && job.state != JobState::Waiting && job.state != JobState::Running)
         return job;

@@ -30,6 +30,7 @@ class ServiceTest : public ::testing::Test {
  protected:
   ServiceTest() { restart(); }
 
+  /// A new service, with the projects of the one before.
   void restart() {
     service_.reset();
     ServiceOptions options;

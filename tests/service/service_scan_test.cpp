@@ -1,7 +1,6 @@
-#include <chrono>
+#include <atomic>
 #include <filesystem>
 #include <string>
-#include <thread>
 
 #include <gtest/gtest.h>
 
@@ -40,22 +39,22 @@ TEST_F(ServiceTest, ScansTheTurnedPartAsASecondSetupOnceTheFirstIsComplete) {
 }
 
 TEST_F(ServiceTest, StopsAndContinuesTheSimulatedScan) {
+  std::atomic<bool> stops = false;
+  restart([&] {  // on the thread of the scan, so that it cannot end before
+    if (!stops) return;
+    const Json jobs = state().at("jobs");
+    for (const Json& job : jobs) {
+      if (job.at("state") == "running" && job.at("stage") == "scan" && job.at("progress") >= 0.3)
+        static_cast<void>(command("stop-job", {{"job", job.at("number")}}));
+    }
+  });
   static_cast<void>(
       command("create-project", {{"name", "try"}, {"part", "plate"}, {"stations", 2}}));
   static_cast<void>(finish());
-  const int number = command("start-scan").at("job").get<int>();
-  const auto share = [&] {
-    const Json jobs = state().at("jobs");
-    for (const Json& job : jobs) {
-      if (job.at("number") == number && job.at("stage") == "scan")
-        return job.at("progress").get<double>();
-    }
-    return 0.0;
-  };
-  for (int i = 0; i < 20'000 && share() < 0.3; ++i)
-    std::this_thread::sleep_for(std::chrono::milliseconds(2));
-  static_cast<void>(command("stop-job", {{"job", number}}));
+  stops = true;
+  static_cast<void>(command("start-scan"));
   EXPECT_EQ(finish().at("state"), "stopped");
+  stops = false;
   EXPECT_FALSE(state().at("project").at("scan_complete").get<bool>());
   EXPECT_NE(refusal("start-scan", R"({"stations": 3})"), "");
 

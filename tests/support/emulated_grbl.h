@@ -39,14 +39,14 @@ class EmulatedGrbl : public EmulatedDevice {
 
   std::string greet() override {
     alarm = starts_locked;
-    return silent ? "" : greeting();
+    return silent ? "" : garbage ? kGarbage : greeting();
   }
 
   std::string receive(std::string_view bytes) override {
     std::string said;
     for (const char c : bytes) {
       if (silent || Clock::now() < deaf_until_) continue;
-      said += garbage ? std::string("\xf3\x80\x9c\n") : receive(c);
+      said += garbage ? kGarbage : receive(c);
     }
     return said;
   }
@@ -82,6 +82,8 @@ class EmulatedGrbl : public EmulatedDevice {
     std::string answer;
     Clock::time_point ends = {};
   };
+
+  inline static const std::string kGarbage = "\xf3\x80\x9c\n";
 
   [[nodiscard]] std::string greeting() const { return "\r\n" + version + "\r\n"; }
 

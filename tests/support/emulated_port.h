@@ -13,11 +13,19 @@
 #include <netinet/in.h>
 #include <poll.h>
 #include <pty.h>
+#include <sys/ioctl.h>
 #include <sys/socket.h>
 #include <termios.h>
 #include <unistd.h>
 
 namespace frangia::testing {
+
+/// How many bytes wait to be read from a terminal or a socket; 0 where it is closed.
+[[nodiscard]] inline std::size_t unread_bytes(int file) {
+  int count = 0;
+  return ::ioctl(file, FIONREAD, &count) == 0 ? static_cast<std::size_t>(count)
+                                              : 0U;  // NOLINT(*-vararg)
+}
 
 /// The other end of a line: a device's protocol, with its faults.
 class EmulatedDevice {
@@ -91,6 +99,11 @@ class EmulatedPort {
   auto with(const Do& action) {
     const std::scoped_lock lock(mutex_);
     return action(dynamic_cast<Device&>(*device_));
+  }
+  /// Whether the device has received all that was sent to it.
+  [[nodiscard]] bool has_received_all() {
+    const std::scoped_lock lock(mutex_);
+    return fd_ < 0 || unread_bytes(fd_) == 0;
   }
   void unplug() {
     thread_.request_stop();

@@ -6,7 +6,7 @@ namespace frangia::testing {
 
 /// By when an emulated device has long answered, even on a busy machine.
 inline Deadline soon() {
-  return Deadline::in(5.0);
+  return Deadline::in(30.0);
 }
 
 }  // namespace frangia::testing

@@ -5,19 +5,26 @@
 
 namespace frangia::testing {
 
-/// Waits until `condition` holds. Returns the seconds that it took, or a negative number when it
-/// does not hold after `most_s`.
+/// By when an event has come, even on a busy machine.
+inline constexpr double kPatience_s = 60.0;
+
+/// Waits until `condition` holds. Returns whether it does after at most `most_s`.
 template <typename Condition>
-double wait_until(const Condition& condition, double most_s) {
-  const auto begin = std::chrono::steady_clock::now();
-  for (;;) {
-    const bool holds = condition();
-    const double seconds =
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-    if (holds) return seconds;
-    if (seconds > most_s) return -1.0;
+[[nodiscard]] bool wait_until(const Condition& condition, double most_s = kPatience_s) {
+  const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(most_s);
+  while (!condition()) {
+    if (std::chrono::steady_clock::now() > end) return condition();
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
+  return true;
+}
+
+/// Whether an action that may wait has returned in time. One that never returns is ended by CTest.
+template <typename Action>
+[[nodiscard]] bool returns(const Action& action, double most_s = kPatience_s) {
+  const auto begin = std::chrono::steady_clock::now();
+  action();
+  return std::chrono::steady_clock::now() - begin < std::chrono::duration<double>(most_s);
 }
 
 }  // namespace frangia::testing
