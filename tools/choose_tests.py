@@ -1,7 +1,7 @@
 """Chooses what `./run test` runs: choose_tests.py ROOT NAME...  or, with changed paths as lines of input, choose_tests.py ROOT --changed
 
 A group of tests is the first word of their names: a module (tests/MODULE/*_test.cpp), `apps`, or one of SCRIPTS; the CMake
-target test_GROUP builds what it needs. Prints two lines: the groups whose tests run in full, and those of which the tests
+target tests_GROUP builds what it needs. Prints two lines: the groups whose tests run in full, and those of which the tests
 labelled `chain` run. Ends with 2 and one sentence where a name is unknown.
 """
 import pathlib
@@ -19,6 +19,7 @@ FOLDERS = {
     "docs": ["docs"],
     "fuzz": ["fuzz"],
     "tools": ["tools"],
+    "run": ["tools"],
     "benchmarks": [],
     "README.md": ["docs"],
     "CHANGELOG.md": [],
@@ -32,6 +33,12 @@ def groups_of(root):
     """All groups, sorted."""
     compiled = {path.parent.name for path in (root / "tests").glob("*/*_test.cpp")}
     return sorted(compiled | set(SCRIPTS))
+
+
+def groups_with_chain(root):
+    """The groups of the tests that tests/chain_tests.txt names."""
+    lines = (root / "tests" / "chain_tests.txt").read_text().splitlines()
+    return {line.split(".")[0] for line in lines if line and not line.startswith("#")}
 
 
 def choose_named(root, names):
@@ -71,7 +78,7 @@ def groups_that_read(root, name):
 
 def choose_changed(root, paths):
     """The groups that run in full and those of which the chain runs, for paths relative to `root` that changed."""
-    known, uses = groups_of(root), module_uses(root)
+    known, uses = set(groups_of(root)), module_uses(root)
     full, modules, everything = set(), set(), False
     for path in paths:
         parts = pathlib.PurePosixPath(path).parts
@@ -79,16 +86,17 @@ def choose_changed(root, paths):
             modules.add(parts[2])
         elif parts[0] == "tests" and len(parts) > 2:
             full |= groups_that_read(root, parts[2]) if parts[1] in ("support", "data") else {parts[1]}
+        elif parts[0] == "tests" and path.endswith(".sh"):
+            full.add("tools")
         elif parts[0] in FOLDERS:
             full.update(FOLDERS[parts[0]])
         else:  # the build, the examples and what is not known
             everything = True
-    full |= modules
-    chain = set(known) if everything else set()
+    full = (full | modules) & known
+    depend = known if everything else set()
     if modules or "apps" in full:  # the program and the Python package are made of all modules
-        chain |= dependents(uses, modules) | set(SCRIPTS) | {"apps"}
-    full &= set(known)
-    return sorted(full), sorted(chain & set(known) - full)
+        depend = depend | dependents(uses, modules) | set(SCRIPTS) | {"apps"}
+    return sorted(full), sorted(depend & groups_with_chain(root) - full)
 
 
 def main():

@@ -45,6 +45,7 @@ export function check(name, value) {
 export function coarsenCamera(project, factor = 2) {
   for (const name of ['rig.toml', 'true-rig.toml']) {
     const file = path.join(project, name);
+    if (!fs.existsSync(file)) continue;
     const scale = (text, key, change) => text.replace(new RegExp(`^${key} = \\[(.*)\\]$`, 'm'), (_, numbers) => `${key} = [${numbers.split(',').map(Number).map(change).join(', ')}]`);
     let text = fs.readFileSync(file, 'utf8');
     text = scale(text, 'size_px', (value) => value / factor);
@@ -52,6 +53,18 @@ export function coarsenCamera(project, factor = 2) {
     text = scale(text, 'principal_point_px', (value) => (value + 0.5) / factor - 0.5);
     fs.writeFileSync(file, text);
   }
+}
+
+/** Opens a project again, as its files are now. */
+export async function reopen(page, name) {
+  await page.evaluate(async (name) => {
+    const answer = await fetch('/api/commands/open-project', {
+      method: 'POST', body: JSON.stringify({ name }),
+      headers: { 'Content-Type': 'application/json', Authorization: `Bearer ${sessionStorage.getItem('frangia-key')}` },
+    });
+    if (!answer.ok) throw new Error(await answer.text());
+  }, name);
+  await page.waitForFunction(() => document.querySelector('frangia-app').state.jobs.every((job) => !['waiting', 'running'].includes(job.state)));
 }
 
 /** Creates a project on the page whose simulated rig has a part, and opens it. */

@@ -464,17 +464,6 @@ class Hostile(unittest.TestCase):
             for line in lines:
                 line.close()
 
-    def test_a_silent_websocket_is_asked_for_a_sign_of_life(self):
-        # Within 30 s, since proxies close a connection that is silent for a minute.
-        line = self.server.live()
-        line.settimeout(30)
-        opcode = 1
-        while opcode == 1:
-            opcode, body = read_frame(line)
-        self.assertEqual(opcode, 9)
-        line.sendall(frame(body, opcode=10))
-        line.close()
-
 
 if __name__ == "__main__":
     unittest.main(argv=sys.argv[:1] + sys.argv[3:])

@@ -4,7 +4,7 @@
 //   node rig.mjs PROGRAM FOLDER      FOLDER receives the screenshots
 import fs from 'node:fs';
 import path from 'node:path';
-import { expect, launch, look, newHome, newLink, openPage, passed, PATIENCE, requireChromium, startServer, stateOf, tell } from './harness.mjs';
+import { coarsenCamera, expect, launch, look, newHome, newLink, openPage, passed, PATIENCE, reopen, requireChromium, startServer, stateOf, tell } from './harness.mjs';
 
 const [program, shots] = process.argv.slice(2).map((name) => path.resolve(name));
 const here = import.meta.dirname ?? path.dirname(new URL(import.meta.url).pathname);
@@ -67,6 +67,8 @@ await tell(home, async () => {
   await page.setInputFiles('input[type=file]', path.join(here, '../../examples/simulated-digital.toml'));
   await page.getByText('Create', { exact: true }).click();
   await page.waitForSelector('#choose-devices:not([disabled])');
+  coarsenCamera(path.join(home, 'projects', 'Uploaded'));
+  await reopen(page, 'Uploaded');
   await page.click('#choose-devices');
   await page.waitForSelector('textarea.lines');
   await page.locator('textarea.lines').first().fill('driver = "simulated"\npart = "plate"\nsamples = 1\n');
@@ -106,6 +108,8 @@ await tell(home, async () => {
   await page.fill('input[name=stations]', '3');
   await page.getByText('Create', { exact: true }).click();
   await page.waitForSelector('[data-next=live]');
+  coarsenCamera(path.join(home, 'projects', 'Plate'));
+  await reopen(page, 'Plate');
   await page.context().close();
 
   // A browser without WebGL says so; everything but the 3D picture works.

@@ -59,10 +59,11 @@ class Robust(unittest.TestCase):
             self.assertLess(time.monotonic(), end, what)
             time.sleep(0.05)
 
-    def slow_project(self, server, table="", exposure_ms=200, stations=3):
-        """A project whose exposures take their time, so that a scan can be interrupted."""
+    def slow_project(self, server, table="", exposure_ms=1000, stations=3):
+        """A project whose exposures take a second, so that a scan can be interrupted long before its end."""
         server.command("create-project", name="part", part="plate", stations=stations)
         server.wait()
+        server.coarsen_camera("part")
         rig = server.projects / "part" / "rig.toml"
         text = rig.read_text().replace(
             "[devices.camera]\n", f"[devices.camera]\nreal_time = true\nreference_exposure_ms = {exposure_ms}\n"
@@ -84,11 +85,13 @@ class Robust(unittest.TestCase):
         server = self.serve()
         project = self.slow_project(server, table='home = "here"')
         server.command("start-scan")
-        self.wait_until(lambda: self.scan_share(server) > 0.5, "the scan does not begin")
+        self.wait_until(lambda: self.scan_share(server) > 0.05, "the scan does not begin")
         server.process.kill()
         server.process.wait(PATIENCE)
         server.process.stdout.close()
 
+        rig = project / "rig.toml"
+        rig.write_text(rig.read_text().replace("real_time = true\n", ""))  # from here on, exposures take no time
         server = self.serve()
         server.command("open-project", name="part")
         self.assertIsNone(server.wait()["project"]["table_angle"])
@@ -105,7 +108,7 @@ class Robust(unittest.TestCase):
         self.assertIsNone(state["project"]["table_angle"])
         self.assertEqual(server.stop(), 0)
         done = subprocess.run(
-            [PROGRAM, "scan", project / "rig.toml", "-o", self.folder / "whole", "--views", "3", "--exposure", "200"],
+            [PROGRAM, "scan", project / "rig.toml", "-o", self.folder / "whole", "--views", "3", "--exposure", "1000"],
             capture_output=True,
             text=True,
         )
@@ -181,6 +184,7 @@ class Robust(unittest.TestCase):
         server = self.serve()
         server.command("create-project", name="part", part="plate", stations=4)
         server.wait()
+        server.coarsen_camera("part")
         server.command("start-scan")
         self.assertTrue(server.wait()["project"]["scan_complete"])
         server.command("reconstruct")
@@ -236,14 +240,14 @@ class Robust(unittest.TestCase):
     def test_a_full_disk_is_said_in_words_and_loses_nothing(self):
         disk = self.folder / "projects"
         disk.mkdir()
-        # A disk of 80 MB that the server alone sees; this test reaches it through /proc.
+        # A disk of 20 MB that the server alone sees; this test reaches it through /proc.
         unshare = [
             "unshare",
             "-m",
             *([] if os.getuid() == 0 else ["-r"]),
             "sh",
             "-c",
-            f'mount -t tmpfs -o size=80m none "{disk}" && exec "$@"',
+            f'mount -t tmpfs -o size=20m none "{disk}" && exec "$@"',
             "sh",
         ]
         if not shutil.which("unshare") or subprocess.run([*unshare, "true"], capture_output=True).returncode != 0:
@@ -252,6 +256,7 @@ class Robust(unittest.TestCase):
         seen = pathlib.Path(f"/proc/{server.process.pid}/root{disk}")
         server.command("create-project", name="part", part="plate", stations=4)
         server.wait()
+        server.coarsen_camera("part", projects=seen)
         server.command("start-scan")
         server.wait()
         server.command("reconstruct")
@@ -302,6 +307,7 @@ class Robust(unittest.TestCase):
         server = self.serve()
         server.command("create-project", name=name, part="plate", stations=4)
         server.wait()
+        server.coarsen_camera(name)
         if work == "reconstruct":
             server.command("start-scan")
             server.wait()

@@ -19,8 +19,12 @@ class Script(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             server = Server(folder)
             try:
+                text = EXAMPLE.read_text()
+                self.assertIn("stations=6", text)
+                example = pathlib.Path(folder) / "serve.py"
+                example.write_text(text.replace("stations=6", "stations=3"))
                 done = subprocess.run(
-                    [sys.executable, EXAMPLE],
+                    [sys.executable, example],
                     cwd=folder,
                     env=server.environment,
                     capture_output=True,

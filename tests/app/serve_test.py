@@ -11,7 +11,6 @@ import struct
 import subprocess
 import sys
 import tempfile
-import time
 import unittest
 
 from serve_client import PATIENCE, PROGRAM, Server, frame, read_frame
@@ -216,19 +215,6 @@ class Serve(unittest.TestCase):
             for line in idle:
                 line.close()
         self.assert_serves()
-
-    def test_slow_sender_is_cut_off(self):
-        with self.server.connect() as line:
-            begin = time.monotonic()
-            with contextlib.suppress(OSError):
-                for letter in f"GET / HTTP/1.1\r\nHost: {self.server.host}\r\n" * 10:
-                    line.sendall(letter.encode())
-                    time.sleep(0.5)
-                    if time.monotonic() - begin > PATIENCE:
-                        self.fail("the server waits for a slow sender")
-            line.settimeout(PATIENCE)
-            with contextlib.suppress(OSError):
-                self.assertEqual(line.recv(1), b"")
 
     def test_runtime_file_is_private_and_new_link_works(self):
         path = self.server.runtime / "frangia-serve.json"

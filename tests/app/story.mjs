@@ -56,7 +56,7 @@ await tell(home, async () => {
   await idle();
   await look('calibrated');
   await page.getByText('Residuals, camera', { exact: true }).click();
-  await page.waitForSelector('.residual-map line');
+  await page.waitForSelector('.residual-map line', { state: 'attached' });
   expect((await page.locator('.residual-map > svg line').count()) === 70 * poses, 'the map does not show every residual');
   check('residuals', await page.evaluate(async () => (await fetch('/api/residuals', { headers: { Authorization: `Bearer ${sessionStorage.getItem('frangia-key')}` } })).json()));
   await look('residuals');

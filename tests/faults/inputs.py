@@ -12,7 +12,7 @@ def run(campaign):
     answer = Answer(
         "inputs",
         "mutated files of every format, read by the verbs with 2 GB of memory and 5 s of processor time",
-        campaign.count(100, 10000),
+        campaign.count(40, 10000),
     )
     command = [
         sys.executable,

@@ -40,7 +40,7 @@ TEST_F(ServiceTest, ScansTheTurnedPartAsASecondSetupOnceTheFirstIsComplete) {
 
 TEST_F(ServiceTest, StopsAndContinuesTheSimulatedScan) {
   std::atomic<bool> stops = false;
-  restart([&] {  // on the thread of the scan, so that it cannot end before
+  at_changes([&] {  // on the thread of the scan, so that it cannot end before
     if (!stops) return;
     const Json jobs = state().at("jobs");
     for (const Json& job : jobs) {
@@ -58,6 +58,7 @@ TEST_F(ServiceTest, StopsAndContinuesTheSimulatedScan) {
   EXPECT_FALSE(state().at("project").at("scan_complete").get<bool>());
   EXPECT_NE(refusal("start-scan", R"({"stations": 3})"), "");
 
+  at_changes({});
   restart();
   static_cast<void>(command("open-project", {{"name", "try"}}));
   static_cast<void>(finish());
