@@ -184,7 +184,10 @@ def ball(centre, radius, rings=48):
                 ]
             )
     vertices.append([centre[0], centre[1], centre[2] - radius])
-    at = lambda i, j: 1 + (i - 1) * 2 * rings + j % (2 * rings)
+
+    def at(i, j):
+        return 1 + (i - 1) * 2 * rings + j % (2 * rings)
+
     faces = []
     for j in range(2 * rings):
         faces += [[0, at(1, j), at(1, j + 1)], [len(vertices) - 1, at(rings - 1, j + 1), at(rings - 1, j)]]

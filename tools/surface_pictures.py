@@ -170,9 +170,13 @@ def registration():
     rig = Rig(scan / "rig.toml")
     depths = [depth_of(scan, view) for view in range(8)]
     axis, point = numpy.array(answer["axis"]), numpy.array(answer["point_mm"])
-    before = lambda points, view: rig.to_object(points, 45.0 * view)
-    after = lambda points, view: rig.to_object(points, answer["angles_deg"][view], axis, point)
-    pictures = []
+
+    def before(points, view):
+        return rig.to_object(points, 45.0 * view)
+
+    def after(points, view):
+        return rig.to_object(points, answer["angles_deg"][view], axis, point)
+
     for name, places in (("before", before), ("after", after)):
         combine_views(WORK / f"{name}.ply", rig, depths, places)
         run("inspect", WORK / f"{name}.ply", "--show", "views", "--no-legend", "--picture", WORK / f"{name}.png")

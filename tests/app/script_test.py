@@ -2,7 +2,6 @@
 
     script_test.py PROGRAM examples/serve.py
 """
-import os
 import pathlib
 import subprocess
 import sys

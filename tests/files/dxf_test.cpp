@@ -14,8 +14,8 @@
 namespace frangia {
 namespace {
 
-using testing::Answer;
 using testing::error_of;
+using testing::ReaderAnswer;
 
 constexpr std::array kVariants{DxfVariant::Faces, DxfVariant::Polyface};
 
@@ -32,7 +32,7 @@ class WriteDxf : public testing::FolderFixture {
 
 /// A checker prints the number of faces, then the low and high corners of one or two bounding
 /// boxes.
-void expect_complete(const Answer& answer, const Mesh& mesh) {
+void expect_complete(const ReaderAnswer& answer, const Mesh& mesh) {
   ASSERT_TRUE(answer.succeeded) << answer.text;
   std::istringstream words(answer.text);
   std::size_t faces = 0;
@@ -160,7 +160,7 @@ TEST_F(ReadDxf, ReadsWhatEzdxfWritesAndListsWhatItSkips) {
                         "  e.vertices=[(0,0,7),(1,0,7),(1,1,7),(0,1,7)]; e.faces=[(0,1,2,3)]\n"
                         "d.saveas(sys.argv[1])\n"));
   const auto path = at("other.dxf");
-  const Answer made =
+  const ReaderAnswer made =
       testing::ask("/usr/bin/python3 " + at("make.py").string() + " " + path.string());
   ASSERT_TRUE(made.succeeded) << made.text;
   frangia::Run run;

@@ -164,7 +164,7 @@ TEST_F(EveryFormat, PlyWithOnePartOfSigmaKeepsTheCombinedValueAlone) {
 TEST_F(EveryFormat, GltfIsInMetresWithYUp) {
   if (!testing::have_assimp()) GTEST_SKIP() << "assimp is missing; ./run setup installs it";
   write_mesh(at("a.glb"), testing::box({0, 0, 0}, {100, 200, 300}));
-  const testing::Answer answer = testing::ask("assimp info " + at("a.glb").string());
+  const testing::ReaderAnswer answer = testing::ask("assimp info " + at("a.glb").string());
   EXPECT_NE(answer.text.find("Maximum point      (0.100000 0.300000 0.000000)"), std::string::npos)
       << answer.text;
 }
@@ -182,10 +182,10 @@ TEST_F(EveryFormat, CloudsKeepTheirPointsAndNormalsExactly) {
 TEST_F(EveryFormat, ThreeMfIsValidToTheConsortiumsOwnReader) {
   if (!testing::have_3mf()) GTEST_SKIP() << "lib3mf is missing; ./run setup installs it";
   write_mesh(at("solid.3mf"), marked_box());
-  const testing::Answer solid = testing::ask_3mf(at("solid.3mf"));
+  const testing::ReaderAnswer solid = testing::ask_3mf(at("solid.3mf"));
   EXPECT_TRUE(solid.succeeded && solid.text == "12 1\n") << solid.text;
   write_mesh(at("sheet.3mf"), testing::marked_sheet(30));
-  const testing::Answer sheet = testing::ask_3mf(at("sheet.3mf"));
+  const testing::ReaderAnswer sheet = testing::ask_3mf(at("sheet.3mf"));
   EXPECT_TRUE(sheet.succeeded && sheet.text == "1682 0\n") << sheet.text;
 }
 
@@ -207,7 +207,7 @@ TEST_F(EveryFormat, ReadsWhatAssimpWrites) {
   if (!testing::have_assimp()) GTEST_SKIP() << "assimp is missing; ./run setup installs it";
   write_mesh(at("a.ply"), testing::sheet(20));
   for (const char* name : {"b.stl", "b.obj", "b.glb", "b.gltf", "b.ply"}) {
-    const testing::Answer answer =
+    const testing::ReaderAnswer answer =
         testing::ask("assimp export " + at("a.ply").string() + " " + at(name).string());
     ASSERT_TRUE(answer.succeeded) << answer.text;
     EXPECT_EQ(read_mesh(at(name)).triangles.size(), 2U * 19 * 19) << name;
@@ -218,7 +218,7 @@ TEST_F(EveryFormat, StlIsClosedToAdmesh) {
   if (!testing::have_admesh()) GTEST_SKIP() << "admesh is missing; ./run setup installs it";
   for (const bool ascii : {false, true}) {
     write_mesh(at("a.stl"), marked_box(), {.stl = {.ascii = ascii}});
-    const testing::Answer answer = testing::ask("admesh -e " + at("a.stl").string());
+    const testing::ReaderAnswer answer = testing::ask("admesh -e " + at("a.stl").string());
     EXPECT_NE(answer.text.find("Total disconnected facets        :     0"), std::string::npos)
         << answer.text;
     EXPECT_NE(answer.text.find("Number of facets                 :    12"), std::string::npos)
@@ -230,7 +230,7 @@ TEST_F(EveryFormat, OpenStlIsReadByAdmeshWithAllFacets) {
   if (!testing::have_admesh()) GTEST_SKIP() << "admesh is missing; ./run setup installs it";
   for (const bool ascii : {false, true}) {
     write_mesh(at("a.stl"), testing::marked_sheet(30), {.stl = {.ascii = ascii}});
-    const testing::Answer answer = testing::ask("admesh -e -c " + at("a.stl").string());
+    const testing::ReaderAnswer answer = testing::ask("admesh -e -c " + at("a.stl").string());
     EXPECT_NE(answer.text.find("Number of facets                 :  1682"), std::string::npos)
         << answer.text;
   }

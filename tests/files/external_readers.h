@@ -10,13 +10,13 @@
 namespace frangia::testing {
 
 /// The output of a program and whether it succeeded.
-struct Answer {
+struct ReaderAnswer {
   bool succeeded = false;
   std::string text;
 };
 
-inline Answer ask(const std::string& command) {
-  Answer answer;
+inline ReaderAnswer ask(const std::string& command) {
+  ReaderAnswer answer;
   std::FILE* pipe = ::popen((command + " 2>&1").c_str(), "r");
   std::array<char, 4096> piece{};
   while (const std::size_t got = std::fread(piece.data(), 1, piece.size(), pipe))
@@ -32,17 +32,17 @@ inline bool have_assimp() {
   return ask("assimp version").succeeded;
 }
 
-inline Answer ask_ezdxf(const std::filesystem::path& dxf) {
+inline ReaderAnswer ask_ezdxf(const std::filesystem::path& dxf) {
   return ask("/usr/bin/python3 " FRANGIA_SOURCE_DIR "/tests/files/check_ezdxf.py " + dxf.string());
 }
-inline Answer ask_libdime(const std::filesystem::path& dxf) {
+inline ReaderAnswer ask_libdime(const std::filesystem::path& dxf) {
   return ask(FRANGIA_CHECK_LIBDIME " " + dxf.string());
 }
 
 inline bool have_3mf() {
   return ask("/usr/bin/python3 -c 'import ctypes; ctypes.CDLL(\"lib3MF.so.1\")'").succeeded;
 }
-inline Answer ask_3mf(const std::filesystem::path& path) {
+inline ReaderAnswer ask_3mf(const std::filesystem::path& path) {
   return ask("/usr/bin/python3 " FRANGIA_SOURCE_DIR "/tests/files/check_3mf.py " + path.string());
 }
 inline bool have_admesh() {
@@ -57,7 +57,7 @@ inline bool have_pcl() {
 
 /// The number of faces that assimp finds in a file; -1 when it cannot read it.
 inline int assimp_faces(const std::filesystem::path& path) {
-  const Answer answer = ask("assimp info " + path.string());
+  const ReaderAnswer answer = ask("assimp info " + path.string());
   const std::size_t line = answer.text.find("\nFaces:");
   if (!answer.succeeded || line == std::string::npos) return -1;
   return std::stoi(answer.text.substr(line + 7));

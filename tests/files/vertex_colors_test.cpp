@@ -16,8 +16,8 @@
 namespace frangia::vertex_colors {
 namespace {
 
-using testing::Answer;
 using testing::ask;
+using testing::ReaderAnswer;
 
 /// A box whose corners have the colors of the corners of the color cube, but for one.
 Mesh colored_box() {
@@ -37,7 +37,7 @@ class VertexColors : public testing::FolderFixture {
   /// The colors that assimp finds, one line a vertex, in the order of its own vertices.
   [[nodiscard]] std::vector<std::array<double, 3>> assimp_colors(const std::string& name) const {
     const auto dump = at(name + ".assxml");
-    const Answer answer = ask("assimp dump " + at(name).string() + " " + dump.string());
+    const ReaderAnswer answer = ask("assimp dump " + at(name).string() + " " + dump.string());
     EXPECT_TRUE(answer.succeeded) << answer.text;
     const std::string text = bytes_in(name + ".assxml");
     std::vector<std::array<double, 3>> colors;
@@ -111,7 +111,8 @@ TEST_F(VertexColors, OfAssimpAreRead) {
   if (!testing::have_assimp()) GTEST_SKIP() << "assimp is not installed";
   write_mesh(at("a.ply"), colored_box());
   for (const char* name : {"b.ply", "b.obj", "b.glb"}) {
-    const Answer answer = ask("assimp export " + at("a.ply").string() + " " + at(name).string());
+    const ReaderAnswer answer =
+        ask("assimp export " + at("a.ply").string() + " " + at(name).string());
     ASSERT_TRUE(answer.succeeded) << answer.text;
     std::vector<std::array<double, 3>> found;
     for (const VertexColor& color : read_mesh(at(name)).colors)
@@ -134,7 +135,7 @@ TEST_F(VertexColors, AreReadByTheReaderOfThe3mfConsortium) {
   mesh.triangle_marks.assign(mesh.triangles.size(), Mark::Measured);
   mesh.triangle_marks[3] = Mark::Synthesized;
   write_mesh(at("a.3mf"), mesh);
-  const Answer answer =
+  const ReaderAnswer answer =
       ask("/usr/bin/python3 " FRANGIA_SOURCE_DIR "/tests/files/check_3mf_colors.py " +
           at("a.3mf").string());
   ASSERT_TRUE(answer.succeeded) << answer.text;

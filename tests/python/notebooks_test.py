@@ -1,7 +1,6 @@
 """Executes the notebooks of examples/python: each ends without an error and draws a picture."""
 import pathlib
 import sys
-import tempfile
 import unittest
 
 try:

@@ -29,7 +29,7 @@ struct PlanFile {
 };
 using PlanFiles = std::array<PlanFile, 4>;
 
-PlanFiles files_of(const Scan& plan, const CaptureSettings& settings) {
+PlanFiles files_of(const Scan& plan, const SessionSettings& settings) {
   return {PlanFile{"scan.toml", scan_text(plan)},
           PlanFile{"rig.toml", rig_text(plan.rig)},
           PlanFile{"options.txt", settings.options},
@@ -120,7 +120,7 @@ void compare_plan(const std::filesystem::path& folder, const PlanFiles& files, c
 
 }  // namespace
 
-void claim_folder(const Scan& plan, const CaptureSettings& settings, int setup, const Run& run) {
+void claim_folder(const Scan& plan, const SessionSettings& settings, int setup, const Run& run) {
   const PlanFiles files = files_of(plan, settings);
   if (!std::filesystem::exists(plan.folder / "capture")) {
     store_plan(plan.folder, files);

@@ -8,7 +8,7 @@
 namespace frangia {
 
 /// The parts of a capture that must be the same in every session besides the plan, one per line.
-struct CaptureSettings {
+struct SessionSettings {
   std::string options;  ///< capture options
   std::string devices;  ///< devices and their settings, see `describe_devices`
 };
@@ -21,7 +21,7 @@ struct CaptureSettings {
 /// @errors   Error(Input) when the folder holds anything else, naming the first difference;
 ///          Error(File)
 void claim_folder(const Scan& plan,
-                  const CaptureSettings& settings,
+                  const SessionSettings& settings,
                   int setup = 0,
                   const Run& run = {});
 

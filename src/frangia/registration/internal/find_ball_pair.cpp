@@ -58,9 +58,9 @@ std::vector<std::size_t> points_on(std::span<const OrientedPoint> points,
 }
 
 /// The ball that holds most of the points `of`.
-std::optional<FoundBall> find_ball(std::span<const OrientedPoint> points,
-                                   const std::vector<std::size_t>& of,
-                                   double extent_mm) {
+std::optional<BarBall> find_ball(std::span<const OrientedPoint> points,
+                                 const std::vector<std::size_t>& of,
+                                 double extent_mm) {
   constexpr std::size_t kPairs = 4000;
   constexpr std::size_t kChunk = 100;
   constexpr std::size_t kProbes = 1000;  // points that score a hypothesis
@@ -96,7 +96,7 @@ std::optional<FoundBall> find_ball(std::span<const OrientedPoint> points,
       places.push_back(points[i].point_mm);
     sphere = fit_sphere(places);
   }
-  return FoundBall{sphere, std::move(on)};
+  return BarBall{sphere, std::move(on)};
 }
 
 }  // namespace
@@ -106,11 +106,11 @@ std::optional<BallPair> find_ball_pair(std::span<const OrientedPoint> points) {
   std::vector<std::size_t> left(points.size());
   for (std::size_t i = 0; i < left.size(); ++i)
     left[i] = i;
-  std::optional<FoundBall> first = find_ball(points, left, extent_mm);
+  std::optional<BarBall> first = find_ball(points, left, extent_mm);
   if (!first) return std::nullopt;
   constexpr double kNear = 0.1;  // of the radius: what is left of a ball is no second one
   std::erase_if(left, [&](std::size_t i) { return lies_on(points[i], first->sphere, kNear); });
-  std::optional<FoundBall> second = find_ball(points, left, extent_mm);
+  std::optional<BarBall> second = find_ball(points, left, extent_mm);
   if (!second) return std::nullopt;
   const double ratio = second->sphere.radius_mm / first->sphere.radius_mm;
   constexpr double kAlike = 0.1;  // the balls of a bar have one diameter

@@ -17,16 +17,16 @@ struct OrientedPoint {
   Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();
 };
 
-/// A ball and the points on it.
-struct FoundBall {
+/// One ball of a ball bar, and the points on it.
+struct BarBall {
   Sphere sphere;
   std::vector<std::size_t> points;  ///< indices
 };
 
 /// The two balls of a ball bar.
 struct BallPair {
-  FoundBall first;
-  FoundBall second;
+  BarBall first;
+  BarBall second;
 
   [[nodiscard]] double distance_mm() const {
     return (first.sphere.center_mm - second.sphere.center_mm).norm();

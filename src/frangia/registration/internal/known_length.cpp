@@ -46,7 +46,7 @@ KnownLength measure_known_length(const DriftBundle& bundle, const RefineRigOptio
                     pair->distance_mm(),
                     *options.ball_distance_mm));
   }
-  const auto mean_of = [&](const FoundBall& ball) {
+  const auto mean_of = [&](const BarBall& ball) {
     Eigen::Matrix3Xd mean = Eigen::Matrix3Xd::Zero(3, bundle.state.w.size());
     for (const std::size_t i : ball.points)
       mean += derivatives[i] / static_cast<double>(ball.points.size());

@@ -1,0 +1,126 @@
+"""What the checks of `./run lint quick` refuse and allow: lint_checks_test.py SOURCE_DIR"""
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+TOOLS = pathlib.Path(sys.argv.pop()) / "tools"
+MODULES = "frangia_module(core)\nfrangia_module(phase USES core\n  LIBS a PRIVATE_LIBS b)\n"
+
+
+class Tree(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.root = pathlib.Path(folder.name)
+        self.write("CMakeLists.txt", MODULES)
+        self.write("src/frangia/core/run.h", "#pragma once\n")
+        self.write("src/frangia/phase/wrap.cpp", '#include "frangia/core/run.h"\n')
+
+    def write(self, name, text):
+        path = self.root / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text)
+        return path
+
+    def answer(self, tool, *arguments):
+        done = subprocess.run([sys.executable, TOOLS / tool, *arguments], capture_output=True, text=True)
+        return done.returncode, done.stdout + done.stderr
+
+
+class Layers(Tree):
+    def check(self):
+        return self.answer("check_layers.py", self.root)
+
+    def test_allow_what_is_stated(self):
+        self.assertEqual(self.check()[0], 0)
+
+    def test_refuse_a_module_that_is_not_stated(self):
+        self.write("src/frangia/core/run.cpp", '#include "frangia/phase/wrap.h"\n')
+        code, text = self.check()
+        self.assertEqual(code, 1)
+        self.assertIn("run.cpp:1: core does not state that it uses phase", text)
+
+    def test_keep_an_internal_header_of_a_subfolder_below_that_subfolder(self):
+        self.write("src/frangia/phase/gray/deep/read.cpp", '#include "frangia/phase/gray/internal/lines.h"\n')
+        self.assertEqual(self.check()[0], 0)
+        self.write("src/frangia/phase/wrap/wrap.cpp", '#include "frangia/phase/gray/internal/lines.h"\n')
+        code, text = self.check()
+        self.assertEqual(code, 1)
+        self.assertIn("an internal header of phase/gray is included outside of phase/gray", text)
+
+    def test_allow_internal_headers_of_the_module_in_its_subfolders(self):
+        self.write("src/frangia/phase/gray/read.cpp", '#include "frangia/phase/internal/lines.h"\n')
+        self.assertEqual(self.check()[0], 0)
+
+    def test_refuse_internal_headers_in_programs_and_bindings(self):
+        for name in ("apps/frangia/main.cpp", "python/bindings/bind.cpp", "examples/own/main.cpp"):
+            path = self.write(name, '#include "frangia/phase/gray/internal/lines.h"\n')
+            code, text = self.check()
+            self.assertEqual(code, 1, name)
+            self.assertIn("public headers only", text)
+            path.unlink()
+
+
+class TypeNames(Tree):
+    def check(self, *texts):
+        files = [self.write(f"{number}.h", text) for number, text in enumerate(texts)]
+        return self.answer("check_type_names.py", *files)
+
+    def test_refuse_two_types_of_one_name_in_one_namespace(self):
+        code, text = self.check(
+            "namespace frangia {\nstruct Settings {\n  int a;\n};\n}",
+            "namespace frangia {\n\nclass [[nodiscard]] Settings final : public std::exception {};\n}",
+        )
+        self.assertEqual(code, 1)
+        self.assertRegex(text, r"frangia::Settings is defined in \S+0\.h:2 and \S+1\.h:3: rename one")
+
+    def test_refuse_two_enums_of_one_name(self):
+        one = "namespace a::b { enum class Side : int { left, right }; }"
+        self.assertEqual(self.check(one, one)[0], 1)
+
+    def test_allow_the_same_name_in_other_scopes(self):
+        code, text = self.check(
+            "namespace a { struct Limits { int x; }; }",
+            "namespace b { struct Limits { int x; }; }",
+            "namespace a { struct Fit { struct Limits { int x; }; }; }",
+            "namespace a { namespace { struct Limits { int x; }; } }",
+        )
+        self.assertEqual((code, text), (0, ""))
+
+    def test_allow_declarations_comments_and_specializations(self):
+        code, text = self.check(
+            "namespace a { struct Limits { char brace = '{'; const char* text = \"}{\"; }; }",
+            "namespace a { struct Limits; struct Limits* make(); // struct Limits {\n/* struct Limits { */ }",
+            "namespace a { template <> struct Limits<int> { int x; }; struct Limits variable() { return {}; } }",
+        )
+        self.assertEqual((code, text), (0, ""))
+
+
+class InternalHeaders(Tree):
+    def count(self):
+        return self.answer("count_internal_headers.py", self.root, "--list")[1]
+
+    def test_count_headers_with_fewer_than_two_users(self):
+        self.write("src/frangia/phase/internal/lines.h", "#pragma once\n")
+        use = '#include "frangia/phase/internal/lines.h"\n'
+        self.write("src/frangia/phase/internal/lines.cpp", use)  # its own source is no user
+        self.write("src/frangia/phase/gray.cpp", use)
+        self.assertIn("frangia/phase/internal/lines.h\n1 of 1 internal headers have fewer than two users", self.count())
+        self.write("tests/phase/lines_test.cpp", use)
+        self.assertEqual(self.count(), "0 of 1 internal headers have fewer than two users\n")
+
+
+class Length(Tree):
+    def test_refuse_a_file_above_400_lines(self):
+        fits, long = self.write("a.cpp", "\n" * 400), self.write("b.cpp", "\n" * 401)
+        self.assertEqual(self.answer("check_length.py", fits)[0], 0)
+        code, text = self.answer("check_length.py", fits, long)
+        self.assertEqual(code, 1)
+        self.assertIn("b.cpp (401)", text)
+        self.assertNotIn("a.cpp", text)
+
+
+if __name__ == "__main__":
+    unittest.main()
