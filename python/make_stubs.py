@@ -15,6 +15,7 @@ import sys
 
 sys.path.remove(str(pathlib.Path(__file__).resolve().parent))  # the sources, which have no modules beside them
 import frangia  # noqa: E402,F401  adds methods to Mesh
+from frangia._arguments import split_arguments  # noqa: E402
 
 FOLDER = pathlib.Path(__file__).parent / "frangia"
 
@@ -56,18 +57,6 @@ ARGUMENTS = {
     "values": "ArrayLike | None",
     "steps": "Iterable[str | tuple[str, object]]",
 }
-
-
-def split_arguments(text):
-    """The parts of a list between its outermost commas."""
-    parts, depth, begin = [], 0, 0
-    for i, character in enumerate(text):
-        depth += (character in "[(<{") - (character in "])>}")
-        if character == "," and depth == 0:
-            parts.append(text[begin:i].strip())
-            begin = i + 1
-    last = text[begin:].strip()
-    return parts + [last] if last else parts
 
 
 def type_of(text, returned=False):
@@ -174,6 +163,9 @@ def class_stub(kind):
             lines += [f"{indent}@property", f"{indent}def {name}(self) -> {'str' if name == 'name' else 'int'}: ..."]
     elif not issubclass(kind, Exception):
         for name, member in sorted(vars(kind).items()):
+            member = inspect.unwrap(getattr(member, "__func__", member))  # without the check of arguments
+            if getattr(member, "__module__", "") == "frangia._arguments":
+                continue
             if isinstance(member, property):
                 lines += property_stub(name, member, indent)
             elif inspect.isfunction(member):  # added in Python

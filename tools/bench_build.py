@@ -57,7 +57,9 @@ def main():
     for name, row in rows.items():
         row["limit_s"] = LIMITS_S.get(name, LIMIT_OF_CHANGE_S)
         limited = "processor" if name in LIMITS_S else "wall"
-        print(f"{name:32} {row['processor_s']:8.1f} s processor {row['wall_s']:8.1f} s wall; limit {row['limit_s']} s {limited}")
+        print(
+            f"{name:32} {row['processor_s']:8.1f} s processor {row['wall_s']:8.1f} s wall; limit {row['limit_s']} s {limited}"
+        )
     out = ROOT / "out/bench/build.json"
     out.parent.mkdir(parents=True, exist_ok=True)
     out.write_text(json.dumps(rows, indent=1) + "\n")

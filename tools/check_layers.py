@@ -7,16 +7,16 @@ import pathlib
 import re
 import sys
 
-from module_statements import module_statements
+from module_statement import module_uses
 
 root = pathlib.Path(sys.argv[1])
 errors = []
 uses = {}  # module -> the modules that it may include, in the order of CMakeLists.txt
-for statement in module_statements(root / "CMakeLists.txt"):
-    for used in statement.uses:
+for name, stated in module_uses(root).items():
+    for used in stated:
         if used not in uses:
-            errors.append(f"CMakeLists.txt: {statement.name} uses {used}, which is not stated before it")
-    uses[statement.name] = statement.uses
+            errors.append(f"CMakeLists.txt: {name} uses {used}, which is not stated before it")
+    uses[name] = stated
 
 
 def includes(path):

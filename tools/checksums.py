@@ -35,7 +35,9 @@ class Workshop:
 
     def run(self, *arguments):
         """The answer of --json; a scan that is not trustworthy has one, too."""
-        done = subprocess.run([self.program, "--json", *map(str, arguments)], cwd=self.folder, capture_output=True, text=True)
+        done = subprocess.run(
+            [self.program, "--json", *map(str, arguments)], cwd=self.folder, capture_output=True, text=True
+        )
         if done.returncode not in (0, 4, 5):
             sys.exit(f"{self.program} {' '.join(map(str, arguments))}: {done.stderr or done.stdout}")
         return json.loads(done.stdout)
@@ -71,6 +73,7 @@ class Workshop:
 
 def reduced(rig):
     """rig.toml with cameras of fewer pixels and the same field."""
+
     def table(match):
         def numbers(line):
             values = [float(value) for value in line[2].split(",")]
@@ -135,9 +138,22 @@ def two_setups(shop):
     shop.simulate("two-setups", "bracket", "digital", 4, "--setups", 90)
 
 
-SCANS = {scan.__name__.replace("_", "-"): scan
-         for scan in (digital, sheet, two_maps_sheet, gray, gray_alone, beats, both_directions, two_cameras, label,
-                      groove, two_setups)}
+SCANS = {
+    scan.__name__.replace("_", "-"): scan
+    for scan in (
+        digital,
+        sheet,
+        two_maps_sheet,
+        gray,
+        gray_alone,
+        beats,
+        both_directions,
+        two_cameras,
+        label,
+        groove,
+        two_setups,
+    )
+}
 
 
 def merge(shop):

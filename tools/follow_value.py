@@ -24,14 +24,48 @@ import sys
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 WAYS = {
-    "frames of a view to their phase": ("FrameStack", "decode_view",
-                                        ["wrap_phase", "merge_exposures", "decode_sequence", "decode_gray_code", "decode_gray_alone"]),
+    "frames of a view to their phase": (
+        "FrameStack",
+        "decode_view",
+        ["wrap_phase", "merge_exposures", "decode_sequence", "decode_gray_code", "decode_gray_alone"],
+    ),
     "a scan to its mesh": ("Scan|MeasuredViews|ViewStore", "reconstruct", ["fuse_views", "register_views"]),
     "an edit of a mesh": ("EditState", "apply_step", []),
 }
-CONTAINERS = {"size", "empty", "begin", "end", "front", "back", "at", "data", "clear", "resize", "push_back", "emplace_back",
-              "insert", "erase", "find", "count", "value", "reset", "get"}
-KEYWORDS = {"if", "for", "while", "switch", "return", "sizeof", "catch", "alignas", "decltype", "noexcept", "static_assert"}
+CONTAINERS = {
+    "size",
+    "empty",
+    "begin",
+    "end",
+    "front",
+    "back",
+    "at",
+    "data",
+    "clear",
+    "resize",
+    "push_back",
+    "emplace_back",
+    "insert",
+    "erase",
+    "find",
+    "count",
+    "value",
+    "reset",
+    "get",
+}
+KEYWORDS = {
+    "if",
+    "for",
+    "while",
+    "switch",
+    "return",
+    "sizeof",
+    "catch",
+    "alignas",
+    "decltype",
+    "noexcept",
+    "static_assert",
+}
 
 Function = collections.namedtuple("Function", "name owner signature body file module hidden")
 Struct = collections.namedtuple("Struct", "name body")
@@ -78,7 +112,7 @@ def parse(text, file, module, functions, structs, owner=None, hidden=False):
         if match[0] != "{":
             head = at
             continue
-        declaration = text[head:match.start()]
+        declaration = text[head : match.start()]
         end = closing(text, match.start())
         inner = text[at:end]
         if space := re.search(r"\bnamespace\b([\w:\s]*)$", declaration):
@@ -93,12 +127,12 @@ def parse(text, file, module, functions, structs, owner=None, hidden=False):
             if name and name not in KEYWORDS:
                 functions.append(Function(name, of or owner, declaration, inner, file, module, hidden))
                 # Members that a constructor initializes with braces come before its body.
-                rest = text[end + 1:]
+                rest = text[end + 1 :]
                 while more := re.match(r"\s*(?:,[^;{}]*)?\{", rest):
                     start = end + more.end()
                     end = closing(text, start)
                     functions[-1] = functions[-1]._replace(body=functions[-1].body + text[start:end])
-                    rest = text[end + 1:]
+                    rest = text[end + 1 :]
         at = head = end + 1
 
 
@@ -116,7 +150,9 @@ def holders_of(types, structs):
     holders = set(types)
     while True:
         named = re.compile(rf"\b(?:{'|'.join(map(re.escape, holders))})\b")
-        more = {one.name for one in structs if one.name not in holders and any(map(named.search, own_members(one.body)))}
+        more = {
+            one.name for one in structs if one.name not in holders and any(map(named.search, own_members(one.body)))
+        }
         if not more:
             return holders
         holders |= more
@@ -142,7 +178,9 @@ def way_of(types, begin, until, functions, structs):
         if id(function) in done or function.name in until:
             continue
         done.add(id(function))
-        for member, name in set(re.findall(r"(\.|->)?\b(\w+)\s*\(", function.signature.partition(")")[2] + function.body)):
+        for member, name in set(
+            re.findall(r"(\.|->)?\b(\w+)\s*\(", function.signature.partition(")")[2] + function.body)
+        ):
             if member and name in CONTAINERS:
                 continue
             named_so = [one for one in stays.get(name, []) if not member or one.owner]

@@ -17,7 +17,13 @@ def read_results(path):
     results = []
     for case in xml.etree.ElementTree.parse(path).getroot().iter("testcase"):
         skipped = case.find("skipped") is not None or case.get("status") in ("notrun", "disabled")
-        state = "failed" if case.find("failure") is not None or case.get("status") == "fail" else "skipped" if skipped else "passed"
+        state = (
+            "failed"
+            if case.find("failure") is not None or case.get("status") == "fail"
+            else "skipped"
+            if skipped
+            else "passed"
+        )
         results.append((case.get("name"), float(case.get("time") or 0.0), state))
     return results
 
@@ -29,7 +35,9 @@ def by_module(results):
         total = sums[name.split(".")[0]]
         total[0] += 1
         total[1] += seconds
-    return sorted(((module, count, seconds) for module, (count, seconds) in sums.items()), key=lambda row: (-row[2], row[0]))
+    return sorted(
+        ((module, count, seconds) for module, (count, seconds) in sums.items()), key=lambda row: (-row[2], row[0])
+    )
 
 
 def count(results):
@@ -62,8 +70,10 @@ def table(results):
 def write_page(page, results):
     text = page.read_text()
     if BEGIN not in text:
-        text += (f"\n## Time of the tests\n\nWall time of the tests of each module in the last whole `./run test`, one more at a time than there "
-                 f"are processors; the time of a test therefore counts what ran beside it.\n\n{BEGIN}\n{END}\n")
+        text += (
+            f"\n## Time of the tests\n\nWall time of the tests of each module in the last whole `./run test`, one more at a time than there "
+            f"are processors; the time of a test therefore counts what ran beside it.\n\n{BEGIN}\n{END}\n"
+        )
     temporary = page.with_suffix(".tmp")
     temporary.write_text(text.split(BEGIN)[0] + BEGIN + table(results) + END + text.split(END)[1])
     os.replace(temporary, page)

@@ -17,6 +17,7 @@
 #include "frangia/phase/read_algorithm.h"
 
 #include "bindings.h"
+#include "phase_arrays.h"
 
 namespace frangia::python {
 namespace {
@@ -114,7 +115,7 @@ void bind_patterns(py::module_& module) {
              py::arg("gain_error") = 0.0,
              "A published algorithm for these nominal shifts, radians.");
   module.def("least_squares",
-             &least_squares,
+             &least_squares_of,
              py::arg("shifts_rad"),
              "The least-squares algorithm for arbitrary shifts, radians (Greivenkamp 1984).");
   py::class_<LinearAlgorithm>(module, "LinearAlgorithm", "An algorithm of yours and its frames.")

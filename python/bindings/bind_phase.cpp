@@ -53,9 +53,36 @@ WrappedPhase wrap(const FrameStack& stack,
                   const std::optional<PhaseAlgorithm>& algorithm,
                   const std::optional<NoiseModel>& noise,
                   float max_sigma_rad) {
-  const PhaseAlgorithm& chosen = algorithm ? *algorithm : least_squares(stack.pattern.shifts_rad);
+  const PhaseAlgorithm& chosen =
+      algorithm ? *algorithm : least_squares_of(stack.pattern.shifts_rad);
   const NoiseModel model = noise ? *noise : estimate_noise({&stack, 1});
   return wrap_phase(stack, chosen, model, {.max_sigma_rad = max_sigma_rad});
+}
+
+/// Frames of sinusoidal fringes that differ in their shifts alone.
+WrappedPhase wrap_frames(const py::object& frames,
+                         const std::vector<double>& shifts_rad,
+                         double period_px,
+                         int white_level,
+                         const std::optional<PhaseAlgorithm>& algorithm,
+                         const std::optional<NoiseModel>& noise,
+                         float max_sigma_rad) {
+  Pattern pattern;
+  pattern.name = "fringes";
+  pattern.period_px = period_px;
+  pattern.shifts_rad = shifts_rad;
+  const FrameStack stack = stack_of(frames, std::move(pattern), white_level);
+  const py::gil_scoped_release release;
+  return wrap(stack, algorithm, noise, max_sigma_rad);
+}
+
+/// A map without a period has a phase, but no place on the projector.
+void require_period(const Pattern& pattern, const char* what) {
+  if (pattern.period_px > 0.0 || pattern.fringes_per_degree > 0.0) return;
+  throw Error(ErrorKind::Input,
+              fmt::format("{} has no period; give it with the frames, as in wrap_phase(frames, "
+                          "shifts_rad, period_px=20), or a Pattern with the phase",
+                          what));
 }
 
 SpatialMethod method_of(const std::string& name) {
@@ -81,8 +108,10 @@ Projector screen_of(int width_px, int height_px) {
 AbsolutePhase unwrap_maps(const std::vector<WrappedPhase>& maps, const Projector& projector) {
   if (maps.empty()) throw Error(ErrorKind::Input, "there are no maps to unwrap");
   std::vector<Pattern> patterns;
-  for (const WrappedPhase& map : maps)
+  for (const WrappedPhase& map : maps) {
+    require_period(map.pattern, "a map");
     patterns.push_back(map.pattern);
+  }
   const OrderSource orders = plan_maps(patterns, projector, WrapOptions{}.max_sigma_rad);
   if (std::holds_alternative<FromCoarserMaps>(orders)) return unwrap_temporally(maps, projector);
   if (const auto* slope = std::get_if<FromSlope>(&orders))
@@ -188,6 +217,19 @@ void bind_phase(py::module_& module) {
       Release(),
       "Phase, modulation, mean and noise of each pixel. Without an algorithm: least squares; "
       "without a noise model: estimated from the frames.");
+  module.def("wrap_phase",
+             &wrap_frames,
+             py::arg("frames"),
+             py::arg("shifts_rad"),
+             py::kw_only(),
+             py::arg("period_px") = 0.0,
+             py::arg("white_level") = 0,
+             py::arg("algorithm") = py::none(),
+             py::arg("noise") = py::none(),
+             py::arg("max_sigma_rad") = 0.1F,
+             "The same for an array of uint8 or uint16, frames x height x width, or a list of "
+             "images, one for each shift in radians. unwrap_temporal needs the period, in "
+             "projector pixels. A white level of 0 is the largest value of the type.");
   module.def(
       "unwrap_spatial",
       [](WrappedPhase map, const std::string& method) {
@@ -223,6 +265,7 @@ void bind_phase(py::module_& module) {
       [](const FrameStack& gray,
          const WrappedPhase& fringes,
          const std::optional<NoiseModel>& noise) {
+        require_period(fringes.pattern, "the map of the fringes");
         return decode_gray_code({&gray, 1}, fringes, noise ? *noise : estimate_noise({&gray, 1}));
       },
       py::arg("gray"),
@@ -233,6 +276,7 @@ void bind_phase(py::module_& module) {
   module.def(
       "triangulate",
       [](AbsolutePhase phase, const Rig& rig) {
+        require_period(phase.pattern, "the phase");
         return triangulate(phase, rig, rays_of(rig.camera.model));
       },
       py::arg("phase"),

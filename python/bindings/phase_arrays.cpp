@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "frangia/core/angles.h"
 #include "frangia/core/missing.h"
 
 #include "arrays.h"
@@ -68,7 +69,8 @@ Frame frame_of(const py::handle& values) {
     return image_of<std::uint16_t>(array, "a frame");
   PyErr_Clear();
   throw Error(ErrorKind::Input,
-              fmt::format("a frame is an array of {}; give uint8 or uint16 counts",
+              fmt::format("a frame is an array of {}; give uint8 or uint16 counts, such as "
+                          "frames.round().astype(numpy.uint16)",
                           array ? py::str(array.dtype()).cast<std::string>() : "objects"));
 }
 
@@ -76,6 +78,8 @@ Frame frame_of(const py::handle& values) {
 
 FrameStack stack_of(const py::object& frames, Pattern pattern, int white_level) {
   FrameStack stack;
+  if (!py::isinstance<py::iterable>(frames))
+    throw Error(ErrorKind::Input, "frames is no list of arrays; give one array for each shift");
   for (const py::handle frame : frames)
     stack.frames.push_back(frame_of(frame));
   if (stack.frames.size() != static_cast<std::size_t>(pattern.frame_count())) {
@@ -94,6 +98,25 @@ FrameStack stack_of(const py::object& frames, Pattern pattern, int white_level) 
   stack.white_level = white_level > 0 ? white_level : is_wide ? 65535 : 255;
   stack.pattern = std::move(pattern);
   return stack;
+}
+
+PhaseAlgorithm least_squares_of(const std::vector<double>& shifts_rad) {
+  constexpr double kSameTurn = 1e-6;  // of a turn: shifts from a file have six digits
+  std::vector<double> turns;          // the shifts that differ, by the angle between their fringes
+  for (const double shift : shifts_rad) {
+    const bool is_new = std::none_of(turns.begin(), turns.end(), [&](double other) {
+      return std::abs(std::remainder(shift - other, kTwoPi)) < kSameTurn * kTwoPi;
+    });
+    if (is_new) turns.push_back(shift);
+  }
+  if (turns.size() < 3) {
+    throw Error(ErrorKind::Input,
+                fmt::format("{} shifts, of which {} differ, do not determine a phase; give three "
+                            "or more in radians, such as [0, pi / 2, pi, 3 * pi / 2]",
+                            shifts_rad.size(),
+                            turns.size()));
+  }
+  return least_squares(shifts_rad);
 }
 
 WrappedPhase wrapped_of(const py::object& phase,

@@ -11,9 +11,8 @@ are views of the library's memory where that is possible; copy an array before y
 
 Each stage works on plain arrays, without a scan folder:
 
-    pattern = frangia.Pattern.fringes([0, pi / 2, pi, 3 * pi / 2], period_px=20)
-    stack = frangia.FrameStack(frames, pattern)             # frames: four arrays of uint8 or uint16
-    wrapped = frangia.wrap_phase(stack)                     # wrapped.phase, .sigma, .modulation
+    shifts_rad = [0, pi / 2, pi, 3 * pi / 2]                # frames: 4 x height x width, uint8 or uint16
+    wrapped = frangia.wrap_phase(frames, shifts_rad)        # wrapped.phase, .sigma, .modulation
     relative = frangia.unwrap_spatial(wrapped, "reliability-sorted")
 
 Rigs are calibrated and captured with:
@@ -32,19 +31,30 @@ Notes and warnings go to the logger "frangia". Long work stops at Ctrl-C. `progr
 of the share that is done and the name of the stage, for example `frangia.progress_bar()`.
 
 Errors are `frangia.Error`: InputError (also a ValueError), FileError (OSError), DeviceError
-(RuntimeError) and NumericError (ArithmeticError). Their text says what to do.
+(RuntimeError) and NumericError (ArithmeticError). ArgumentError (InputError and TypeError) is a call
+with arguments of other types. Their text says what to do.
 """
 
 from typing import TYPE_CHECKING as _TYPE_CHECKING
 
+try:
+    import numpy as _numpy  # noqa: F401
+    from . import _frangia
+except ImportError as _error:
+    from ._interpreter import explained as _explained
+
+    raise _explained(_error) from None
 from ._frangia import *  # noqa: F401,F403
 from ._frangia import __version__  # noqa: F401
+from ._arguments import ArgumentError, checked_members as _checked_members  # noqa: F401
 from ._convert import from_meshio, from_open3d, from_trimesh, to_meshio, to_open3d, to_trimesh  # noqa: F401
 from ._progress import progress_bar  # noqa: F401
 from . import _notebook  # noqa: F401  adds Mesh.show
 
 if _TYPE_CHECKING:
     from ._acquisition import Calibration, CalibrationView, CaptureReport, calibrate, capture  # noqa: F401
+
+globals().update(_checked_members(_frangia))
 
 _LATER = ("Calibration", "CalibrationView", "CaptureReport", "calibrate", "capture")
 
@@ -57,7 +67,9 @@ def __getattr__(name: str) -> object:
         from . import _acquisition
     except ImportError as error:
         raise ImportError(f"frangia.{name} is not available: {error}") from error
-    return getattr(_acquisition, name)
+    members = {**vars(_acquisition), **_checked_members(_acquisition)}
+    globals().update({later: members[later] for later in _LATER})
+    return globals()[name]
 
 
 def __dir__() -> list[str]:

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy
 
+from ._arguments import need, need_members
 from ._frangia import InputError, Mesh
 
 if TYPE_CHECKING:
@@ -16,6 +17,7 @@ if TYPE_CHECKING:
 
 def to_trimesh(mesh: Mesh) -> trimesh.Trimesh:
     """A trimesh.Trimesh with the uncertainty of each vertex as `vertex_attributes["sigma_mm"]`."""
+    need("frangia.to_trimesh", "mesh", mesh, "Mesh")
     import trimesh
 
     colors = mesh.colors if len(mesh.colors) else None
@@ -27,11 +29,13 @@ def to_trimesh(mesh: Mesh) -> trimesh.Trimesh:
 
 def from_trimesh(mesh: trimesh.Trimesh) -> Mesh:
     """A Mesh with the vertices and faces of a trimesh.Trimesh, in millimetres."""
+    need_members("frangia.from_trimesh", "mesh", mesh, "trimesh.Trimesh", "vertices", "faces")
     return Mesh(mesh.vertices, mesh.faces)
 
 
 def to_open3d(mesh: Mesh) -> open3d.geometry.TriangleMesh:
     """An open3d.geometry.TriangleMesh."""
+    need("frangia.to_open3d", "mesh", mesh, "Mesh")
     import open3d
 
     out = open3d.geometry.TriangleMesh(
@@ -47,6 +51,7 @@ def to_open3d(mesh: Mesh) -> open3d.geometry.TriangleMesh:
 
 def to_meshio(mesh: Mesh) -> meshio.Mesh:
     """A meshio.Mesh with sigma_mm and views as point data."""
+    need("frangia.to_meshio", "mesh", mesh, "Mesh")
     import meshio
 
     data: dict[str, Any] = {}
@@ -59,11 +64,13 @@ def to_meshio(mesh: Mesh) -> meshio.Mesh:
 
 def from_open3d(mesh: open3d.geometry.TriangleMesh) -> Mesh:
     """A Mesh with the vertices and triangles of an open3d.geometry.TriangleMesh, in millimetres."""
+    need_members("frangia.from_open3d", "mesh", mesh, "open3d.geometry.TriangleMesh", "vertices", "triangles")
     return Mesh(numpy.asarray(mesh.vertices), numpy.asarray(mesh.triangles))
 
 
 def from_meshio(mesh: meshio.Mesh) -> Mesh:
     """A Mesh with the points and the triangles of a meshio.Mesh, in millimetres."""
+    need_members("frangia.from_meshio", "mesh", mesh, "meshio.Mesh", "points", "cells")
     triangles = [block.data for block in mesh.cells if block.type == "triangle"]
     if not triangles:
         kinds = ", ".join(sorted({block.type for block in mesh.cells})) or "none"

@@ -581,8 +581,13 @@ def unwrap_temporal(maps: Iterable[WrappedPhase], projector_px: tuple[int, int])
     """The same for a projector of which only its width and height in pixels are known."""
     ...
 
+@overload
 def wrap_phase(stack: FrameStack, *, algorithm: PhaseAlgorithm | None = None, noise: NoiseModel | None = None, max_sigma_rad: float = 0.10000000149011612) -> WrappedPhase:
     """Phase, modulation, mean and noise of each pixel. Without an algorithm: least squares; without a noise model: estimated from the frames."""
+    ...
+@overload
+def wrap_phase(frames: Iterable[ArrayLike], shifts_rad: Iterable[float], *, period_px: float = 0.0, white_level: int = 0, algorithm: PhaseAlgorithm | None = None, noise: NoiseModel | None = None, max_sigma_rad: float = 0.10000000149011612) -> WrappedPhase:
+    """The same for an array of uint8 or uint16, frames x height x width, or a list of images, one for each shift in radians. unwrap_temporal needs the period, in projector pixels. A white level of 0 is the largest value of the type."""
     ...
 
 def write_mesh(path: str | os.PathLike[str], mesh: Mesh) -> None:

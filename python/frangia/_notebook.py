@@ -7,6 +7,7 @@ import struct
 import zlib
 from typing import TYPE_CHECKING, Any
 
+from ._arguments import ArgumentError
 from ._frangia import Mesh
 
 if TYPE_CHECKING:
@@ -47,6 +48,10 @@ def show(self: Mesh, **options: Any) -> Picture:
     """A picture of the mesh for a notebook; options as `render`. values="sigma_mm" colours by it."""
     values = options.get("values")
     if isinstance(values, str):
+        if not hasattr(self, values):
+            raise ArgumentError(
+                f'frangia.Mesh.show: the mesh has no values "{values}"; give sigma_mm, or one per vertex'
+            )
         options["label"] = options.get("label", values.replace("_mm", ", mm"))
         options["values"] = getattr(self, values)
     return Picture(self.render(**options))

@@ -27,10 +27,10 @@ NAME = "scanner.example"
 
 
 def block_with(word):
-    """The indented block of the page that holds a word."""
-    for block in re.findall(r"(?:^    .*\n|^\n(?=    ))+", PAGE, re.MULTILINE):
+    """The block of the page that holds a word."""
+    for block in re.findall(r"^```\w+\n(.*?)^```$", PAGE, re.MULTILINE | re.DOTALL):
         if re.search(rf"\b{word}\b", block):
-            return re.sub(r"^    ", "", block, flags=re.MULTILINE)
+            return block
     raise AssertionError(f"the page shows no {word}")
 
 

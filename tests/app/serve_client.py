@@ -103,15 +103,27 @@ class Server:
 
     def coarsen_camera(self, name, factor=2, projects=None):
         """Makes the camera of a project's simulated rig coarser, so that a test renders and decodes less, and opens it again."""
+
         def scaled(match):
-            change = {"size_px": lambda x: int(x / factor), "focal_px": lambda x: x / factor,
-                      "principal_point_px": lambda x: (x + 0.5) / factor - 0.5}[match[1]]
+            change = {
+                "size_px": lambda x: int(x / factor),
+                "focal_px": lambda x: x / factor,
+                "principal_point_px": lambda x: (x + 0.5) / factor - 0.5,
+            }[match[1]]
             return f"{match[1]} = [{', '.join(str(change(float(number))) for number in match[2].split(','))}]"
 
         for file in ("rig.toml", "true-rig.toml"):
             path = (projects or self.projects) / name / file
             if path.exists():  # the camera comes first, before the projector
-                path.write_text(re.sub(r"^(size_px|focal_px|principal_point_px) = \[(.*)\]$", scaled, path.read_text(), count=3, flags=re.M))
+                path.write_text(
+                    re.sub(
+                        r"^(size_px|focal_px|principal_point_px) = \[(.*)\]$",
+                        scaled,
+                        path.read_text(),
+                        count=3,
+                        flags=re.M,
+                    )
+                )
         self.command("open-project", name=name)
         self.wait()
 

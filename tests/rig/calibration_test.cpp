@@ -77,6 +77,12 @@ TEST(Calibration, OfAWrittenRigIsReadBack) {
   std::filesystem::remove(folder.path() / "rig-covariance.csv");
   const std::string missing = testing::error_of([&] { static_cast<void>(read_rig(path)); });
   EXPECT_NE(missing.find("rig-covariance.csv"), std::string::npos) << missing;
+
+  rig.calibration->covariance_file.clear();
+  write_rig(folder.path() / "found.toml", rig);
+  const Rig named = read_rig(folder.path() / "found.toml");
+  EXPECT_EQ(named.calibration->covariance_file, "found-covariance.csv");
+  EXPECT_EQ(named.calibration->covariance.covariance, rig.calibration->covariance.covariance);
 }
 
 TEST(WriteRig, CarriesTheDevicesOfAnotherFileOver) {

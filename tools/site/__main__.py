@@ -60,7 +60,13 @@ NAV = {
         "Coverage": "docs/coverage.md",
         "Decisions": "docs/decisions.md",
     },
-    "Project": {"Contributing": "CONTRIBUTING.md", "Changelog": "CHANGELOG.md"},
+    "Project": {
+        "Map of the code": "docs/map.md",
+        "How to change it": "docs/how-to-change.md",
+        "Contributing": "CONTRIBUTING.md",
+        "Security": "SECURITY.md",
+        "Changelog": "CHANGELOG.md",
+    },
 }
 NOT_PAGES = {"api.md"}  # the first page of Doxygen's reference
 
@@ -108,7 +114,7 @@ def copy_page(page, pages):
 
     text = LINK.sub(relinked, (SOURCE / page).read_text())
     text = re.sub(r"(?<!!)\[([^\]]*)\]\(\)", r"\1", text)
-    out.write_text(re.sub(r"^<!--.*?-->\n", "", text, flags=re.MULTILINE))
+    out.write_text(re.sub(r"^<!--.*?-->\n", "", text, flags=re.MULTILINE | re.DOTALL))
 
 
 def write_pages(program, pages, has_api):
@@ -186,8 +192,9 @@ def build(program, out, api=None):
         done = subprocess.run(
             ["mkdocs", "build", "--strict", "--clean", "-f", stage / "mkdocs.yml"], stderr=subprocess.PIPE, text=True
         )
+        said = re.sub(r"\x1b\[[0-9;]*m", "", done.stderr)  # MkDocs colours its words
         sys.stderr.writelines(
-            line for line in done.stderr.splitlines(keepends=True) if line.startswith(("WARNING", "ERROR", "Aborted"))
+            line for line in said.splitlines(keepends=True) if line.startswith(("WARNING", "ERROR", "Aborted"))
         )
         done.check_returncode()
     if api:

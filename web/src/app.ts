@@ -172,7 +172,8 @@ export class App extends LitElement {
     this.setups.forget();
     const created = this.projects.takeCreated();
     if (!state.project) this.go('project');
-    else if (state.project.surface || state.project.surface_loading || state.project.versions.length > 0) this.go('surface');
+    else if (state.project.surface || state.project.surface_loading || state.project.versions.length > 0)
+      this.go('surface');
     else this.go(created || (!state.project.can_scan && !state.project.scan_complete) ? 'rig' : 'scan');
     this.viewer.frame([0.9, -1.1, 0.6]);
   }

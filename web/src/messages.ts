@@ -32,12 +32,18 @@ export function t(key: MessageKey, values: Record<string, string | number> = {})
 }
 
 /** A text with a number in it, which has a row of its own for one. */
-export const count = (key: 'surface.edits' | 'surface.replay', many: number, values: Record<string, string | number> = {}): string =>
-  t(many === 1 ? `${key}One` : key, { ...values, count: number(many) });
+export const count = (
+  key: 'surface.edits' | 'surface.replay',
+  many: number,
+  values: Record<string, string | number> = {},
+): string => t(many === 1 ? `${key}One` : key, { ...values, count: number(many) });
 
 /** A time as the language writes it, to the minute. */
 export const moment = (seconds: number): string =>
-  new Date(1000 * seconds).toLocaleString(language === 'de' ? 'de-DE' : 'en-GB', { dateStyle: 'medium', timeStyle: 'short' });
+  new Date(1000 * seconds).toLocaleString(language === 'de' ? 'de-DE' : 'en-GB', {
+    dateStyle: 'medium',
+    timeStyle: 'short',
+  });
 
 /** The name of a stage of a job; one that the catalogue lacks stays as the server names it. */
 export const stageName = (stage: string): string =>

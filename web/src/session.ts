@@ -11,7 +11,8 @@ const ATTEMPTS = 6;
 const pause = (milliseconds: number): Promise<void> => new Promise((resolve) => setTimeout(resolve, milliseconds));
 
 /** An id that no other command has. Pages without TLS have no `crypto.randomUUID`. */
-const newId = (): string => Array.from(crypto.getRandomValues(new Uint8Array(16)), (byte) => byte.toString(16).padStart(2, '0')).join('');
+const newId = (): string =>
+  Array.from(crypto.getRandomValues(new Uint8Array(16)), (byte) => byte.toString(16).padStart(2, '0')).join('');
 
 export type Layer = 'none' | 'camera' | 'phase' | 'modulation' | 'status' | 'depth' | 'points';
 

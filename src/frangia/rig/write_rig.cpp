@@ -195,12 +195,14 @@ void write_rig(const std::filesystem::path& path,
                Durability durability,
                const std::filesystem::path& devices_from) {
   const std::string devices = devices_from.empty() ? "" : devices_of(devices_from);
+  Rig named = rig;
   if (rig.calibration && !rig.calibration->covariance.empty()) {
-    write_rig_covariance(path.parent_path() / rig.calibration->covariance_file,
-                         rig.calibration->covariance);
+    std::string& name = named.calibration->covariance_file;
+    if (name.empty()) name = path.stem().string() + "-covariance.csv";
+    write_rig_covariance(path.parent_path() / name, rig.calibration->covariance);
   }
   AtomicFile file(path, durability);
-  file.stream() << rig_text(rig) << devices;
+  file.stream() << rig_text(named) << devices;
   file.commit();
 }
 

@@ -17,7 +17,8 @@ namespace frangia {
 [[nodiscard]] std::string with_response(const std::string& rig_toml, const Projector& projector);
 
 /// Writes `rig_text` to a file, and the covariance of the parameters, where it is known, to the CSV
-/// file that the text names, in the same folder. The `[devices]` tables of the rig.toml
+/// file that the calibration names, in the same folder; a file without a name is
+/// NAME-covariance.csv for NAME.toml. The `[devices]` tables of the rig.toml
 /// `devices_from` are copied, if it is given.
 ///
 /// @errors   Error(File) when the file cannot be written; Error(Input) when `devices_from` cannot

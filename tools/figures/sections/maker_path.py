@@ -48,8 +48,7 @@ def report(text, results):
     text.add(
         "The commands of [calibration.md](calibration.md), on [examples/simulated-maker.toml](../examples/simulated-maker.toml), with Enter for each pose:\n"
     )
-    for command in COMMANDS.splitlines():
-        text.add(f"    {command}")
+    text.add(f"```text\n{COMMANDS}\n```")
     text.add()
     text.table("", "measured", "true")
     text.row("spacing of the balls, mm", f"{spacing:.4f}", "70")

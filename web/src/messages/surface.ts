@@ -13,7 +13,10 @@ export const SURFACE = {
   'surface.show': ['Show', 'Zeigen'],
   'surface.shown': ['Shown', 'Gezeigt'],
   'surface.showVersion': ['Show surface {number}', 'Fläche {number} zeigen'],
-  'surface.replay': ['Replay the {count} edits of surface {version}', 'Die {count} Schritte der Fläche {version} wiederholen'],
+  'surface.replay': [
+    'Replay the {count} edits of surface {version}',
+    'Die {count} Schritte der Fläche {version} wiederholen',
+  ],
   'surface.replayOne': ['Replay the edit of surface {version}', 'Den Schritt der Fläche {version} wiederholen'],
   'surface.loading': ['The surface is being read.', 'Die Fläche wird gelesen.'],
   'surface.none': [

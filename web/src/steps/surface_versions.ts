@@ -9,7 +9,12 @@ function replaying(app: App): TemplateResult | string {
   const present = all.find(({ number }) => number === current);
   const before = all.find(({ number }) => number === present?.previous);
   if (!present || !before || present.steps > 0 || before.steps_done === 0) return '';
-  return html`<button class="btn wide" id="replay" ?disabled=${app.busy} @click=${() => app.command('replay-edits', { version: before.number })}>
+  return html`<button
+    class="btn wide"
+    id="replay"
+    ?disabled=${app.busy}
+    @click=${() => app.command('replay-edits', { version: before.number })}
+  >
     ${count('surface.replay', before.steps_done, { version: before.number })}
   </button>`;
 }
@@ -18,12 +23,19 @@ function replaying(app: App): TemplateResult | string {
 export function versions(app: App): TemplateResult | string {
   const { versions: all, current_version: current } = app.project;
   if (all.length < 2) return '';
-  const row = (version: Version): TemplateResult => html`<div class="file" data-version=${version.number}>
-    <b>${t('surface.version', { number: version.number })}</b>
-    <span class="num quiet">${moment(version.built_s)} · ${count('surface.edits', version.steps_done)}</span>
-    <button class="btn small" aria-label=${t('surface.showVersion', { number: version.number })} ?disabled=${app.busy || version.number === current}
-      @click=${() => app.command('open-version', { version: version.number })}>${t(version.number === current ? 'surface.shown' : 'surface.show')}</button>
-  </div>`;
+  const row = (version: Version): TemplateResult =>
+    html`<div class="file" data-version=${version.number}>
+      <b>${t('surface.version', { number: version.number })}</b>
+      <span class="num quiet">${moment(version.built_s)} · ${count('surface.edits', version.steps_done)}</span>
+      <button
+        class="btn small"
+        aria-label=${t('surface.showVersion', { number: version.number })}
+        ?disabled=${app.busy || version.number === current}
+        @click=${() => app.command('open-version', { version: version.number })}
+      >
+        ${t(version.number === current ? 'surface.shown' : 'surface.show')}
+      </button>
+    </div>`;
   return html`<section class="group" id="versions">
     <h2>${t('surface.versions')}</h2>
     ${replaying(app)}
