@@ -10,12 +10,12 @@
 namespace frangia {
 namespace {
 
-const Eigen::Vector2d kPoint(40.3, 30.8);
+const Eigen::Vector2d kFitted_px(40.3, 30.8);
 
 /// A quadratic phase about the point.
 double quadratic(double x, double y) {
-  const double u = x - kPoint.x();
-  const double v = y - kPoint.y();
+  const double u = x - kFitted_px.x();
+  const double v = y - kFitted_px.y();
   return 50.0 + 0.3 * u - 0.1 * v + 0.002 * u * u - 0.003 * u * v + 0.001 * v * v;
 }
 
@@ -31,7 +31,7 @@ Image<float> phase_image(double noise_rad) {
 }
 
 TEST(FitPhaseAt, IsTheValueAndTheGradientOfAQuadratic) {
-  const PhaseAt found = fit_phase_at(phase_image(0.0), Image<float>(81, 61, 0.01F), kPoint);
+  const PhaseAt found = fit_phase_at(phase_image(0.0), Image<float>(81, 61, 0.01F), kFitted_px);
   EXPECT_NEAR(found.phase_rad, 50.0, 1e-4);
   EXPECT_NEAR(found.gradient_rad_per_px.x(), 0.3, 1e-4);
   EXPECT_NEAR(found.gradient_rad_per_px.y(), -0.1, 1e-4);
@@ -62,9 +62,9 @@ TEST(FitPhaseAt, StatesTheSigmaOfAFitToAllPixelsOfItsWindow) {
 
 TEST(FitPhaseAt, ScalesSigmaToResidualsAboveTheStatedNoise) {
   const Image<float> noisy = phase_image(0.05);
-  const double stated = fit_phase_at(noisy, Image<float>(81, 61, 0.05F), kPoint).sigma_rad;
-  const double low = fit_phase_at(noisy, Image<float>(81, 61, 0.01F), kPoint).sigma_rad;
-  const double high = fit_phase_at(noisy, Image<float>(81, 61, 0.2F), kPoint).sigma_rad;
+  const double stated = fit_phase_at(noisy, Image<float>(81, 61, 0.05F), kFitted_px).sigma_rad;
+  const double low = fit_phase_at(noisy, Image<float>(81, 61, 0.01F), kFitted_px).sigma_rad;
+  const double high = fit_phase_at(noisy, Image<float>(81, 61, 0.2F), kFitted_px).sigma_rad;
   EXPECT_NEAR(low / stated, 1.0, 0.15);
   EXPECT_NEAR(high / stated, 4.0, 0.4);
 }
@@ -79,7 +79,7 @@ TEST(FitPhaseAt, WeighsPixelsByTheirVariance) {
       sigma(x, y) = 0.5F;
     }
   }
-  EXPECT_NEAR(fit_phase_at(phase, sigma, kPoint).phase_rad, 50.0, 0.002);
+  EXPECT_NEAR(fit_phase_at(phase, sigma, kFitted_px).phase_rad, 50.0, 0.002);
 }
 
 TEST(FitPhaseAt, IgnoresAnotherSurfaceAtTheBorderOfTheWindow) {
@@ -88,7 +88,7 @@ TEST(FitPhaseAt, IgnoresAnotherSurfaceAtTheBorderOfTheWindow) {
     for (int x = 51; x < 81; ++x)
       phase(x, y) += 6.0F;
   }
-  const PhaseAt found = fit_phase_at(phase, Image<float>(81, 61, 0.02F), kPoint);
+  const PhaseAt found = fit_phase_at(phase, Image<float>(81, 61, 0.02F), kFitted_px);
   EXPECT_NEAR(found.phase_rad, 50.0, 4.0 * found.sigma_rad);
   EXPECT_LT(found.sigma_rad, 0.004);
 }
@@ -100,11 +100,11 @@ TEST(FitPhaseAt, NeedsEnoughMeasuredPixels) {
   const auto measured = [&](int count) {
     for (int i = 0; i < count; ++i)
       phase(36 + i % 6, 28 + i / 6) = full(36 + i % 6, 28 + i / 6);
-    return !std::isnan(fit_phase_at(phase, sigma, kPoint).phase_rad);
+    return !std::isnan(fit_phase_at(phase, sigma, kFitted_px).phase_rad);
   };
   EXPECT_FALSE(measured(29));
   EXPECT_TRUE(measured(42));
-  EXPECT_TRUE(std::isnan(fit_phase_at(full, Image<float>(81, 61, 0.0F), kPoint).phase_rad));
+  EXPECT_TRUE(std::isnan(fit_phase_at(full, Image<float>(81, 61, 0.0F), kFitted_px).phase_rad));
   EXPECT_TRUE(std::isnan(fit_phase_at(full, sigma, {-40.0, 30.0}).phase_rad));
   EXPECT_NEAR(fit_phase_at(full, sigma, {2.0, 1.0}).phase_rad, quadratic(2.0, 1.0), 1e-3)
       << "at the corner of the image";

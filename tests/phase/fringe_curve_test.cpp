@@ -12,7 +12,7 @@
 namespace frangia {
 namespace {
 
-struct Maps {
+struct FringeMaps {
   std::vector<double> per_unit;
   double first;
   double last;
@@ -39,8 +39,8 @@ struct Maps {
 };
 
 TEST(FringeCurve, FindsThePlaceOfExactPhases) {
-  for (const Maps& maps :
-       {Maps{{0.01, 0.08, 0.64}, -0.5, 99.5}, Maps{{0.53, 0.64, 0.58}, -3.0, 6.0}}) {
+  for (const FringeMaps& maps :
+       {FringeMaps{{0.01, 0.08, 0.64}, -0.5, 99.5}, FringeMaps{{0.53, 0.64, 0.58}, -3.0, 6.0}}) {
     FringeCurve curve(maps.per_unit, maps.first, maps.last);
     for (int i = 0; i <= 40; ++i) {
       const double place = maps.first + (maps.last - maps.first) * (0.01 + 0.98 * i / 40.0);
@@ -52,7 +52,7 @@ TEST(FringeCurve, FindsThePlaceOfExactPhases) {
 }
 
 TEST(FringeCurve, FindsTheNearestPlaceOfPhasesThatDoNotBelongTogether) {
-  const Maps maps{{0.01, 0.05, 0.13}, 0.0, 100.0};
+  const FringeMaps maps{{0.01, 0.05, 0.13}, 0.0, 100.0};
   FringeCurve curve(maps.per_unit, maps.first, maps.last);
   for (std::uint64_t i = 0; i < 20; ++i) {
     std::vector<float> phases;

@@ -60,6 +60,9 @@ for text in [
     "using A = B<3>;",
     "p->x;",
     "Vector3d v2;",
+    "constexpr std::size_t kVerticesPerChunk = 4096;",
+    "parts((mesh.triangles.size() + kChunk - 1) / kChunk);",
+    "parallel_chunks(rows.size(), 64, work);",
     "i++;",
     "const auto f = [&](int x) {};",
 ]:

@@ -44,6 +44,7 @@ struct Options {
   double harmonic_rad = 0.0;  ///< amplitude of an error of four periods in a fringe
   double period_px = 40.0;
   double turned_rad = 0.0;  ///< of the second camera against the rig
+  bool bead = false;        ///< a bead hangs in front of the ball
 };
 
 /// A ball in front of two cameras and a projector, with phases computed from its surface.
@@ -52,6 +53,7 @@ struct TwoCameras {
       : options(given),
         center_mm(given.scale * Eigen::Vector3d(0.0, 0.0, 500.0)),
         radius_mm(40.0 * given.scale) {
+    if (options.bead) bead_radius_mm = 4.0 * given.scale;
     const double s = options.scale;
     rig.camera.model = {.width_px = 160,
                         .height_px = 128,
@@ -108,14 +110,34 @@ struct TwoCameras {
     alone = ranges;
   }
 
-  /// The depth of the ball on the ray of a camera; NaN beside it.
-  [[nodiscard]] double depth_of(const Eigen::Vector2d& ray, const Eigen::Isometry3d& camera) const {
-    const Eigen::Vector3d direction = ray.homogeneous();
-    const Eigen::Vector3d center = camera * center_mm;
+  /// How far along a direction a sphere begins; NaN where it is missed or behind.
+  [[nodiscard]] static double distance_to(const Eigen::Vector3d& center,
+                                          double radius,
+                                          const Eigen::Vector3d& direction) {
     const double b = direction.dot(center) / direction.squaredNorm();
-    const double rest =
-        b * b - (center.squaredNorm() - radius_mm * radius_mm) / direction.squaredNorm();
-    return rest > 0.0 ? b - std::sqrt(rest) : kNone;
+    const double rest = b * b - (center.squaredNorm() - radius * radius) / direction.squaredNorm();
+    return rest > 0.0 && b > 0.0 ? b - std::sqrt(rest) : kNone;
+  }
+
+  /// The depth of the ball, or of the bead, on the ray of a camera; NaN beside them.
+  [[nodiscard]] double depth_of(const Eigen::Vector2d& ray, const Eigen::Isometry3d& camera) const {
+    const double ball = distance_to(camera * center_mm, radius_mm, ray.homogeneous());
+    const double bead = distance_to(camera * bead_mm, bead_radius_mm, ray.homogeneous());
+    return std::isnan(bead) ? ball : bead;
+  }
+
+  /// Whether a point of a surface with this normal, both in the frame of a camera, sees the light.
+  [[nodiscard]] bool is_lit(const Eigen::Vector3d& point,
+                            const Eigen::Vector3d& normal,
+                            const Eigen::Vector3d& light,
+                            const Eigen::Isometry3d& camera) const {
+    constexpr double kLeastCosine = 0.3;
+    const Eigen::Vector3d to_light = (light - point).normalized();
+    if (normal.dot(to_light) < kLeastCosine || -normal.dot(point.normalized()) < kLeastCosine)
+      return false;
+    const Eigen::Vector3d from_bead = camera * bead_mm - point;
+    return from_bead.norm() < 1.5 * bead_radius_mm ||  // of the bead itself
+           std::isnan(distance_to(from_bead, bead_radius_mm, to_light));
   }
 
   [[nodiscard]] AbsolutePhase phase_of(const Rig& seen,
@@ -130,18 +152,16 @@ struct TwoCameras {
     if (options.harmonic_rad > 0.0)
       out.systematic_rad = Image<float>(pixels.width(), pixels.height(), kMissing);
     const Eigen::Isometry3d pose = camera == 0 ? Eigen::Isometry3d::Identity() : truth_from_rig();
-    const Eigen::Vector3d center = pose * center_mm;
     for (int y = 0; y < pixels.height(); ++y) {
       for (int x = 0; x < pixels.width(); ++x) {
         const Eigen::Vector2d ray = pixels(x, y).cast<double>();
         const double depth = depth_of(ray, pose);
         if (std::isnan(depth)) continue;
         const Eigen::Vector3d point = depth * ray.homogeneous();
-        const Eigen::Vector3d normal = (point - center).normalized();
-        const Eigen::Vector3d to_light = (seen.projector.position_mm - point).normalized();
-        constexpr double kLeastCosine = 0.3;
-        if (normal.dot(to_light) < kLeastCosine || -normal.dot(point.normalized()) < kLeastCosine)
-          continue;
+        const Eigen::Vector3d from_bead = point - pose * bead_mm;
+        const Eigen::Vector3d from_center =
+            from_bead.norm() < 1.5 * bead_radius_mm ? from_bead : point - pose * center_mm;
+        if (!is_lit(point, from_center.normalized(), seen.projector.position_mm, pose)) continue;
         const double phase = phase_at(point, pattern, seen.projector);
         const auto stream = hash(hash(7 + camera, static_cast<std::uint64_t>(pattern.direction)),
                                  static_cast<std::uint64_t>(y * pixels.width() + x));
@@ -166,6 +186,8 @@ struct TwoCameras {
   Rig rig;
   Eigen::Vector3d center_mm;
   double radius_mm = 0.0;
+  Eigen::Vector3d bead_mm = {4.0, 3.0, 400.0};
+  double bead_radius_mm = 0.0;
   std::vector<Pattern> patterns;
   std::vector<Rig> rigs;
   std::vector<Image<Eigen::Vector2f>> rays;
@@ -330,6 +352,31 @@ TEST(FuseCameras, RemovesPointsThatAnotherCameraContradicts) {
     EXPECT_TRUE(std::isnan(scene.ranges[0].depth_mm(79, 63)));
     EXPECT_FALSE(std::isnan(scene.ranges[0].depth_mm(60, 63)));
   }
+}
+
+TEST(FuseCameras, KeepsPointsThatABeadHidesFromTheOtherCamera) {
+  TwoCameras scene({.bead = true});
+  // The second camera sees the ball where the first one sees the bead in front of it.
+  const Eigen::Isometry3d second = scene.truth_from_rig();
+  std::size_t hidden = 0;
+  const auto for_each_hidden = [&](const auto& use) {
+    const Image<float>& depth = scene.alone[1].depth_mm;
+    for (int y = 0; y < depth.height(); ++y) {
+      for (int x = 0; x < depth.width(); ++x) {
+        if (std::isnan(depth(x, y))) continue;
+        const Eigen::Vector3d point =
+            second.inverse() *
+            (static_cast<double>(depth(x, y)) * scene.rays[1](x, y).cast<double>().homogeneous());
+        const double seen = scene.depth_of(point.hnormalized(), Eigen::Isometry3d::Identity());
+        if (seen < point.z() - 20.0) use(x, y);
+      }
+    }
+  };
+  for_each_hidden([&](int, int) { ++hidden; });
+  ASSERT_GT(hidden, 40U);
+  const CameraDisagreement found = fuse_cameras(scene.cameras, scene.ranges);
+  EXPECT_LT(found.removed, 10U);
+  for_each_hidden([&](int x, int y) { EXPECT_FALSE(std::isnan(scene.ranges[1].depth_mm(x, y))); });
 }
 
 TEST(MatchByPhase, LeavesOutAPhaseThatOccursTwiceOnAnEpipolarLine) {

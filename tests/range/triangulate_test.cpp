@@ -1,7 +1,9 @@
 #include "frangia/range/triangulate.h"
 
+#include <algorithm>
 #include <cmath>
 #include <random>
+#include <variant>
 
 #include <gtest/gtest.h>
 
@@ -9,6 +11,7 @@
 #include "frangia/core/missing.h"
 #include "frangia/range/fringe_ray.h"
 #include "frangia/rig/paper_rig.h"
+#include "frangia/rig/phase_range.h"
 
 namespace frangia {
 namespace {
@@ -92,6 +95,56 @@ TEST(Triangulate, LeavesOutPhasesThatTheProjectorDoesNotShow) {
   EXPECT_TRUE(std::isnan(range.depth_mm(3, 4)));
   EXPECT_EQ(phase.status(3, 4), PixelStatus::OutOfField);
   EXPECT_TRUE(std::isnan(range.depth_mm(5, 4)));
+}
+
+TEST(Triangulate, ReachesFourSigmaBeyondTheField) {
+  Wall wall;
+  constexpr float kOfPhase_rad = 0.02F;
+  AbsolutePhase phase = wall.phase(490.0, kOfPhase_rad);
+  const Image<float> truth = phase.phase_rad;
+  const auto [low, high] = std::minmax_element(truth.pixels().begin(), truth.pixels().end());
+  ASSERT_GT(*high - *low, 10.0F);
+  auto& field = std::get<AngularModel>(wall.rig.projector.model);
+  const double fringe_rad =
+      phase_range(phase.pattern, wall.rig.projector).max_rad / field.field_max_rad;
+  field.field_min_rad = (static_cast<double>(*low) + 2.0) / fringe_rad;
+  field.field_max_rad = (static_cast<double>(*high) - 2.0) / fringe_rad;
+  const RangeGrid range = triangulate(phase, wall.rig, wall.rays);
+  int below = 0;
+  int above = 0;
+  for (std::size_t i = 0; i < truth.pixels().size(); ++i) {
+    const float beyond_rad =
+        std::max(*low + 2.0F - truth.pixels()[i], truth.pixels()[i] - (*high - 2.0F));
+    EXPECT_EQ(std::isnan(range.depth_mm.pixels()[i]), beyond_rad > 4.0F * kOfPhase_rad)
+        << beyond_rad;
+    if (beyond_rad > 0.0F && beyond_rad < 4.0F * kOfPhase_rad)
+      ++(truth.pixels()[i] < 0.5F * (*low + *high) ? below : above);
+  }
+  EXPECT_GT(below, 0);
+  EXPECT_GT(above, 0);
+}
+
+TEST(Triangulate, StatesSigmaAlongTheRay) {
+  const Wall wall;
+  constexpr double kDepth_mm = 490.0;
+  const Eigen::Vector2d oblique(0.4, -0.7);  // 39 degrees from the axis of the camera
+  const Image<Eigen::Vector2f> rays(1, 1, oblique.cast<float>());
+  const auto phase_of = [&](double depth_mm) {
+    return phase_at(depth_mm * oblique.homogeneous(), kAngularFringe, wall.rig.projector);
+  };
+  Rig rig = wall.rig;
+  std::get<AngularModel>(rig.projector.model).field_min_rad = -1.5;
+  std::get<AngularModel>(rig.projector.model).field_max_rad = 1.5;
+  AbsolutePhase phase{.pattern = kAngularFringe,
+                      .phase_rad = Image<float>(1, 1, static_cast<float>(phase_of(kDepth_mm))),
+                      .sigma_rad = Image<float>(1, 1, 0.03F),
+                      .status = Image<PixelStatus>(1, 1, PixelStatus::Measured)};
+  const RangeGrid range = triangulate(phase, rig, rays);
+  constexpr double kStep_mm = 0.1;
+  const double rad_per_mm =
+      std::abs(phase_of(kDepth_mm + kStep_mm) - phase_of(kDepth_mm - kStep_mm)) /
+      (2.0 * kStep_mm * oblique.homogeneous().norm());
+  EXPECT_NEAR(range.sigma_mm(0, 0), 0.03 / rad_per_mm, 1e-4 * 0.03 / rad_per_mm);
 }
 
 TEST(Triangulate, RefusesAPhaseOfAnotherSize) {

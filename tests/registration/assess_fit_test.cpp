@@ -12,7 +12,7 @@ namespace frangia {
 namespace {
 
 /// Sums of views with these numbers of matched and observed surfels, and no comparisons yet.
-BundleSums sums_of(std::vector<std::size_t> matched, std::vector<std::size_t> observed) {
+BundleSums counted_sums(std::vector<std::size_t> matched, std::vector<std::size_t> observed) {
   BundleSums sums;
   sums.regions.resize(kRegionsPerView * matched.size() * matched.size());
   sums.matched = std::move(matched);
@@ -33,20 +33,20 @@ TEST(RmsOf, IsTheRootOfTheMeanSquare) {
 }
 
 TEST(OverlapOf, IsTheShareOfTheSurfelsThatMatch) {
-  EXPECT_DOUBLE_EQ(overlap_of(sums_of({30, 10}, {50, 50}), lists_of({60, 100})), 0.25);
-  EXPECT_EQ(overlap_of(sums_of({0, 0}, {0, 0}), lists_of({0, 0})), 0.0);
+  EXPECT_DOUBLE_EQ(overlap_of(counted_sums({30, 10}, {50, 50}), lists_of({60, 100})), 0.25);
+  EXPECT_EQ(overlap_of(counted_sums({0, 0}, {0, 0}), lists_of({0, 0})), 0.0);
 }
 
 TEST(FindOutliers, AreViewsThatMatchMuchLessThanTheMedianView) {
   // Shares of 0.8, 0.5, 0.31, 0.9, and 1 for a view that sees no other; the median is 0.8.
-  const BundleSums sums = sums_of({80, 50, 31, 90, 0}, {100, 100, 100, 100, 0});
+  const BundleSums sums = counted_sums({80, 50, 31, 90, 0}, {100, 100, 100, 100, 0});
   EXPECT_EQ(find_outliers(sums, 0.35), (std::vector<std::size_t>{}));
   EXPECT_EQ(find_outliers(sums, 0.4), (std::vector<std::size_t>{2}));
   EXPECT_EQ(find_outliers(sums, 0.7), (std::vector<std::size_t>{1, 2}));
 }
 
 TEST(ContradictionOf, IsTheLargestShareOfViolationsOfAViewWithEnoughComparisons) {
-  BundleSums sums = sums_of({0, 0, 0}, {0, 0, 0});
+  BundleSums sums = counted_sums({0, 0, 0}, {0, 0, 0});
   const auto tally = [&](std::size_t from, std::size_t to, std::size_t region) -> PairTally& {
     return sums.regions[kRegionsPerView * (3 * from + to) + region];
   };

@@ -14,6 +14,13 @@ HIDDEN = "\x01"  # what must not be changed, one for each character of it
 
 # Their arguments decide nothing that a result shows: capacities, progress.
 CALLS = re.compile(r"\b(?:static_assert|assert|reserve|report|stage|note|warn)\(")
+# How the work is divided, which changes no result.
+CHUNKS = re.compile(
+    r"""\bconstexpr\ [^;=]*\bk\w*Chunk\w*\ =[^;]*;
+    |\+\ (?:k\w*Chunk\w*|chunk)\ -\ 1\)\ /\ (?:k\w*Chunk\w*|chunk)\b
+    |\b\w+_chunks\([^;,]*,\ \d[\d']*""",
+    re.X,
+)
 DECLARATIONS = re.compile(r"^[ \t]*(?:using|typedef|template|namespace|struct|class|friend)\b[^\n]*", re.M)
 TEMPLATE_ARGUMENTS = re.compile(r"(?<=\w)<[^<>;(){}]*>")
 
@@ -83,8 +90,9 @@ def changeable(text):
         text = hide(text, token.end(), end_of_group(text, token.end()))
     for call in CALLS.finditer(text):
         text = hide(text, call.end(), end_of_group(text, call.end()))
-    for declaration in DECLARATIONS.finditer(text):
-        text = hide(text, *declaration.span())
+    for pattern in (DECLARATIONS, CHUNKS):
+        for unchanged in pattern.finditer(text):
+            text = hide(text, *unchanged.span())
     while found := TEMPLATE_ARGUMENTS.search(text):
         text = hide(text, *found.span())
     return text
