@@ -291,7 +291,7 @@ TEST(CalibrationFiles, StopInTheMiddleOfAMatFile) {
   const TemporaryFolder folder;
   const Files files{mat_file(folder, mat_element(14, mat_array_head(6, "a")))};
   std::stop_source stop;
-  Run run;
+  frangia::Run run;
   run.stop = stop.get_token();
   stop.request_stop();
   try {
@@ -320,9 +320,10 @@ TEST(CalibrationFiles, RefuseAMatFileThatExpandsWithoutEnd) {
   // A matrix that is larger than any calibration is passed over without its content.
   const std::string matrix =
       mat_element(14, mat_array_head(6, "large") + mat_element(9, std::string(8'000'000, '\0')));
+  const std::string one = mat_element(15, deflated(matrix).substr(0, 5000));  // also cut off
   std::string matrices;
   for (int i = 0; i < 100; ++i)
-    matrices += mat_element(15, deflated(matrix).substr(0, 5000));  // also cut off
+    matrices += one;
   EXPECT_NE(error_of([&] {
               return read_calibration_files(Files{mat_file(folder, matrices)});
             }).find("states no calibration"),

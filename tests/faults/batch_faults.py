@@ -41,7 +41,7 @@ def run(campaign):
                 "--rig",
                 RIG,
                 "--views",
-                str(1 + i),
+                str(3 + i),
                 "-o",
                 scans / "scans" / name,
             ],

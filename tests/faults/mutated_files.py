@@ -65,7 +65,7 @@ def batch_case(program, folder):
     """The record of a batch, which is read to see what is done."""
     scans = folder / "batch" / "scans"
     subprocess.run(
-        [program, "--quiet", "simulate", "plate", "--rig", SMALL_RIG, "--views", "1", "-o", scans / "a"], check=True
+        [program, "--quiet", "simulate", "plate", "--rig", SMALL_RIG, "--views", "3", "-o", scans / "a"], check=True
     )
     subprocess.run([program, "--quiet", "batch", "scans", "-o", "meshes"], check=True, cwd=scans.parent)
     mark = scans.parent / "meshes" / "a" / "done.json"

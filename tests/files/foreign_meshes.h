@@ -161,7 +161,7 @@ class ForeignMeshes : public FolderFixture {
   /// Reads a text as a file of that name, with what the reader warns of.
   Mesh read(const std::string& name, const std::string& bytes) {
     said_.clear();
-    Run run;
+    frangia::Run run;
     run.on_warning = [&](const std::string& sentence) { said_ += sentence + "\n"; };
     return read_mesh(put(name, bytes), run);
   }

@@ -88,7 +88,7 @@ TEST_F(ForeignMeshes, BytesBehindTheLastFacetOfAnStlAreLeftOutInASentence) {
   for (const std::string& tail :
        {std::string("\n"), std::string(2, '\0'), std::string(176, '\0')}) {
     EXPECT_EQ(read("a.stl", stl_binary(truth, count, "x") + tail).triangles.size(), count);
-    EXPECT_TRUE(said(fmt::format("{} bytes behind its last facet", tail.size()))) << said();
+    EXPECT_TRUE(said("left out behind its last facet")) << said();
   }
   for (const std::uint32_t stated : {0U, 0xFFFFFFFFU}) {
     EXPECT_EQ(read("a.stl", stl_binary(truth, stated, "solid x")).triangles.size(), count);

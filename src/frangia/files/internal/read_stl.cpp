@@ -117,8 +117,11 @@ std::optional<std::string_view> binary_part(std::string_view bytes,
     return bytes;
   }
   if (is_whole || stated == kHeaderBytes || stated > bytes.size()) return std::nullopt;
-  run.warn(fmt::format(
-      "{}: {} bytes behind its last facet are left out", path.string(), bytes.size() - stated));
+  const std::size_t behind = bytes.size() - stated;
+  run.warn(fmt::format("{}: {} byte{} left out behind its last facet",
+                       path.string(),
+                       behind,
+                       behind == 1 ? " is" : "s are"));
   return bytes.substr(0, stated);
 }
 
