@@ -1,4 +1,4 @@
-"""Random commands of the app while writes fail, jobs are stopped, the folder is copied and the server ends, judged by the test
+"""Random commands of the app while writes fail, jobs are stopped, the power is cut and the server ends, judged by the test
 program of the service. The long run goes on where it was interrupted."""
 import concurrent.futures
 import json
@@ -14,7 +14,7 @@ PROGRESS = ROOT / "out" / "faults" / "transactions.json"
 def run(campaign):
     answer = Answer(
         "transactions",
-        "random commands of the app with failing writes, stops, copies and ends of the server",
+        "random commands of the app with failing writes, stops, power cuts and ends of the server",
         campaign.count(8, 5000),
     )
     program = campaign.program.parent.parent / "tests" / "test_service"

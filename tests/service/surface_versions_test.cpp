@@ -55,21 +55,21 @@ TEST_F(VersionsOfASurface, StayWithTheirEditsWhenTheSurfaceIsBuiltAgain) {
   const Json built = run("reconstruct", {{"voxel_mm", 2.0}});
   ASSERT_EQ(built.at("state"), "done");
   EXPECT_EQ(built.at("revision"), 5);
-  Json project = now();
-  EXPECT_EQ(project.at("revision"), 5);
-  EXPECT_EQ(project.at("current_version"), 2);
-  EXPECT_TRUE(project.at("surface").at("steps").empty());
-  ASSERT_EQ(project.at("versions").size(), 2U);
-  EXPECT_EQ(project.at("versions")[0].at("steps"), 2);
-  EXPECT_EQ(project.at("versions")[0].at("steps_done"), 1);
-  EXPECT_EQ(project.at("versions")[1].at("previous"), 1);
+  Json shown = now();
+  EXPECT_EQ(shown.at("revision"), 5);
+  EXPECT_EQ(shown.at("current_version"), 2);
+  EXPECT_TRUE(shown.at("surface").at("steps").empty());
+  ASSERT_EQ(shown.at("versions").size(), 2U);
+  EXPECT_EQ(shown.at("versions")[0].at("steps"), 2);
+  EXPECT_EQ(shown.at("versions")[0].at("steps_done"), 1);
+  EXPECT_EQ(shown.at("versions")[1].at("previous"), 1);
 
   // The edits of the surface before are replayed: those that were not undone, each a step.
   ASSERT_EQ(run("replay-edits", {{"version", 1}}).at("state"), "done");
-  project = now();
-  ASSERT_EQ(project.at("surface").at("steps").size(), 1U);
-  EXPECT_EQ(project.at("surface").at("steps")[0].at("operation"), "offset");
-  EXPECT_EQ(project.at("revision"), 6);
+  shown = now();
+  ASSERT_EQ(shown.at("surface").at("steps").size(), 1U);
+  EXPECT_EQ(shown.at("surface").at("steps")[0].at("operation"), "offset");
+  EXPECT_EQ(shown.at("revision"), 6);
   EXPECT_EQ(run("replay-edits", {{"version", 2}}).at("state"), "failed") << "its own";
   EXPECT_EQ(run("replay-edits", {{"version", 7}}).at("state"), "failed");
 
@@ -167,7 +167,7 @@ TEST_F(VersionsOfASurface, AreThereAfterTheirReadingWasStopped) {
   const std::string mesh = service_->mesh();
   restart();
   at_changes([this] {
-    for (const Json& job : state().at("jobs"))
+    for (const Json seen = state(); const Json& job : seen.at("jobs"))
       if (job.at("state") == "running")
         static_cast<void>(service_->command("stop-job", Json{{"job", job.at("number")}}.dump()));
   });
@@ -248,7 +248,7 @@ TEST_F(VersionsOfASurface, OfAProjectAreNotThoseOfTheOneBeforeWhenOpeningIsStopp
   write_mesh(other / "surface.ply", testing::box({0, 0, 0}, {1, 1, 1}));
   // Stopped while it waits: its work never begins.
   at_changes([this] {
-    for (const Json& job : state().at("jobs"))
+    for (const Json seen = state(); const Json& job : seen.at("jobs"))
       if (job.at("state") == "waiting" && job.at("kind") == "open")
         static_cast<void>(service_->command("stop-job", Json{{"job", job.at("number")}}.dump()));
   });

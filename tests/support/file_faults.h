@@ -18,8 +18,10 @@
 #include <sys/uio.h>
 #include <unistd.h>
 
-// Include this header in one source of a program: it defines functions that the program and its
-// libraries then call instead of those of the C library.
+#include "support/certain_disk.h"
+
+// A program that includes this header defines functions which it and its libraries then call
+// instead of those of the C library.
 
 namespace frangia::testing {
 
@@ -47,6 +49,20 @@ class FileFault {
   /// Operations so far.
   [[nodiscard]] std::size_t count() const { return count_; }
 
+  /// Follows what a disk holds for certain below a folder; null ends that.
+  static void follow(std::string folder, CertainDisk* disk) {
+    const std::lock_guard lock(mutex());
+    followed() = {std::move(folder), disk};
+  }
+  static void created(const char* path) { note(path, &CertainDisk::create); }
+  static void synced(int file) {
+    {
+      const std::lock_guard lock(mutex());
+      if (followed().second == nullptr || inside()) return;
+    }
+    note(path_of(file).c_str(), &CertainDisk::sync);
+  }
+
   /// Whether an operation on a path fails; errno says why.
   static bool strikes(const char* path) {
     const std::lock_guard lock(mutex());
@@ -66,16 +82,30 @@ class FileFault {
       const std::lock_guard lock(mutex());
       if (present() == nullptr || inside()) return false;
     }
-    char link[64];
-    char path[PATH_MAX + 1];
-    std::snprintf(link, sizeof link, "/proc/self/fd/%d", file);
-    const ::ssize_t length = ::readlink(link, path, PATH_MAX);
-    if (length <= 0) return false;
-    path[length] = '\0';
-    return strikes(path);
+    return strikes(path_of(file).c_str());
   }
 
  private:
+  static std::string path_of(int file) {
+    char link[64];
+    char path[PATH_MAX];
+    std::snprintf(link, sizeof link, "/proc/self/fd/%d", file);
+    const ::ssize_t length = ::readlink(link, path, sizeof path);
+    return length <= 0 ? std::string() : std::string(path, static_cast<std::size_t>(length));
+  }
+  static void note(const char* path, void (CertainDisk::*what)(const std::filesystem::path&)) {
+    const std::lock_guard lock(mutex());
+    const auto& [folder, disk] = followed();
+    if (disk == nullptr || path == nullptr || inside()) return;
+    if (std::strncmp(path, folder.c_str(), folder.size()) != 0) return;
+    inside() = true;
+    (disk->*what)(path);
+    inside() = false;
+  }
+  static std::pair<std::string, CertainDisk*>& followed() {
+    static std::pair<std::string, CertainDisk*> one;
+    return one;
+  }
   static std::recursive_mutex& mutex() {
     static std::recursive_mutex one;
     return one;
@@ -103,24 +133,30 @@ Function* real(const char* name) {
 
 }  // namespace frangia::testing
 
-// The names for the compiler differ from those for the linker: the headers of the C library declare
-// theirs with other exceptions and attributes.
+// Weak, so that several sources of a program may hold them. The names for the compiler differ from
+// those for the linker: the headers of the C library declare theirs with other exceptions and
+// attributes.
 extern "C" {
 // NOLINTBEGIN(*-vararg, *-identifier-naming)
-int faulty_open(const char* path, int flags, ...) __asm__("open");
-int faulty_open64(const char* path, int flags, ...) __asm__("open64");
-std::FILE* faulty_fopen64(const char* path, const char* mode) __asm__("fopen64");
-::ssize_t faulty_write(int file, const void* bytes, std::size_t size) __asm__("write");
-::ssize_t faulty_writev(int file, const ::iovec* parts, int count) __asm__("writev");
-int faulty_fsync(int file) __asm__("fsync");
-int faulty_rename(const char* from, const char* to) __asm__("rename");
-int faulty_mkdir(const char* path, ::mode_t mode) __asm__("mkdir");
-int faulty_remove(const char* path) __asm__("remove");
-int faulty_unlink(const char* path) __asm__("unlink");
+int faulty_open(const char* path, int flags, ...) __asm__("open") __attribute__((weak));
+int faulty_open64(const char* path, int flags, ...) __asm__("open64") __attribute__((weak));
+std::FILE* faulty_fopen64(const char* path, const char* mode) __asm__("fopen64")
+    __attribute__((weak));
+::ssize_t faulty_write(int file, const void* bytes, std::size_t size) __asm__("write")
+    __attribute__((weak));
+::ssize_t faulty_writev(int file, const ::iovec* parts, int count) __asm__("writev")
+    __attribute__((weak));
+int faulty_fsync(int file) __asm__("fsync") __attribute__((weak));
+int faulty_rename(const char* from, const char* to) __asm__("rename") __attribute__((weak));
+int faulty_mkdir(const char* path, ::mode_t mode) __asm__("mkdir") __attribute__((weak));
+int faulty_remove(const char* path) __asm__("remove") __attribute__((weak));
+int faulty_unlink(const char* path) __asm__("unlink") __attribute__((weak));
 
 inline int open_unless_faulty(const char* name, const char* path, int flags, ::mode_t mode) {
   if ((flags & O_CREAT) != 0 && frangia::testing::FileFault::strikes(path)) return -1;
-  return frangia::testing::real<int(const char*, int, ...)>(name)(path, flags, mode);
+  const int file = frangia::testing::real<int(const char*, int, ...)>(name)(path, flags, mode);
+  if (file >= 0 && (flags & O_EXCL) != 0) frangia::testing::FileFault::created(path);
+  return file;
 }
 int faulty_open(const char* path, int flags, ...) {
   std::va_list list;
@@ -153,7 +189,9 @@ std::FILE* faulty_fopen64(const char* path, const char* mode) {
 }
 int faulty_fsync(int file) {
   static auto* const next = frangia::testing::real<int(int)>("fsync");
-  return frangia::testing::FileFault::strikes(file) ? -1 : next(file);
+  if (frangia::testing::FileFault::strikes(file) || next(file) != 0) return -1;
+  frangia::testing::FileFault::synced(file);
+  return 0;
 }
 int faulty_rename(const char* from, const char* to) {
   static auto* const next = frangia::testing::real<int(const char*, const char*)>("rename");
@@ -161,7 +199,9 @@ int faulty_rename(const char* from, const char* to) {
 }
 int faulty_mkdir(const char* path, ::mode_t mode) {
   static auto* const next = frangia::testing::real<int(const char*, ::mode_t)>("mkdir");
-  return frangia::testing::FileFault::strikes(path) ? -1 : next(path, mode);
+  if (frangia::testing::FileFault::strikes(path) || next(path, mode) != 0) return -1;
+  frangia::testing::FileFault::created(path);
+  return 0;
 }
 int faulty_remove(const char* path) {
   static auto* const next = frangia::testing::real<int(const char*)>("remove");

@@ -1,4 +1,3 @@
-// Above 250 lines: the commands and resources of one class, side by side.
 #include "frangia/service/service.h"
 
 #include <algorithm>

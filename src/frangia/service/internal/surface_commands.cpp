@@ -1,4 +1,3 @@
-// Above 250 lines: each change of the surface from its beginning to its commit point and beyond.
 #include <chrono>
 #include <filesystem>
 #include <utility>

@@ -1,4 +1,3 @@
-// Above 250 lines: the edits, previews and comparisons of one model share its history.
 #include "frangia/service/internal/surface_model.h"
 
 #include <algorithm>

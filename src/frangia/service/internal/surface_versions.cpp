@@ -1,4 +1,3 @@
-// Above 250 lines: the one file that states the versions, as it is read, written and checked.
 #include "frangia/service/internal/surface_versions.h"
 
 #include <algorithm>
