@@ -13,7 +13,7 @@ namespace frangia {
 namespace {
 
 struct DecodedPlate {
-  Rig rig = testing::small_rig("digital");
+  Rig rig = testing::small_rig("digital", 4);
   Image<Eigen::Vector2f> rays = rays_of(rig.camera.model);
   std::vector<FrameStack> stacks;
 

@@ -21,7 +21,8 @@ namespace {
 class PhaseFilesOfAScan : public ::testing::Test {
  protected:
   PhaseFilesOfAScan()
-      : scan_(testing::small_scan(folder_.path() / "scan", "plate", "digital", 2)),
+      : scan_(testing::small_scan(
+            folder_.path() / "scan", "plate", "digital", 2, {.samples_per_px = 4}, 4)),
         rays_(rays_of(scan_.rig.camera.model)) {
     options_.indirect_light = false;
     options_.register_views = false;

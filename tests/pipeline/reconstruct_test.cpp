@@ -59,7 +59,7 @@ TEST(Reconstruct, ResolvesEveryFringeOrderOfThePapersRigByTheLaserSheet) {
 
 TEST(Reconstruct, GivesTheSameBytesOnOneThreadAndOnTwo) {
   const TemporaryFolder folder;
-  const Scan scan = small_scan(folder.path(), "bracket", "angular", 4);
+  const Scan scan = small_scan(folder.path(), "bracket", "angular", 4, {}, 3);
   std::vector<Mesh> meshes;
   for (const std::size_t threads : {1U, 2U}) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
@@ -78,8 +78,10 @@ TEST(Reconstruct, MeasuresAsWellWithTheAxisAndTheAnglesOff) {
   faults.axis_offset_mm = 0.5;
   faults.axis_tilt_rad = rad_from_deg(0.3);
   faults.angle_error_rad = rad_from_deg(0.15);
-  const Reconstruction wanted = reconstruct(small_scan(exact.path(), "bracket", "digital", 6));
-  const Reconstruction found = reconstruct(small_scan(off.path(), "bracket", "digital", 6, faults));
+  const Reconstruction wanted =
+      reconstruct(small_scan(exact.path(), "bracket", "digital", 6, {.samples_per_px = 4}, 3));
+  const Reconstruction found =
+      reconstruct(small_scan(off.path(), "bracket", "digital", 6, faults, 3));
   // The ratio is measured as 1.002.
   EXPECT_LT(error_of(found, "bracket").rms_mm, 1.01 * error_of(wanted, "bracket").rms_mm);
   ASSERT_TRUE(found.registration);
@@ -92,7 +94,7 @@ TEST(Reconstruct, LeavesTheTurntableTopOut) {
   const TemporaryFolder folder;
   SimulateOptions faults{.samples_per_px = 4};
   faults.turntable_top_radius_mm = 70.0;
-  const Scan scan = small_scan(folder.path(), "bracket", "digital", 4, faults);
+  const Scan scan = small_scan(folder.path(), "bracket", "digital", 4, faults, 3);
   const Reconstruction result = reconstruct(scan);
   EXPECT_NEAR(result.turntable_top_height_mm, 0.0, 0.002);  // measured 0.0002
   EXPECT_LT(error_of(result, "bracket").max_mm, 1.54);      // measured 1.18
@@ -118,7 +120,7 @@ TEST(Reconstruct, ClipsBelowAHeightAndBeyondARadius) {
 TEST(Reconstruct, NamesAViewOfAMovedPartAndLeavesItOut) {
   const TemporaryFolder folder;
   const TemporaryFolder moved_folder;
-  const Scan scan = small_scan(folder.path(), "bust", "digital", 8);
+  const Scan scan = small_scan(folder.path(), "bust", "digital", 8, {.samples_per_px = 4}, 3);
   Scan plan = scan;
   plan.folder = moved_folder.path();
   plan.views = {scan.views[3]};
@@ -142,7 +144,7 @@ TEST(Reconstruct, NamesAViewOfAMovedPartAndLeavesItOut) {
   }
   ASSERT_EQ(warnings.size(), 1U);
   EXPECT_NE(warnings[0].find("views/3 fits no other view"), std::string::npos) << warnings[0];
-  EXPECT_LT(error_of(result, "bust").rms_mm, 0.045);  // measured 0.0348
+  EXPECT_LT(error_of(result, "bust").rms_mm, 0.069);  // measured 0.0531
 }
 
 void darken(const std::filesystem::path& folder) {
@@ -156,7 +158,7 @@ void darken(const std::filesystem::path& folder) {
 
 TEST(Reconstruct, LeavesADarkViewOutWithAWarningAndGoesOn) {
   const TemporaryFolder folder;
-  const Scan scan = small_scan(folder.path(), "ball-bar", "digital", 4);
+  const Scan scan = small_scan(folder.path(), "ball-bar", "digital", 4, {}, 4);
   darken(folder.path() / "views/2");
   std::vector<std::string> warnings;
   frangia::Run run;
@@ -178,14 +180,14 @@ TEST(Reconstruct, LeavesADarkViewOutWithAWarningAndGoesOn) {
 
 TEST(Reconstruct, RefusesAScanWithoutALitPixel) {
   const TemporaryFolder folder;
-  const Scan scan = small_scan(folder.path(), "plate", "digital", 1);
+  const Scan scan = small_scan(folder.path(), "plate", "digital", 1, {}, 4);
   darken(folder.path() / "views/0");
   EXPECT_THROW(static_cast<void>(reconstruct(scan)), Error);
 }
 
 TEST(Reconstruct, IsRelativeWithAWarningWhenNothingFixesTheFringeOrder) {
   const TemporaryFolder folder;
-  Scan scan = small_scan(folder.path(), "bust", "angular", 1);
+  Scan scan = small_scan(folder.path(), "bust", "angular", 1, {.samples_per_px = 4}, 3);
   scan.patterns.pop_back();  // the laser sheet
   std::vector<std::string> warnings;
   frangia::Run run;
@@ -198,7 +200,7 @@ TEST(Reconstruct, IsRelativeWithAWarningWhenNothingFixesTheFringeOrder) {
 
 TEST(Reconstruct, StopsWhenAsked) {
   const TemporaryFolder folder;
-  const Scan scan = small_scan(folder.path(), "plate", "digital", 1);
+  const Scan scan = small_scan(folder.path(), "plate", "digital", 1, {}, 4);
   std::stop_source source;
   source.request_stop();
   frangia::Run run;

@@ -58,7 +58,7 @@ double phase_error(const Rig& rig, double gamma, ResponseCurve* measured) {
 }
 
 TEST(MeasureResponse, OfAGammaOf2_2TakesItsPhaseErrorAwayWhenPatternsAreCorrected) {
-  Rig rig = testing::small_rig("digital");
+  Rig rig = testing::small_rig("digital", 4);
   ResponseCurve response;
   const double before = phase_error(rig, 2.2, &response);
   EXPECT_NEAR(response.light_of(0.5), std::pow(0.5, 2.2), 2e-3);
@@ -80,7 +80,7 @@ std::vector<FrameStack> plate_frames(const Rig& rig, const PatternPlan& plan, do
 }
 
 TEST(MeasureFringeResponse, OfAGammaOf2_2IsThatOfTheRamp) {
-  const Rig rig = testing::small_rig("digital");
+  const Rig rig = testing::small_rig("digital", 4);
   const auto frames = plate_frames(rig, {.periods_px = {40.0}, .shifts = 8}, 2.2);
   ASSERT_TRUE(determines_response(frames[0].pattern));
   const ResponseCurve response = measure_fringe_response({frames.data(), 1});
@@ -89,7 +89,7 @@ TEST(MeasureFringeResponse, OfAGammaOf2_2IsThatOfTheRamp) {
 }
 
 TEST(MeasureFringeResponse, RefusesFourFrames) {
-  const Rig rig = testing::small_rig("digital");
+  const Rig rig = testing::small_rig("digital", 4);
   const auto frames = plate_frames(rig, {.periods_px = {40.0}, .shifts = 4}, 1.0);
   EXPECT_FALSE(determines_response(frames[0].pattern));
   EXPECT_THROW(static_cast<void>(measure_fringe_response({})), Error);
@@ -97,7 +97,7 @@ TEST(MeasureFringeResponse, RefusesFourFrames) {
 }
 
 TEST(CorrectResponse, TakesThePhaseErrorOfAGammaOf2_2AwayInTheFramesDecoded) {
-  const Rig rig = testing::small_rig("digital");
+  const Rig rig = testing::small_rig("digital", 4);
   const PatternPlan plan{.periods_px = {40.0}, .shifts = 3};
   const auto bent = plate_frames(rig, plan, 2.2);
   const auto straight = plate_frames(rig, plan, 1.0);

@@ -110,19 +110,19 @@ TEST(ScaleInvariance, HoldsForAMisalignedTurntable) {
   faults.axis_offset_mm = 0.5;
   faults.axis_tilt_rad = rad_from_deg(0.3);
   faults.angle_error_rad = rad_from_deg(0.15);
-  expect_scales(small_scan(folder.path(), "bracket", "digital", 6, faults));
+  expect_scales(small_scan(folder.path(), "bracket", "digital", 6, faults, 4));
 }
 
 TEST(ScaleInvariance, HoldsWithTheTurntableTopInView) {
   const TemporaryFolder folder;
   SimulateOptions faults{.samples_per_px = 4};
   faults.turntable_top_radius_mm = 70.0;
-  expect_scales(small_scan(folder.path(), "bracket", "digital", 4, faults));
+  expect_scales(small_scan(folder.path(), "bracket", "digital", 4, faults, 4));
 }
 
 TEST(ScaleInvariance, HoldsForSpatialUnwrappingAndALaserSheet) {
   const TemporaryFolder folder;
-  expect_scales(small_scan(folder.path(), "bust", "angular", 5));
+  expect_scales(small_scan(folder.path(), "bust", "angular", 5, {.samples_per_px = 4}, 4));
 }
 
 TEST(ScaleInvariance, HoldsForTwoSetups) {
@@ -131,7 +131,7 @@ TEST(ScaleInvariance, HoldsForTwoSetups) {
   Scan plan;
   plan.folder = folder.path();
   plan.name = "bust";
-  plan.rig = testing::small_rig("digital");
+  plan.rig = testing::small_rig("digital", 4);
   plan.patterns = default_patterns(plan.rig);
   for (int i = 0; i < 8; ++i)
     plan.views.push_back({kTwoPi * i / 4, "views/" + std::to_string(i), i / 4});

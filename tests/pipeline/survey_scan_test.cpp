@@ -41,7 +41,7 @@ TEST(SurveyScan, FindsTheNoiseOfACameraThatTheRigSaysNothingOf) {
 
 TEST(SurveyScan, IsNeededForNothingThatTheRigGives) {
   const TemporaryFolder folder;
-  Scan scan = small_scan(folder.path(), "plate", "digital", 2);
+  Scan scan = small_scan(folder.path(), "plate", "digital", 2, {}, 4);
   scan.rig.camera.noise = NoiseModel::from_camera(50.0, 10.0);
   scan.folder = "/nowhere";  // and no frame is read
   const ScanSurvey survey = survey_scan(scan);
@@ -67,7 +67,7 @@ TEST(SurveyScan, TakesUnevenStepsForNoGain) {
   const TemporaryFolder folder;
   SimulateOptions faults;
   faults.step_jitter_rad = rad_from_deg(2.0);
-  const Scan scan = small_scan(folder.path(), "plate", "angular", 8, faults);
+  const Scan scan = small_scan(folder.path(), "plate", "angular", 8, faults, 4);
   const ScanSurvey survey = survey_scan(scan);
   ASSERT_EQ(survey.gain_error.size(), 1U);
   EXPECT_LT(std::abs(survey.gain_error.begin()->second), 2e-3);  // a view alone shows up to 2 %

@@ -16,7 +16,8 @@ namespace {
 
 TEST(SystematicPart, OfTheCalibrationStandsBesideTheNoiseOfTheMesh) {
   const testing::TemporaryFolder folder;
-  Scan exact = testing::small_scan(folder.path() / "scan", "bracket", "digital", 2);
+  Scan exact = testing::small_scan(
+      folder.path() / "scan", "bracket", "digital", 2, {.samples_per_px = 4}, 4);
   exact.rig.turntable->point_sigma_mm = 0.0;
   exact.rig.turntable->axis_sigma_rad = 0.0;
   exact.rig.turntable->angle_sigma_rad = 0.0;

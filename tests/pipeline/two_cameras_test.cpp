@@ -75,7 +75,7 @@ TEST(TwoCameras, ReportACameraThatHasTurned) {
 
 TEST(TwoCameras, RefuseFramesThatAreMissingOrOfAnotherSize) {
   const TemporaryFolder folder;
-  Scan scan = small_scan(folder.path(), "plate", "binocular", 1, {});
+  Scan scan = small_scan(folder.path(), "plate", "binocular", 1, {}, 4);
   const Scan second = scan_of_camera(scan, 1);
   const std::filesystem::path frames = folder.path() / second.views.front().folder;
   const std::filesystem::path first = frames / frame_file_name(scan.patterns.front(), 0);
@@ -95,7 +95,7 @@ TEST(TwoCameras, RefuseFramesThatAreMissingOrOfAnotherSize) {
 
 TEST(TwoCameras, NeedAbsolutePatternsForALabel) {
   const TemporaryFolder folder;
-  Scan scan = small_scan(folder.path(), "plate", "binocular", 1, {});
+  Scan scan = small_scan(folder.path(), "plate", "binocular", 1, {}, 4);
   scan = with_label(scan);
   scan.patterns = {scan.patterns.back()};
   EXPECT_NE(error_of([&] {

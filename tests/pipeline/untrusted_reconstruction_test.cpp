@@ -28,7 +28,7 @@ using testing::TemporaryFolder;
 
 TEST(Reconstruct, MarksAMeshOfViewsThatContradictEachOther) {
   const TemporaryFolder folder;
-  const Scan scan = small_scan(folder.path(), "bracket", "digital", 6, {});
+  const Scan scan = small_scan(folder.path(), "bracket", "digital", 6, {}, 3);
   displace_every_other_view(scan);
   std::vector<std::string> notes;
   frangia::Run run;
@@ -117,7 +117,7 @@ TEST(Reconstruct, MeasuresWithAProjectorAboveTheCamera) {
 
 TEST(Reconstruct, RefusesViewsAtSeveralAnglesWithoutAnAxis) {
   const TemporaryFolder folder;
-  Scan scan = small_scan(folder.path(), "plate", "digital", 2, {.samples_per_px = 1});
+  Scan scan = small_scan(folder.path(), "plate", "digital", 2, {}, 4);
   scan.rig.turntable.reset();
   const std::string error = testing::error_of([&] { static_cast<void>(reconstruct(scan)); });
   EXPECT_NE(error.find("at different angles, but rig.toml has no [turntable]"), std::string::npos)
@@ -145,7 +145,7 @@ TEST(Reconstruct, RemovesTheRimOfATurntableTopSeenEdgeOn) {
   Scan plan;
   plan.folder = folder.path();
   plan.name = "bracket";
-  plan.rig = testing::small_rig("digital");
+  plan.rig = testing::small_rig("digital", 3);
   plan.rig.turntable = Turntable{{3.5, 12.0, 516.0}, -Eigen::Vector3d::UnitY()};
   plan.patterns = default_patterns(plan.rig);
   for (int i = 0; i < 6; ++i)

@@ -45,7 +45,7 @@ class ColoredScan : public ::testing::Test {
     Scan plan;
     plan.folder = folder_.path() / "scan";
     plan.name = "ball-bar";
-    plan.rig = testing::small_rig("digital");
+    plan.rig = testing::small_rig("digital", 3);
     plan.patterns = default_patterns(plan.rig, patterns);
     for (int i = 0; i < 3; ++i)
       plan.views.push_back({kTwoPi * i / 8, "views/" + std::to_string(i)});

@@ -26,7 +26,7 @@ class DecodesAhead : public ::testing::Test {
   }
 
   TemporaryFolder folder_;
-  Scan scan_ = small_scan(folder_.path(), "bust", "digital", 3, {.samples_per_px = 1});
+  Scan scan_ = small_scan(folder_.path(), "plate", "digital", 3, {}, 4);
 };
 
 TEST_F(DecodesAhead, GivesTheViewsInTheirOrderAsDecodedOneByOne) {

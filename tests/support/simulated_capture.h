@@ -28,11 +28,7 @@ class SimulatedCapture : public ::testing::Test {
   /// A preset's rig with its devices, the camera's pixels a `shrink`th of it.
   void use(const std::string& preset, int shrink) {
     plan_.rig = rig_preset(preset);
-    CameraModel& model = plan_.rig.camera.model;
-    model.width_px /= shrink;
-    model.height_px /= shrink;
-    model.focal_px /= shrink;
-    model.principal_point_px = (model.principal_point_px.array() + 0.5) / shrink - 0.5;
+    make_coarser(plan_.rig.camera.model, shrink);
     plan_.rig.camera.noise = NoiseModel::from_camera(78.4, 8.0);
     plan_.patterns = default_patterns(plan_.rig);
     plan_.folder = folder_.path() / "scan";

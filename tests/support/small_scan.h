@@ -10,31 +10,34 @@
 
 namespace frangia::testing {
 
-/// A rig of the presets with a quarter of the camera's pixels, so that tests take little time.
-inline Rig small_rig(const std::string& preset) {
+/// A camera of the same field with fewer pixels: each takes the place of `divisor` times `divisor`.
+inline void make_coarser(CameraModel& model, int divisor) {
+  model.width_px /= divisor;
+  model.height_px /= divisor;
+  model.focal_px /= divisor;
+  model.principal_point_px = (model.principal_point_px.array() + 0.5) / divisor - 0.5;
+}
+
+/// A rig of the presets with fewer pixels in its cameras, so that tests take little time.
+inline Rig small_rig(const std::string& preset, int divisor = 2) {
   Rig rig = rig_preset(preset);
-  const auto halve = [](CameraModel& model) {
-    model.width_px /= 2;
-    model.height_px /= 2;
-    model.focal_px *= 0.5;
-    model.principal_point_px = 0.5 * (model.principal_point_px.array() + 0.5) - 0.5;
-  };
-  halve(rig.camera.model);
+  make_coarser(rig.camera.model, divisor);
   for (PosedCamera& posed : rig.more_cameras)
-    halve(posed.camera.model);
+    make_coarser(posed.camera.model, divisor);
   return rig;
 }
 
-/// A simulated scan of a built-in part, made in `folder`.
+/// A simulated scan of a built-in part, made in `folder` by `small_rig`.
 inline Scan small_scan(const std::filesystem::path& folder,
                        const std::string& part,
                        const std::string& preset,
                        int views,
-                       const SimulateOptions& options = {.samples_per_px = 4}) {
+                       const SimulateOptions& options = {.samples_per_px = 4},
+                       int divisor = 2) {
   Scan plan;
   plan.folder = folder;
   plan.name = part;
-  plan.rig = small_rig(preset);
+  plan.rig = small_rig(preset, divisor);
   plan.patterns = default_patterns(plan.rig);
   for (int i = 0; i < views; ++i)
     plan.views.push_back({kTwoPi * i / views, "views/" + std::to_string(i)});
