@@ -163,7 +163,8 @@ void print_plan(const DecodePlan& plan, Terminal& terminal) {
   if (terminal.json) {
     print_json(Json{{"plan", json_of(plan)}, {"absolute", is_absolute(plan)}});
   } else {
-    print_text("{}\n", describe(plan));
+    for (const DirectionPlan& direction : plan.directions)
+      print_text("{}\n", describe(direction));
   }
 }
 

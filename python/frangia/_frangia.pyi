@@ -72,6 +72,13 @@ class CameraModel:
         """Columns."""
         ...
 
+class DecodePlan:
+    """Where the fringe orders of a scan come from."""
+    @property
+    def absolute(self) -> bool:
+        """False: phases are relative, or regions have offsets of their own."""
+        ...
+
 class DecodedView:
     """The phase of one view and intermediate results."""
     @property
@@ -526,6 +533,10 @@ def merge(paths: Iterable[str | os.PathLike[str]], *, voxel_mm: float = 0.0, pro
 
 def phase_algorithm(name: str, shifts_rad: Iterable[float], gain_error: float = 0.0) -> PhaseAlgorithm:
     """A published algorithm for these nominal shifts, radians."""
+    ...
+
+def plan_decoding(scan: Scan, *, directions: str = 'fused', max_sigma_rad: float = 0.10000000149011612) -> DecodePlan:
+    """How `decode` and `reconstruct` decode the views of a scan; str() of it is a line for each direction."""
     ...
 
 def read_algorithm(path: str | os.PathLike[str]) -> LinearAlgorithm:

@@ -102,10 +102,6 @@ Rig angular_phases_only() {
   return rig;
 }
 
-DecodeOptions usual() {
-  return {};
-}
-
 DecodeOptions directions(DirectionChoice choice) {
   DecodeOptions options;
   options.directions = choice;
@@ -140,9 +136,9 @@ struct Row {
   const char* name;
   Patterns patterns;
   Rig (*rig)();
-  DecodeOptions options;
   std::string plan;
   bool absolute = true;
+  DecodeOptions options = {};
 };
 
 const std::string kOne = ": one fringe covers the field";
@@ -166,230 +162,189 @@ constexpr auto kBest = DirectionChoice::Best;
 constexpr auto kColumns = DirectionChoice::Vertical;
 constexpr auto kRows = DirectionChoice::Horizontal;
 
+std::string v(const std::string& periods_px) {
+  return "vertical fringes of " + periods_px + " px";
+}
+
+std::string h(const std::string& periods_px) {
+  return "horizontal fringes of " + periods_px + " px";
+}
+
+std::string d(const std::string& per_degree) {
+  return "vertical fringes of " + per_degree + " per degree";
+}
+
 std::vector<Row> table() {
   const Patterns three = columns({1280, 160, 20});
   const Patterns three_rows = rows({800, 100, 12.5});
   const Patterns line = single(PatternKind::Line);
-  const std::string v3 = "vertical fringes of 1280, 160 and 20 px";
-  const std::string h3 = "horizontal fringes of 800, 100 and 12.5 px";
-  const std::string v1 = "vertical fringes of 20 px";
-  const std::string h1 = "horizontal fringes of 12.5 px";
+  const std::string v3 = v("1280, 160 and 20");
+  const std::string h3 = h("800, 100 and 12.5");
+  const std::string v1 = v("20");
+  const std::string h1 = h("12.5");
   return {
       // Maps alone.
-      {"one fringe", columns({1280}), digital, usual(), "vertical fringes of 1280 px" + kOne},
-      {"wider than the field",
-       columns({1300}),
-       digital,
-       usual(),
-       "vertical fringes of 1300 px" + kOne},
-      {"two of ratio 8",
-       columns({1280, 160}),
-       digital,
-       usual(),
-       "vertical fringes of 1280 and 160 px" + kCoarser},
-      {"three of ratio 8", three, digital, usual(), v3 + kCoarser},
-      {"fine to coarse", columns({20, 160, 1280}), digital, usual(), v3 + kCoarser},
-      {"two of ratio 4",
-       columns({1280, 320}),
-       digital,
-       usual(),
-       "vertical fringes of 1280 and 320 px" + kSafe},
+      {"one fringe", columns({1280}), digital, v("1280") + kOne},
+      {"wider than the field", columns({1300}), digital, v("1300") + kOne},
+      {"two of ratio 8", columns({1280, 160}), digital, v("1280 and 160") + kCoarser},
+      {"three of ratio 8", three, digital, v3 + kCoarser},
+      {"fine to coarse", columns({20, 160, 1280}), digital, v3 + kCoarser},
+      {"two of ratio 4", columns({1280, 320}), digital, v("1280 and 320") + kSafe},
       {"doubled",
        columns({1280, 640, 320, 160, 80, 40, 20}),
        digital,
-       usual(),
-       "vertical fringes of 1280, 640, 320, 160, 80, 40 and 20 px" + kSafe},
+       v("1280, 640, 320, 160, 80, 40 and 20") + kCoarser},
+      {"doubled under less noise",
+       columns({1280, 640, 320, 160, 80, 40, 20}),
+       digital,
+       v("1280, 640, 320, 160, 80, 40 and 20") + kSafe,
+       true,
+       max_sigma(0.05F)},
       {"ratio 4 under more noise",
        columns({1280, 320}),
        digital,
-       max_sigma(0.2F),
-       "vertical fringes of 1280 and 320 px" + kCoarser},
+       v("1280 and 320") + kCoarser,
+       true,
+       max_sigma(0.2F)},
       {"ratio 8 under less noise",
        columns({1280, 160}),
        digital,
-       max_sigma(0.05F),
-       "vertical fringes of 1280 and 160 px" + kSafe},
-      {"heterodyne",
-       counts({56, 63, 64}),
-       digital,
-       usual(),
-       "vertical fringes of 22.86, 20.32 and 20 px" + kLevels},
-      {"beats of beats",
-       counts({53, 58, 64}),
-       digital,
-       usual(),
-       "vertical fringes of 24.15, 22.07 and 20 px" + kSearch},
-      {"a beat of a narrow margin",
-       counts({15, 16}),
-       digital,
-       usual(),
-       "vertical fringes of 85.33 and 80 px" + kLevels},
+       v("1280 and 160") + kSafe,
+       true,
+       max_sigma(0.05F)},
+      {"heterodyne", counts({56, 63, 64}), digital, v("22.86, 20.32 and 20") + kLevels},
+      {"beats of beats", counts({53, 58, 64}), digital, v("24.15, 22.07 and 20") + kSearch},
+      {"a beat of a narrow margin", counts({15, 16}), digital, v("85.33 and 80") + kLevels},
       {"a beat under little noise",
        counts({15, 16}),
        digital,
-       max_sigma(0.02F),
-       "vertical fringes of 85.33 and 80 px" + kSafe},
-      {"fine fringes", columns({20}), digital, usual(), v1 + kDistance, false},
+       v("85.33 and 80") + kSafe,
+       true,
+       max_sigma(0.02F)},
+      {"fine fringes", columns({20}), digital, v1 + kDistance, false},
       {"fine fringes that repeat together",
        columns({160, 20}),
        digital,
-       usual(),
-       "vertical fringes of 160 and 20 px" + kDistance + kFiner,
+       v("160 and 20") + kDistance + kFiner,
        false},
       {"frames of other kinds",
        single(PatternKind::White) + three + single(PatternKind::Ambient) +
            single(PatternKind::Ramp),
        digital,
-       usual(),
        v3 + kCoarser},
-      {"several exposures", bracketed(three), digital, usual(), v3 + kCoarser},
+      {"several exposures", bracketed(three), digital, v3 + kCoarser},
       // Gray code.
-      {"code and one map", gray_columns() + columns({20}), digital, usual(), v1 + kGray},
+      {"code and one map", gray_columns() + columns({20}), digital, v1 + kGray},
       {"code and two maps",
        columns({160, 20}) + gray_columns(),
        digital,
-       usual(),
-       "vertical fringes of 160 and 20 px" + kGray + kFiner},
-      {"code before an absolute map",
-       three + gray_columns(),
-       digital,
-       usual(),
-       v3 + kGray + kFiner},
+       v("160 and 20") + kGray + kFiner},
+      {"code before an absolute map", three + gray_columns(), digital, v3 + kGray + kFiner},
       {"code alone",
        gray_columns() + single(PatternKind::White),
        digital,
-       usual(),
        "vertical Gray code: the Gray code gives the projector's columns"},
       {"code of rows alone",
        gray_rows(),
        digital,
-       usual(),
        "horizontal Gray code: the Gray code gives the projector's rows"},
       {"codes of both directions",
        gray_columns() + gray_rows(),
        digital,
-       usual(),
        "vertical Gray code: the Gray code gives the projector's columns\n"
        "horizontal Gray code: the Gray code gives the projector's rows"},
       {"code alone without geometry",
        gray_columns(),
        phases_only,
-       usual(),
        "vertical Gray code: the Gray code gives the projector's columns"},
-      {"code of the other direction",
-       columns({20}) + gray_rows(),
-       digital,
-       usual(),
-       v1 + kDistance,
-       false},
+      {"code of the other direction", columns({20}) + gray_rows(), digital, v1 + kDistance, false},
       // Two directions.
-      {"rows", three_rows, digital, usual(), h3 + kCoarser},
-      {"both", three + three_rows, digital, usual(), v3 + kCoarser + "\n" + h3 + kCoarser},
+      {"rows", three_rows, digital, h3 + kCoarser},
+      {"both", three + three_rows, digital, v3 + kCoarser + "\n" + h3 + kCoarser},
       {"the best of both",
        three_rows + three,
        digital,
-       directions(kBest),
-       v3 + kCoarser + "\n" + h3 + kCoarser},
-      {"columns of both", three + three_rows, digital, directions(kColumns), v3 + kCoarser},
-      {"rows of both", three + three_rows, digital, directions(kRows), h3 + kCoarser},
-      {"absolute columns, fine rows", three + rows({12.5}), digital, usual(), v3 + kCoarser},
-      {"fine columns, absolute rows", columns({20}) + three_rows, digital, usual(), h3 + kCoarser},
-      {"both fine", columns({20}) + rows({12.5}), digital, usual(), v1 + kDistance, false},
+       v3 + kCoarser + "\n" + h3 + kCoarser,
+       true,
+       directions(kBest)},
+      {"columns of both", three + three_rows, digital, v3 + kCoarser, true, directions(kColumns)},
+      {"rows of both", three + three_rows, digital, h3 + kCoarser, true, directions(kRows)},
+      {"absolute columns, fine rows", three + rows({12.5}), digital, v3 + kCoarser},
+      {"fine columns, absolute rows", columns({20}) + three_rows, digital, h3 + kCoarser},
+      {"both fine", columns({20}) + rows({12.5}), digital, v1 + kDistance, false},
       {"the fine rows of both",
        three + rows({12.5}),
        digital,
-       directions(kRows),
        h1 + kDistance,
-       false},
+       false,
+       directions(kRows)},
       {"both with a code",
        columns({20}) + gray_columns() + rows({12.5}) + gray_rows(),
        digital,
-       usual(),
        v1 + kGray + "\n" + h1 + kGray},
       {"a code of columns alone",
        columns({20}) + gray_columns() + rows({12.5}),
        digital,
-       usual(),
        v1 + kGray},
       {"different sources",
        columns({20}) + gray_columns() + three_rows,
        digital,
-       usual(),
        v1 + kGray + "\n" + h3 + kCoarser},
       // The laser sheet.
-      {"the sheet",
-       degrees({1}) + line,
-       angular,
-       usual(),
-       "vertical fringes of 1 per degree" + kSheet},
+      {"the sheet", degrees({1}) + line, angular, d("1") + kSheet},
       {"two maps and the sheet",
        degrees({1, 0.25}) + line,
        angular,
-       usual(),
-       "vertical fringes of 0.25 and 1 per degree" + kSheet + kFiner},
+       d("0.25 and 1") + kSheet + kFiner},
       {"maps that repeat together, and the sheet",
        degrees({0.9, 1}) + line,
        angular,
-       usual(),
-       "vertical fringes of 0.9 and 1 per degree" + kSheet + kFiner},
-      {"no sheet",
-       degrees({1}),
-       angular,
-       usual(),
-       "vertical fringes of 1 per degree" + kDistance,
-       false},
+       d("0.9 and 1") + kSheet + kFiner},
+      {"no sheet", degrees({1}), angular, d("1") + kDistance, false},
       {"one fringe of an interferometer",
        degrees({1.0 / 24.0, 1}) + line,
        angular,
-       usual(),
-       "vertical fringes of 0.04167 and 1 per degree" + kCoarser},
+       d("0.04167 and 1") + kCoarser},
       {"doubled by an interferometer",
        degrees({0.03125, 0.0625, 0.125, 0.25, 0.5, 1}),
        angular,
-       usual(),
-       "vertical fringes of 0.03125, 0.0625, 0.125, 0.25, 0.5 and 1 per degree" + kSafe},
-      {"a sheet that is not needed", three + line, digital, usual(), v3 + kCoarser},
-      {"a sheet beside fine fringes", columns({20}) + line, digital, usual(), v1 + kSheet},
+       d("0.03125, 0.0625, 0.125, 0.25, 0.5 and 1") + kCoarser},
+      {"a sheet that is not needed", three + line, digital, v3 + kCoarser},
+      {"a sheet beside fine fringes", columns({20}) + line, digital, v1 + kSheet},
       // A rig without geometry.
-      {"phases of three maps", three, phases_only, usual(), v3 + kCoarser},
-      {"phases of fine fringes", columns({20}), phases_only, usual(), v1 + kOpen, false},
-      {"phases of two fine maps",
-       columns({160, 20}),
-       phases_only,
-       usual(),
-       "vertical fringes of 160 and 20 px" + kOpen,
-       false},
-      {"phases with a sheet",
-       degrees({1}) + line,
-       angular_phases_only,
-       usual(),
-       "vertical fringes of 1 per degree" + kOpen,
-       false},
+      {"phases of three maps", three, phases_only, v3 + kCoarser},
+      {"phases of fine fringes", columns({20}), phases_only, v1 + kOpen, false},
+      {"phases of two fine maps", columns({160, 20}), phases_only, v("160 and 20") + kOpen, false},
+      {"phases with a sheet", degrees({1}) + line, angular_phases_only, d("1") + kOpen, false},
       // Functions and files of the caller.
-      {"own unwrapping", three, digital, own_unwrap(), v3 + kCallers},
-      {"own unwrapping of fine fringes", columns({20}), digital, own_unwrap(), v1 + kCallers},
+      {"own unwrapping", three, digital, v3 + kCallers, true, own_unwrap()},
+      {"own unwrapping of fine fringes", columns({20}), digital, v1 + kCallers, true, own_unwrap()},
       {"own unwrapping beside a code",
        gray_columns() + columns({20}),
        digital,
-       own_unwrap(),
-       v1 + kCallers},
+       v1 + kCallers,
+       true,
+       own_unwrap()},
       {"own unwrapping of both",
        three + three_rows,
        digital,
-       own_unwrap(),
-       v3 + kCallers + "\n" + h3 + kCallers},
+       v3 + kCallers + "\n" + h3 + kCallers,
+       true,
+       own_unwrap()},
       {"own unwrapping of a code alone",
        gray_columns(),
        digital,
-       own_unwrap(),
-       "vertical Gray code: the Gray code gives the projector's columns"},
+       "vertical Gray code: the Gray code gives the projector's columns",
+       true,
+       own_unwrap()},
       {"files with the absolute phase",
        columns({20}),
        digital,
-       files(PhaseKind::Absolute),
-       v1 + kCallers},
-      {"files with wrapped maps", three, digital, files(PhaseKind::Wrapped), v3 + kCoarser},
-      {"own unwrapping in space", columns({20}), digital, own_spatial(), v1 + kDistance, false},
+       v1 + kCallers,
+       true,
+       files(PhaseKind::Absolute)},
+      {"files with wrapped maps", three, digital, v3 + kCoarser, true, files(PhaseKind::Wrapped)},
+      {"own unwrapping in space", columns({20}), digital, v1 + kDistance, false, own_spatial()},
   };
 }
 
@@ -421,8 +376,8 @@ TEST(PlanDecoding, RefusesPatternsThatHoldNoPhase) {
         [&] { static_cast<void>(plan_decoding(patterns, digital(), options)); });
   };
   const std::string none = "scan.toml has no pattern of kind \"fringe\" or \"gray\"; add one";
-  EXPECT_EQ(refusal({}, usual()), none);
-  EXPECT_EQ(refusal(single(PatternKind::White), usual()), none);
+  EXPECT_EQ(refusal({}, {}), none);
+  EXPECT_EQ(refusal(single(PatternKind::White), {}), none);
   EXPECT_EQ(refusal(columns({20}), directions(kRows)),
             "scan.toml has no horizontal fringes; choose other `directions`");
   EXPECT_EQ(refusal(gray_rows(), directions(kColumns)),

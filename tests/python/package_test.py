@@ -132,6 +132,15 @@ class Scans(unittest.TestCase):
         measured = view.order >= 0
         np.testing.assert_allclose(whole[measured], view.order[measured], atol=1e-3)
 
+    def test_states_where_fringe_orders_come_from(self):
+        plan = frangia.plan_decoding(self.scan)
+        self.assertTrue(plan.absolute)
+        self.assertEqual(
+            str(plan), "vertical fringes of 1 per degree: unwrapped in space; the laser sheet gives the orders"
+        )
+        with self.assertRaisesRegex(frangia.InputError, "no horizontal fringes"):
+            frangia.plan_decoding(self.scan, directions="horizontal")
+
     def test_own_stages_give_the_same_surface(self):
         calls = []
 

@@ -13,9 +13,11 @@
 #include "frangia/core/release_cached_pixels.h"
 #include "frangia/fusion/color_vertices.h"
 #include "frangia/geometry/vertex_data.h"
+#include "frangia/pipeline/capabilities.h"
 #include "frangia/pipeline/internal/calibration_part.h"
 #include "frangia/pipeline/internal/check_geometry.h"
 #include "frangia/pipeline/internal/correct_indirect_light.h"
+#include "frangia/pipeline/internal/count_indirect_light.h"
 #include "frangia/pipeline/internal/explain_no_surface.h"
 #include "frangia/pipeline/internal/mark_left_out.h"
 #include "frangia/pipeline/internal/measure_views.h"
@@ -46,10 +48,11 @@ void report_disagreement(const MeasuredViews& measured, Reconstruction& out) {
 }
 
 /// Removes what is not the part from the views of one setup, corrects them for indirect light, and
-/// registers them on the turntable. False where no indirect light was found before the
-/// registration.
+/// registers them on the turntable. False where indirect light was looked for before the
+/// registration and not found.
 bool register_setup(MeasuredSetup& setup,
                     const ScanDecoding& decoding,
+                    const Capabilities& can,
                     const ReconstructOptions& options,
                     double& turntable_top_height_mm,
                     const Run& run) {
@@ -59,14 +62,11 @@ bool register_setup(MeasuredSetup& setup,
   bool indirect_light = true;
   if (measured.points == 0) return true;
   clip_to_volume(measured, scan.rig, options, run);
-  if (!scan.rig.turntable) return true;
-  if (!options.keep_turntable_top) {
+  if (can.removes_turntable_top)
     turntable_top_height_mm = remove_turntable_top(measured, scan.rig, options.turntable_top, run);
-  }
-  if (options.register_views) {
-    if (options.indirect_light) {
+  if (can.registers_views) {
+    if (can.corrects_before_registration)
       indirect_light = correct_before_registration(measured, decoding, options.fusion, run);
-    }
     setup.registration = register_views(measured.views,
                                         camera,
                                         {*scan.rig.turntable, measured.stations},
@@ -139,6 +139,7 @@ struct RegisteredViews {
 /// Views -> one surface, with its points and colors.
 Mesh fuse_registered(RegisteredViews& registered,
                      const ScanDecoding& decoding,
+                     const Capabilities& can,
                      const ReconstructOptions& options,
                      Reconstruction& out,
                      const Run& run) {
@@ -150,8 +151,10 @@ Mesh fuse_registered(RegisteredViews& registered,
   fusion.add_systematic = calibration_part(all.views, scan.rig, all.coarsest, decoding.rays);
   const std::vector<CameraViews> cameras = views_of_cameras(all, scan.rig);
   Mesh fused = fuse_views(cameras, fusion, run);
-  if (options.indirect_light && registered.indirect_light && cameras.size() == 1) {
-    out.indirect_light = correct_indirect_light(fused, joined.measured, decoding, fusion, run);
+  if (can.indirect_light != IndirectLightUse::Ignored && registered.indirect_light) {
+    out.indirect_light = cameras.size() == 1
+                             ? correct_indirect_light(fused, joined.measured, decoding, fusion, run)
+                             : count_indirect_light(fused, joined.measured, decoding, fusion, run);
   }
   const ViewMotions motions = motions_of_views(joined, scan.rig, options, run);
   const bool turntable_counts = add_turntable_part(fused, cameras, motions, run);
@@ -183,6 +186,8 @@ Reconstruction reconstruct(const Scan& scan, const ReconstructOptions& options, 
   if (options.refine_rig) return reconstruct_with_refined_rig(scan, options, run);
   const DecodePlan plan = plan_decoding(scan.patterns, scan.rig, options.decode);
   check_geometry(scan, plan, run);
+  const Capabilities can = capabilities_of(scan.rig, plan, options);
+  report(can, run);
   const auto rays = rays_of(scan.rig.camera.model);
   const ScanDecoding decoding{scan, rays, options.decode, plan};
   Reconstruction out;
@@ -209,7 +214,8 @@ Reconstruction reconstruct(const Scan& scan, const ReconstructOptions& options, 
   for (MeasuredSetup& setup : setups) {
     unresolved += resolve_fringe_orders(
         setup.measured, scan.rig, rays, options.resolve_by_views, correction, run);
-    indirect_light |= register_setup(setup, decoding, options, out.turntable_top_height_mm, run);
+    indirect_light |=
+        register_setup(setup, decoding, can, options, out.turntable_top_height_mm, run);
     out.points += setup.measured.points;
     add_outliers(outliers, setup);
   }
@@ -222,7 +228,7 @@ Reconstruction reconstruct(const Scan& scan, const ReconstructOptions& options, 
   RegisteredViews registered{
       register_together(std::move(setups), scan, options, std::move(outliers), out, run),
       indirect_light};
-  Mesh fused = fuse_registered(registered, decoding, options, out, run);
+  Mesh fused = fuse_registered(registered, decoding, can, options, out, run);
   out.mesh = finish_mesh(std::move(fused), options.finish, run);
   if (out.mesh.triangles.empty()) {
     throw Error(ErrorKind::Input,

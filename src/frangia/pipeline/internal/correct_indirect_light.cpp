@@ -13,6 +13,19 @@
 namespace frangia {
 namespace {
 
+/// Two directions of fringes determine a point together.
+ShiftedPoints shifted_points(const DecodePlan& plan) {
+  return plan.directions.size() == 1 ? ShiftedPoints::Moved : ShiftedPoints::Kept;
+}
+
+std::optional<IndirectPart> part_of(const MeasuredViews& measured,
+                                    const Mesh& surface,
+                                    const ScanDecoding& decoding,
+                                    const Run& run) {
+  return indirect_part(
+      decoding, lit_views(measured, decoding.scan), surface, shifted_points(decoding.plan), run);
+}
+
 void correct_all(MeasuredViews& measured, const IndirectPart& indirect, const Run& run) {
   for (std::size_t i = 0; i < measured.views.size(); ++i) {
     run.check();
@@ -57,7 +70,7 @@ bool shows_indirect_light(const MeasuredViews& measured,
     thinned.add(subsample(measured.views.load_points(i), step_px));
   }
   const Mesh surface = surface_or_none([&] { return fuse_views(thinned, camera, fusion, run); });
-  return indirect_part(decoding, measured, surface, run).has_value();
+  return part_of(measured, surface, decoding, run).has_value();
 }
 
 /// The prediction of a surface, made better by the surface that continues its reliable faces.
@@ -66,12 +79,12 @@ std::optional<IndirectPart> predict(const MeasuredViews& measured,
                                     const ScanDecoding& decoding,
                                     const FusionOptions& coarse,
                                     const Run& run) {
-  auto first = indirect_part(decoding, measured, surface, run);
+  auto first = part_of(measured, surface, decoding, run);
   if (!first) return first;
   const CameraModel& camera = decoding.scan.rig.camera.model;
   const Mesh continued = surface_or_none(
       [&] { return continued_surface(measured, *first, camera, decoding.rays, coarse, run); });
-  auto second = indirect_part(decoding, measured, continued, run);
+  auto second = part_of(measured, continued, decoding, run);
   // The frames decide which surface predicts what they show; alike, the one without gaps.
   constexpr double kAlike = 1.1;
   const bool better = second && second->unexplained < kAlike * first->unexplained;
@@ -127,11 +140,8 @@ std::optional<IndirectLightReport> correct_indirect_light(Mesh& fused,
     fused = fuse_views(measured.views, decoding.scan.rig.camera.model, fusion, run);
   }
   if (!report) return report;
-  if (report->is_large()) {
-    run.warn(report->text());
-  } else {
-    run.note(report->text());
-  }
+  report->corrected = shifted_points(decoding.plan) == ShiftedPoints::Moved;
+  announce(*report, run);
   return report;
 }
 

@@ -177,9 +177,9 @@ std::size_t index_in_scan(const Scan& scan, const std::string& folder) {
 
 /// Adds what the frames of some views show.
 void add_views(const ScanDecoding& decoding,
-               const MeasuredViews& measured,
+               const LitViews& lit,
                std::span<const ViewExposure> exposures,
-               const LitSurface& lit,
+               const LitSurface& surface,
                const Run& run,
                std::vector<AlbedoSample>& samples) {
   const Scan& scan = decoding.scan;
@@ -192,7 +192,7 @@ void add_views(const ScanDecoding& decoding,
   for (const ViewExposure& exposure : exposures) {
     run.check();
     const std::size_t view = exposure.view;
-    const std::size_t index = index_in_scan(scan, measured.stations[view].name);
+    const std::size_t index = lit.of_scan[view];
     if (index == scan.views.size()) continue;
     const DecodedView decoded = decode_view(read_frames(scan, index, run),
                                             decoding.plan,
@@ -200,32 +200,41 @@ void add_views(const ScanDecoding& decoding,
                                             rays,
                                             options_of_view(options, index),
                                             quiet);
-    add_samples(decoded, measured.views.load_points(view), lit, rays, samples);
+    add_samples(decoded, lit.views.load_points(view), surface, rays, samples);
   }
 }
 
 }  // namespace
 
+LitViews lit_views(const MeasuredViews& measured, const Scan& scan, std::size_t camera) {
+  LitViews out{
+      camera == 0 ? measured.views : measured.more.at(camera - 1), {}, measured.coarsest.direction};
+  for (const Station& station : measured.stations)
+    out.of_scan.push_back(index_in_scan(scan, station.name));
+  return out;
+}
+
 std::optional<IndirectPart> indirect_part(const ScanDecoding& decoding,
-                                          const MeasuredViews& measured,
+                                          const LitViews& lit,
                                           const Mesh& surface,
+                                          ShiftedPoints points,
                                           const Run& run) {
   constexpr double kMaterial = 0.01;   // share of the points of a view
   constexpr std::size_t kDecoded = 3;  // views whose frames determine the reflectance
   const Scan& scan = decoding.scan;
   const Image<Eigen::Vector2f>& rays = decoding.rays;
-  const DirectionPlan* plan = plan_of(decoding.plan, measured.coarsest.direction);
+  const DirectionPlan* plan = plan_of(decoding.plan, lit.direction);
   if (plan == nullptr || plan->maps.empty() || surface.empty()) return std::nullopt;
   Mesh shape;
   shape.vertices_mm = surface.vertices_mm;
   shape.triangles = surface.triangles;
   shape.normals = surface.normals;
-  const auto lit =
+  const auto source =
       std::make_shared<const LitSurface>(std::move(shape), scan.rig.projector, plan->maps);
   std::vector<ViewExposure> exposures;
-  for (std::size_t i = 0; i < measured.views.size(); ++i) {
+  for (std::size_t i = 0; i < lit.views.size(); ++i) {
     run.check();
-    exposures.push_back(exposure_of(i, measured.views, *lit, rays));
+    exposures.push_back(exposure_of(i, lit.views, *source, rays));
   }
   std::erase_if(exposures, [](const ViewExposure& one) { return one.affected < kMaterial; });
   if (exposures.empty()) return std::nullopt;
@@ -240,16 +249,15 @@ std::optional<IndirectPart> indirect_part(const ScanDecoding& decoding,
   for (const auto& [begin, end] : {std::pair<std::size_t, std::size_t>{0, 1}, {1, most}}) {
     if (begin == end) break;
     const auto views = std::span(exposures).subspan(begin, end - begin);
-    add_views(decoding, measured, views, *lit, run, samples);
+    add_views(decoding, lit, views, *source, run, samples);
     found = estimate_albedo(samples, plan->maps);
     if (!found.significant) return std::nullopt;
   }
-  const bool one_direction = decoding.plan.directions.size() == 1;
   const auto correction = std::make_shared<const IndirectCorrection>(
-      lit, found.albedo, source_of(*plan), one_direction, rays);
+      source, found.albedo, source_of(*plan), points == ShiftedPoints::Moved, rays);
   IndirectPart out;
   out.report = report_of(
-      measured.views.load_points(exposures.front().view), *lit, *correction, found.albedo, rays);
+      lit.views.load_points(exposures.front().view), *source, *correction, found.albedo, rays);
   out.unexplained = found.unexplained;
   out.correct = [correction](View& view) { correction->correct(view); };
   out.largest_shifts_mm = [correction](const View& view) {
