@@ -10,8 +10,9 @@
 namespace frangia {
 namespace {
 
-constexpr int kMaxNesting = 100;   // toml++ overflows a stack of 8 MB at about 20 000 levels
-constexpr int kMaxKeyParts = 100;  // each part of a dotted key is one level
+constexpr int kMaxNesting = 100;  // toml++ overflows a stack of 8 MB at about 20 000 levels
+constexpr std::size_t kMaxJsonValues = 1'000'000;  // a parsed value takes up to 150 bytes
+constexpr int kMaxKeyParts = 100;                  // each part of a dotted key is one level
 
 class NestingScanner {
  public:
@@ -23,6 +24,7 @@ class NestingScanner {
       if (text_[at_] == '"') {
         skip_string("\"", true);
       } else {
+        count_value();
         count_bracket();
       }
     }
@@ -59,6 +61,14 @@ class NestingScanner {
   }
 
  private:
+  /// Every value but the first one follows a bracket or a comma.
+  void count_value() {
+    const char letter = text_[at_];
+    if (letter != ',' && letter != '[' && letter != '{') return;
+    if (++values_ > kMaxJsonValues)
+      fail(fmt::format("it holds more than {} values", kMaxJsonValues));
+  }
+
   [[nodiscard]] bool at(std::string_view word) const {
     return text_.substr(at_, word.size()) == word;
   }
@@ -106,6 +116,7 @@ class NestingScanner {
   std::size_t at_ = 0;
   int depth_ = 0;
   int key_parts_ = 0;
+  std::size_t values_ = 0;
 };
 
 }  // namespace

@@ -5,8 +5,8 @@
 
 namespace frangia {
 
-/// Refuses a JSON text whose arrays and objects are nested more than 100 deep: parsers and the
-/// destructors of their values recurse.
+/// Refuses a JSON text nested more than 100 deep, since parsers and destructors recurse, and one of
+/// more than a million values, which take up to 150 bytes each.
 ///
 /// @errors   Error(Input) that names `file` and the line
 void check_json_nesting(std::string_view text, const std::filesystem::path& file);

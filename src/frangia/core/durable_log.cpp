@@ -18,7 +18,9 @@ namespace frangia {
 
 DurableLog::DurableLog(std::filesystem::path path)
     : path_(std::move(path)),
-      file_(::open(path_.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0644)) {  // NOLINT(*-vararg)
+      file_(::open(path_.c_str(),
+                   O_WRONLY | O_CREAT | O_NOFOLLOW | O_CLOEXEC,  // NOLINT(*-vararg)
+                   0644)) {
   if (file_ < 0) fail(errno);
   try {
     std::ifstream in(path_, std::ios::binary);

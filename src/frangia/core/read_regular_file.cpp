@@ -11,22 +11,10 @@
 #include <unistd.h>
 
 #include "frangia/core/error.h"
+#include "frangia/core/file_descriptor.h"
 
 namespace frangia {
 namespace {
-
-/// An open file that is closed at the end.
-struct Descriptor {
-  explicit Descriptor(int opened) : file(opened) {}
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-  Descriptor(Descriptor&&) = delete;
-  Descriptor& operator=(Descriptor&&) = delete;
-  ~Descriptor() {
-    if (file >= 0) ::close(file);
-  }
-  int file;
-};
 
 const char* kind_of(::mode_t mode) {
   if (S_ISDIR(mode)) return "a folder";
@@ -46,15 +34,15 @@ std::vector<char> read_regular_file(const std::filesystem::path& path, std::size
         ErrorKind::Input,
         fmt::format("{}: the name continues after a NUL character; rename the file", path.c_str()));
   struct ::stat state {};
-  const Descriptor descriptor(
+  const FileDescriptor descriptor(
       ::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC));  // NOLINT(*-vararg)
   const int error = errno;
-  const bool known = descriptor.file >= 0 ? ::fstat(descriptor.file, &state) == 0
+  const bool known = descriptor.is_open() ? ::fstat(descriptor.number(), &state) == 0
                                           : ::stat(path.c_str(), &state) == 0;
   if (known && !S_ISREG(state.st_mode))
     fail(fmt::format("is {}, not a file; replace it", kind_of(state.st_mode)));
   if (!known && (error == ENOENT || error == ENOTDIR)) fail("does not exist; check the path");
-  if (descriptor.file < 0 || !known)
+  if (!descriptor.is_open() || !known)
     fail(fmt::format("cannot be read: {}", std::generic_category().message(error)));
   const auto size = static_cast<std::size_t>(state.st_size);
   if (size > max_bytes)
@@ -62,7 +50,7 @@ std::vector<char> read_regular_file(const std::filesystem::path& path, std::size
   std::vector<char> bytes(size);
   std::size_t done = 0;
   while (done < size) {
-    const ::ssize_t got = ::read(descriptor.file, bytes.data() + done, size - done);
+    const ::ssize_t got = ::read(descriptor.number(), bytes.data() + done, size - done);
     if (got < 0 && errno == EINTR) continue;
     if (got < 0) fail("cannot be read; check the disk");
     if (got == 0) break;  // another process shortened the file
