@@ -176,6 +176,24 @@ TEST_F(CaptureFolder, IsResumedAfterADiskThatFilledWhileThePlanWasStored) {
   }
 }
 
+TEST_F(CaptureFolder, IsNotContinuedThroughALink) {
+  const auto outside = plan_.folder.parent_path() / "outside";
+  static_cast<void>(capture());
+  for (const char* link : {"views", "views/000", "capture", "capture/manifest.txt"}) {
+    const auto place = plan_.folder / link;
+    std::filesystem::remove(plan_.folder / "scan.toml");
+    std::filesystem::remove_all(outside);
+    std::filesystem::rename(place, outside);
+    std::filesystem::create_symlink(outside, place);
+    const std::string sentence = complaint();
+    EXPECT_TRUE(mentions(sentence, place.string() + ": is a link to " + outside.string()))
+        << link << ": " << sentence;
+    std::filesystem::remove(place);
+    std::filesystem::rename(outside, place);
+  }
+  EXPECT_EQ(complaint(), "");
+}
+
 TEST_F(CaptureFolder, IsTheSameScanUnderAnotherName) {
   static_cast<void>(capture());
   std::filesystem::rename(plan_.folder, folder_.path() / "renamed");

@@ -120,15 +120,27 @@ TEST(ReadScanFault, AFrameThatIsALinkOutOfTheScanIsNamed) {
   const auto path = folder.view() / "fringe-2.png";
   std::filesystem::rename(path, outside.path() / "fringe-2.png");
   std::filesystem::create_symlink(outside.path() / "fringe-2.png", path);
-  expect_names(complaint(folder), "fringe-2.png: is a link to a file outside of the scan folder");
+  expect_names(complaint(folder), "fringe-2.png: is a link to " + outside.path().string());
+  expect_names(complaint(folder), "put the files themselves here");
 }
 
-TEST(ReadScan, AcceptsAFrameThatIsALinkInsideTheScan) {
+TEST(ReadScanFault, AFrameThatIsALinkInsideTheScanIsNamed) {
   const SmallFolder folder;
   const auto path = folder.view() / "fringe-2.png";
   std::filesystem::remove(path);
   std::filesystem::create_symlink("fringe-1.png", path);
-  EXPECT_EQ(complaint(folder), "accepted");
+  expect_names(complaint(folder), "fringe-2.png: is a link to fringe-1.png");
+}
+
+TEST(ReadScanFault, AFileOfTheScanThatIsALinkIsNamed) {
+  for (const char* name : {"scan.toml", "rig.toml"}) {
+    const SmallFolder folder;
+    const TemporaryFolder outside;
+    std::filesystem::rename(folder.path() / name, outside.path() / name);
+    std::filesystem::create_symlink(outside.path() / name, folder.path() / name);
+    expect_names(complaint(folder),
+                 std::string(name) + ": is a link to " + outside.path().string());
+  }
 }
 
 TEST(ReadScanFault, AFrameOfAnotherSizeIsRefusedBeforeItIsDecoded) {
@@ -197,7 +209,8 @@ TEST(ReadScanFault, AViewsFolderThatIsALinkOutOfTheScanIsNamed) {
   const TemporaryFolder outside;
   std::filesystem::remove_all(folder.view());
   std::filesystem::create_directory_symlink(outside.path(), folder.view());
-  expect_names(complaint(folder), "view[0].folder");
+  expect_names(complaint(folder), folder.view().string() + ": is a link to ");
+  expect_names(complaint(folder), "mount --bind");
 }
 
 TEST(ReadScan, AcceptsAScanFolderThatIsALinkItself) {

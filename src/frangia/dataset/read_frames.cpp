@@ -15,8 +15,8 @@
 
 #include <fmt/format.h>
 
+#include "frangia/core/open_below.h"
 #include "frangia/core/parallel.h"
-#include "frangia/dataset/internal/leads_outside.h"
 #include "frangia/frames/image_file.h"
 #include "frangia/frames/png.h"
 
@@ -191,11 +191,7 @@ struct FrameFile {
 
 /// Reads a frame inside the scan folder, of the size of the rig's camera.
 void read_frame(const Scan& scan, const FrameFile& file) {
-  const std::filesystem::path path = scan.folder / file.relative;
-  std::error_code ignored;
-  if (std::filesystem::is_symlink(path, ignored) && leads_outside(scan.folder, file.relative)) {
-    refuse(path, "is a link to a file outside of the scan folder; copy the file into the folder");
-  }
+  const std::filesystem::path path = path_below(scan.folder, file.relative);
   if (scan.frames.is_float) {
     *file.frame = read_float_frame(scan, path);
   } else if (may_have_color(file.stack->pattern) && is_color_png(path)) {
@@ -226,7 +222,7 @@ void for_each_file(const std::vector<FrameFile>& files,
 }  // namespace
 
 std::vector<FrameStack> read_frames(const Scan& scan, std::size_t view, const Run& run) {
-  const std::filesystem::path folder = scan.folder / scan.views.at(view).folder;
+  const std::filesystem::path folder = path_below(scan.folder, scan.views.at(view).folder);
   if (!std::filesystem::is_directory(folder)) {
     const std::string& camera = scan.rig.camera.name;
     if (!camera.empty()) {

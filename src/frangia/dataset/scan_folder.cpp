@@ -9,8 +9,8 @@
 #include <fmt/format.h>
 
 #include "frangia/core/angles.h"
+#include "frangia/core/open_below.h"
 #include "frangia/dataset/internal/assume_rig.h"
-#include "frangia/dataset/internal/leads_outside.h"
 #include "frangia/dataset/internal/read_board.h"
 #include "frangia/dataset/internal/read_pattern.h"
 #include "frangia/rig/read_rig.h"
@@ -35,6 +35,12 @@ void refuse_renamed(const TomlReader& reader, std::initializer_list<RenamedKey> 
   }
 }
 
+/// Whether a name stays in its folder. The operating system would cut it off at a NUL character.
+bool lies_inside(const std::filesystem::path& name) {
+  return !name.empty() && !name.is_absolute() && name.native().find('\0') == std::string::npos &&
+         std::find(name.begin(), name.end(), "..") == name.end();
+}
+
 ScanView read_view(TomlReader reader, const Scan& scan, bool only_view, const Run& run) {
   refuse_renamed(reader, {{"round", "setup"}});
   ScanView view;
@@ -42,11 +48,12 @@ ScanView read_view(TomlReader reader, const Scan& scan, bool only_view, const Ru
   view.angle_rad =
       rad_from_deg(needs_angle ? reader.number("angle_deg") : reader.number_or("angle_deg", 0.0));
   view.folder = reader.text("folder");
-  if (leads_outside(scan.folder, view.folder)) {
+  if (!lies_inside(view.folder)) {
     reader.fail("folder",
                 fmt::format("is \"{}\"; it must be relative to the scan folder and lie inside it",
                             view.folder.c_str()));  // up to a NUL character
   }
+  static_cast<void>(path_below(scan.folder, view.folder));
   if (reader.has("setup")) view.setup = reader.integer("setup", 0, kMaxSetups);
   reader.warn_of_unused_keys(run);
   return view;
@@ -165,7 +172,7 @@ Scan read_scan(const std::filesystem::path& folder, const Run& run, RigContent c
                     std::filesystem::exists(folder) ? "is not a folder" : "does not exist"));
   }
   require_complete(folder);
-  const std::filesystem::path file = folder / "scan.toml";
+  const std::filesystem::path file = path_below(folder, "scan.toml");
   const toml::table table = parse_toml(file, "frangia-scan", kScanVersion);
   TomlReader reader(file, "", table);
   for (const auto* known : {"format", "version"})
@@ -181,7 +188,7 @@ Scan read_scan(const std::filesystem::path& folder, const Run& run, RigContent c
                             (folder / "rig.toml").string()));
   }
   scan.rig = has_rig || content != RigContent::PhaseOnly
-                 ? read_rig(folder / "rig.toml", run, content)
+                 ? read_rig(path_below(folder, "rig.toml"), run, content)
                  : unknown_rig();
   if (content == RigContent::PhaseOnly) choose_projector_model(reader, scan.rig.projector);
   if (reader.has("board")) {

@@ -14,6 +14,7 @@
 #include "frangia/core/error.h"
 #include "frangia/core/folder_lock.h"
 #include "frangia/core/make_folder.h"
+#include "frangia/core/open_below.h"
 #include "frangia/core/read_text_file.h"
 #include "frangia/core/sync_to_disk.h"
 #include "frangia/dataset/write_scan.h"
@@ -86,7 +87,7 @@ void store_plan(const std::filesystem::path& folder, const PlanFiles& files) {
 void extend_plan(const Scan& plan, int setup, const std::string& text) {
   Scan before = plan;
   std::erase_if(before.views, [&](const ScanView& view) { return view.setup == setup; });
-  const std::filesystem::path path = plan.folder / "capture" / "scan.toml";
+  const std::filesystem::path path = path_below(plan.folder, "capture/scan.toml");
   if (before.views.empty() || identity_of(stored_text(path)) != identity_of(scan_text(before)))
     return;
   CaptureManifest(plan.folder).change_plan("scan.toml", crc32(identity_of(text)));
@@ -97,7 +98,8 @@ void extend_plan(const Scan& plan, int setup, const std::string& text) {
 void compare_plan(const std::filesystem::path& folder, const PlanFiles& files, const Run& run) {
   const CaptureManifest manifest(folder);
   for (const PlanFile& file : files) {
-    const std::filesystem::path path = folder / "capture" / file.name;
+    const std::filesystem::path path =
+        path_below(folder, std::filesystem::path("capture") / file.name);
     const std::string before = identity_of(stored_text(path));
     const std::string now = identity_of(file.text);
     if (before == now) continue;

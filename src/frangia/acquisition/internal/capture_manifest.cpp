@@ -10,6 +10,7 @@
 #include "frangia/core/atomic_file.h"
 #include "frangia/core/crc32.h"
 #include "frangia/core/error.h"
+#include "frangia/core/open_below.h"
 #include "frangia/core/read_regular_file.h"
 
 namespace frangia {
@@ -34,7 +35,8 @@ void CaptureManifest::begin(const std::filesystem::path& file, const PlanChecksu
 }
 
 CaptureManifest::CaptureManifest(std::filesystem::path folder)
-    : folder_(std::move(folder)), log_(folder_ / "capture" / kFileName) {
+    : folder_(std::move(folder)),
+      log_(path_below(folder_, std::filesystem::path("capture") / kFileName)) {
   std::size_t number = 0;
   for (const LogLine& line : log_.lines()) {
     ++number;
@@ -127,7 +129,7 @@ void CaptureManifest::store(const std::string& file,
                             ManifestFrame frame) {
   frame.checksum = crc32(bytes);
   frame.bytes = bytes.size();
-  AtomicFile out(folder_ / file, Durability::Synced);
+  AtomicFile out(path_below(folder_, file), Durability::Synced);
   out.stream().write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
   out.commit();
   append(file, frame);
@@ -207,7 +209,7 @@ std::size_t CaptureManifest::retries() const {
 std::size_t CaptureManifest::forget_damaged() {
   return std::erase_if(frames_, [&](const auto& entry) {
     try {
-      const std::vector<char> bytes = read_regular_file(folder_ / entry.first);
+      const std::vector<char> bytes = read_regular_file(path_below(folder_, entry.first));
       return bytes.size() != entry.second.bytes || crc32(bytes) != entry.second.checksum;
     } catch (const Error&) {
       return true;

@@ -11,6 +11,7 @@
 #include "frangia/acquisition/internal/capture_folder.h"
 #include "frangia/acquisition/internal/recover_frames.h"
 #include "frangia/core/make_folder.h"
+#include "frangia/core/open_below.h"
 
 namespace frangia {
 
@@ -108,7 +109,7 @@ CaptureSession::Ready CaptureSession::set_up(std::size_t view) {
 
 void CaptureSession::capture_view_once(std::size_t view) {
   for (std::size_t camera = 0; camera < files_.cameras(); ++camera)
-    make_folder(plan_.folder / files_.folder_of(view, camera), Durability::Synced);
+    make_folder(path_below(plan_.folder, files_.folder_of(view, camera)), Durability::Synced);
   std::vector<std::shared_ptr<const Frame>> frames;
   for (const Pattern& pattern : plan_.patterns) {
     const auto set = sets_.capture(view, pattern);

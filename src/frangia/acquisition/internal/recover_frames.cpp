@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "frangia/core/error.h"
+#include "frangia/core/open_below.h"
 #include "frangia/core/read_regular_file.h"
 #include "frangia/frames/png.h"
 
@@ -15,9 +16,11 @@ namespace frangia {
 namespace {
 
 /// The bytes of a frame; empty when the file is missing, damaged or of another size.
-std::optional<std::vector<char>> intact_frame(const std::filesystem::path& path,
+std::optional<std::vector<char>> intact_frame(const std::filesystem::path& folder,
+                                              const std::string& file,
                                               const CameraModel& camera) {
   try {
+    const std::filesystem::path path = path_below(folder, file);
     std::vector<char> bytes = read_regular_file(path);
     static_cast<void>(read_png(path, [&](int width_px, int height_px) {
       require(width_px == camera.width_px && height_px == camera.height_px, "another size");
@@ -55,7 +58,7 @@ std::size_t recover_set(const Scan& plan,
                                                     frame_file_name(pattern, frame, exposure),
                                                     attempt))
         continue;
-      const auto bytes = intact_frame(plan.folder / file, model);
+      const auto bytes = intact_frame(plan.folder, file, model);
       if (!bytes) continue;
       manifest.add_recovered(file, *bytes);
       ++count;

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "frangia/acquisition/internal/assess_set.h"
+#include "frangia/core/open_below.h"
 #include "frangia/frames/png.h"
 
 namespace frangia {
@@ -129,7 +130,8 @@ std::vector<SetCapture::FramePtr> SetCapture::acquire(std::size_t view,
     for (int exposure = 0; exposure < pattern.exposure_count(); ++exposure) {
       const std::string file = parts_.files.file_of(view, pattern, frame, exposure);
       if (stored[frames.size()]) {
-        frames.push_back(std::make_shared<const Frame>(read_png(parts_.plan.folder / file)));
+        frames.push_back(
+            std::make_shared<const Frame>(read_png(path_below(parts_.plan.folder, file))));
       } else {
         const FrameLabel label{static_cast<int>(view), pattern.name, frame, exposure, attempt};
         parts_.devices.expose_for(exposure_of(pattern, exposure));

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "frangia/core/make_folder.h"
+#include "frangia/core/open_below.h"
 #include "frangia/core/sync_to_disk.h"
 #include "frangia/rig/rig_of_camera.h"
 
@@ -81,8 +82,8 @@ std::vector<bool> SetFiles::stored_frames(std::size_t view, const Pattern& patte
 
 void SetFiles::move_to_rejected(std::size_t view, const Pattern& pattern, int attempt) const {
   for (std::size_t camera = 0; camera < cameras(); ++camera) {
-    const std::filesystem::path folder = plan_.folder / folder_of(view, camera);
-    const std::filesystem::path rejected = folder / "rejected";
+    const std::filesystem::path folder = path_below(plan_.folder, folder_of(view, camera));
+    const std::filesystem::path rejected = path_below(folder, "rejected");
     make_folder(rejected, Durability::Synced);
     for (int frame = 0; frame < pattern.frame_count(); ++frame) {
       for (int exposure = 0; exposure < pattern.exposure_count(); ++exposure) {
