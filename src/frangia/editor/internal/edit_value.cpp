@@ -93,11 +93,22 @@ std::optional<double> number_of_word(ValueUnit unit, std::string_view word) {
 }
 
 bool is_in_range(const ValueKind& kind, double number) {
-  constexpr double kLargest = 1e9;  // counts stay below 2^31, coordinates in single precision
+  constexpr double kLargest = 1e9;    // counts stay below 2^31, coordinates in single precision
+  constexpr double kSmallest = 1e-6;  // mm or degrees; squares and inverses of it are no trouble
   if (!(std::abs(number) <= kLargest)) return false;
   if (kind.whole && number != std::floor(number)) return false;
-  if (kind.range == ValueRange::Positive) return number > 0.0;
+  if (kind.range == ValueRange::Positive) return number >= kSmallest;
   return kind.range == ValueRange::Any || number >= 0.0;
+}
+
+/// Scripts, histories and the state of the app hold the texts of values.
+void require_short(std::string_view value, std::size_t numbers) {
+  constexpr std::size_t kMostLetters = 40;  // of a number with its unit
+  if (value.size() <= numbers * kMostLetters) return;
+  throw Error(ErrorKind::Input,
+              fmt::format("the value has {} letters, more than {} numbers need; shorten it",
+                          value.size(),
+                          numbers));
 }
 
 std::string_view help_for(std::string_view pattern) {
@@ -110,6 +121,7 @@ std::string_view help_for(std::string_view pattern) {
 
 std::vector<double> edit_numbers(std::string_view pattern, const std::string& value) {
   const auto names = split_at_commas(pattern);
+  require_short(value, names.size());
   const auto words = split_at_commas(value);
   std::vector<double> numbers;
   for (std::size_t i = 0; i < names.size() && words.size() == names.size(); ++i) {
@@ -134,6 +146,7 @@ Eigen::Hyperplane<double, 3> edit_plane(const std::vector<double>& numbers) {
 ViewedOutline edit_outline(const std::string& value) {
   constexpr std::size_t kMostCorners = 4096;
   constexpr std::size_t kCoordinates = 3;
+  require_short(value, (kMostCorners + 1) * kCoordinates);
   const auto words = split_at_commas(value);
   std::vector<double> numbers;
   for (const std::string_view word : words) {
