@@ -21,24 +21,30 @@ std::string quoted(const std::filesystem::path& path) {
   return "'" + path.string() + "'";
 }
 
+/// Two views of a ball bar by an angular rig, simulated once for all tests.
 class Program : public ::testing::Test {
  protected:
-  [[nodiscard]] std::filesystem::path scan() const { return folder_.path() / "scan"; }
-  [[nodiscard]] std::filesystem::path out(const std::string& name) const {
-    return folder_.path() / name;
-  }
-  void simulate() const {
+  static void SetUpTestSuite() {
+    shared_ = new TemporaryFolder;  // NOLINT(*-owning-memory) deleted below
     const Answer answer =
         run_program("simulate ball-bar --rig angular --views 2 -o " + quoted(scan()));
     ASSERT_EQ(answer.exit_code, 0) << answer.output;
   }
+  static void TearDownTestSuite() { delete shared_; }  // NOLINT(*-owning-memory)
+
+  [[nodiscard]] static std::filesystem::path scan() { return shared_->path() / "scan"; }
+  [[nodiscard]] std::filesystem::path out(const std::string& name) const {
+    return folder_.path() / name;
+  }
 
  private:
+  static TemporaryFolder* shared_;
   TemporaryFolder folder_;
 };
 
+TemporaryFolder* Program::shared_ = nullptr;
+
 TEST_F(Program, SimulatesAndReconstructsToEveryFormat) {
-  simulate();
   const Answer answer =
       run_program("reconstruct " + quoted(scan()) + " -o " + quoted(out("a.dxf")) + " -o " +
                   quoted(out("a.ply")) + " -o " + quoted(out("a.stl")));
@@ -48,7 +54,6 @@ TEST_F(Program, SimulatesAndReconstructsToEveryFormat) {
 }
 
 TEST_F(Program, AnswersMachinesInJson) {
-  simulate();
   // Warnings go to standard error; standard output holds JSON alone.
   const Answer answer = run_program("--json reconstruct " + quoted(scan()) + " -o " +
                                     quoted(out("a.ply")) + " 2>/dev/null");
@@ -59,7 +64,6 @@ TEST_F(Program, AnswersMachinesInJson) {
 }
 
 TEST_F(Program, DecodesTheStagesOfOneView) {
-  simulate();
   const Answer answer =
       run_program("decode " + quoted(scan()) + " --view 1 -o " + quoted(out("stages")));
   EXPECT_EQ(answer.exit_code, 0) << answer.output;
@@ -174,8 +178,7 @@ void expect_bad_input(const Answer& answer, const std::string& names) {
 
 TEST_F(Program, BadInputExitsWithThreeAndOneSentence) {
   expect_bad_input(run_program("reconstruct /nowhere -o " + quoted(out("a.ply"))), "/nowhere");
-  expect_bad_input(run_program("simulate teapot -o " + quoted(scan())), "teapot");
-  simulate();
+  expect_bad_input(run_program("simulate teapot -o " + quoted(out("teapot"))), "teapot");
   expect_bad_input(run_program("reconstruct " + quoted(scan()) + " -o " + quoted(out("a.doc"))),
                    "a.doc");
   expect_bad_input(run_program("decode " + quoted(scan()) + " --view 9 -o " + quoted(out("d"))),
@@ -183,20 +186,18 @@ TEST_F(Program, BadInputExitsWithThreeAndOneSentence) {
 }
 
 TEST_F(Program, RefusesAnUnwritableOutputBeforeTheWork) {
-  simulate();
   expect_bad_input(run_program("reconstruct " + quoted(scan()) + " -o /nowhere/a.ply"),
                    "/nowhere/a.ply");
 }
 
 TEST_F(Program, LeavesNothingUnderTheFinalNameWhenAFrameIsBroken) {
-  simulate();
-  const auto frame = scan() / "views/001/fringe-1.png";
-  std::filesystem::resize_file(frame, 200);
+  std::filesystem::copy(scan(), out("scan"), std::filesystem::copy_options::recursive);
+  std::filesystem::resize_file(out("scan/views/001/fringe-1.png"), 200);
   expect_bad_input(
-      run_program("--quiet reconstruct " + quoted(scan()) + " -o " + quoted(out("a.ply"))),
+      run_program("--quiet reconstruct " + quoted(out("scan")) + " -o " + quoted(out("a.ply"))),
       "fringe-1.png");
   EXPECT_FALSE(std::filesystem::exists(out("a.ply")));
-  for (const auto& entry : std::filesystem::directory_iterator(scan().parent_path()))
+  for (const auto& entry : std::filesystem::directory_iterator(out("")))
     EXPECT_EQ(entry.path().filename(), "scan");
 }
 
