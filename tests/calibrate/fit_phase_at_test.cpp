@@ -82,17 +82,6 @@ TEST(FitPhaseAt, WeighsPixelsByTheirVariance) {
   EXPECT_NEAR(fit_phase_at(phase, sigma, kFitted_px).phase_rad, 50.0, 0.002);
 }
 
-TEST(FitPhaseAt, IgnoresAnotherSurfaceAtTheBorderOfTheWindow) {
-  Image<float> phase = phase_image(0.02);
-  for (int y = 0; y < 61; ++y) {
-    for (int x = 51; x < 81; ++x)
-      phase(x, y) += 6.0F;
-  }
-  const PhaseAt found = fit_phase_at(phase, Image<float>(81, 61, 0.02F), kFitted_px);
-  EXPECT_NEAR(found.phase_rad, 50.0, 4.0 * found.sigma_rad);
-  EXPECT_LT(found.sigma_rad, 0.004);
-}
-
 TEST(FitPhaseAt, NeedsEnoughMeasuredPixels) {
   Image<float> phase(81, 61, kMissing);
   const Image<float> sigma(81, 61, 0.01F);

@@ -159,7 +159,7 @@ TEST_F(ForeignMeshes, StripsAndFansOfAGltfBecomeTriangles) {
        {std::pair(0.F, 0.F), {0.F, 1.F}, {1.F, 0.F}, {1.F, 1.F}, {2.F, 0.F}, {2.F, 1.F}})
     for (const float number : {x, y, 0.F})
       bytes.append(reinterpret_cast<const char*>(&number), 4);
-  put("a.bin", bytes);
+  static_cast<void>(put("a.bin", bytes));
   const auto text = [](int mode) {
     return fmt::format(
         R"({{"asset": {{"version": "2.0"}}, "scene": 0, "scenes": [{{"nodes": [0]}}],

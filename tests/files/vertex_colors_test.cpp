@@ -21,7 +21,7 @@ using testing::ReaderAnswer;
 
 /// A box whose corners have the colors of the corners of the color cube, but for one.
 Mesh colored_box() {
-  Mesh mesh = testing::box({0.0F, 0.0F, 0.0F}, {10.0F, 20.0F, 30.0F});
+  Mesh mesh = testing::box(Eigen::Vector3f(0.0F, 0.0F, 0.0F), Eigen::Vector3f(10.0F, 20.0F, 30.0F));
   for (unsigned i = 0; i < 8; ++i) {
     const auto channel = [&](unsigned bit) {
       return static_cast<std::uint8_t>((i & bit) != 0 ? 255 : 0);

@@ -15,7 +15,7 @@ namespace {
 
 /// A box with a second vertex close to one of its corners.
 Mesh box_with_sliver() {
-  Mesh mesh = testing::box({0.0F, 0.0F, 0.0F}, {1.0F, 1.0F, 1.0F});
+  Mesh mesh = testing::box(Eigen::Vector3f(0.0F, 0.0F, 0.0F), Eigen::Vector3f(1.0F, 1.0F, 1.0F));
   mesh.vertices_mm.emplace_back(0.995F, 1.0F, 1.0F);  // on the edge from corner 6 to corner 7
   for (auto& triangle : mesh.triangles) {
     if (triangle == Mesh::Triangle{5, 7, 6}) triangle = {5, 7, 8};

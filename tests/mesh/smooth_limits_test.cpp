@@ -97,7 +97,7 @@ TEST(SmoothLimits, RefuseNegativeNumbersAndASelectionOfAnotherMesh) {
   SmoothOptions options;
   options.only.assign(3, 1);
   EXPECT_NE(error(options).find("one selection flag per triangle"), std::string::npos);
-  EXPECT_EQ(error({.iterations = 0}), "");
+  EXPECT_NO_THROW(static_cast<void>(SmoothLimits(mesh, edges, {.iterations = 0})));
 }
 
 }  // namespace

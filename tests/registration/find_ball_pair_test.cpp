@@ -50,7 +50,7 @@ TEST(FindBallPair, FindsBothBallsAboveAPlate) {
   const auto found = find_ball_pair(points);
   ASSERT_TRUE(found);
   EXPECT_NEAR(found->distance_mm(), Vector3d(80.0, 5.0, 3.0).norm(), 0.01);
-  for (const FoundBall* ball : {&found->first, &found->second}) {
+  for (const BarBall* ball : {&found->first, &found->second}) {
     EXPECT_NEAR(ball->sphere.radius_mm, 12.0, 0.01);
     const bool left = ball->sphere.center_mm.x() < 0.0;
     EXPECT_LT(

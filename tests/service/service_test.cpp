@@ -36,6 +36,14 @@ TEST_F(ServiceTest, RefusesWhatItDoesNotUnderstandInWords) {
   EXPECT_TRUE(state().at("projects").empty()) << "a refused command leaves nothing behind";
 }
 
+/// The arrays of a packed answer, without the header, which states the revision that was first
+/// shown.
+std::string without_header(const std::string& packed) {
+  std::uint32_t bytes = 0;
+  std::memcpy(&bytes, packed.data(), sizeof bytes);
+  return packed.substr(sizeof bytes + bytes);
+}
+
 TEST_F(ServiceTest, EditsUndoesAndKeepsTheStepsOverARestart) {
   open_box();
   Json surface = state().at("project").at("surface");
@@ -79,7 +87,7 @@ TEST_F(ServiceTest, EditsUndoesAndKeepsTheStepsOverARestart) {
   restart();
   static_cast<void>(command("open-project", {{"name", "box"}}));
   static_cast<void>(finish());
-  EXPECT_EQ(service_->mesh(), mesh);
+  EXPECT_EQ(without_header(service_->mesh()), without_header(mesh));
   EXPECT_EQ(state().at("project").at("surface").at("steps_done"), 3);
 }
 
