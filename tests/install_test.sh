@@ -14,7 +14,7 @@ test -z "$(find "$work/usr/include" -name internal)"
 
 cmake -S "$source_dir/examples/find_package" -B "$work/build" -DCMAKE_PREFIX_PATH="$work/usr" >"$work/configure.log"
 cmake --build "$work/build" >"$work/build.log" || { cat "$work/build.log"; exit 1; }
-"$work/usr/bin/frangia" --quiet simulate ball-bar --views 2 --rig "$source_dir/tests/data/small-interferometer.toml" -o "$work/scan"
+"$work/usr/bin/frangia" --quiet simulate ball-bar --views 2 --rig "$source_dir/examples/python/small-rig.toml" -o "$work/scan"
 "$work/build/scan_to_mesh" "$work/scan" "$work/mesh.ply"
 test -s "$work/mesh.ply"
 

@@ -83,7 +83,8 @@ await tell(home, async () => {
   page = await openPage(browser, server.url);
   await page.locator('.card', { hasText: 'Plate' }).click();
   await page.waitForSelector('#scan:not([disabled])');
-  expect(/Continue/.test(await page.locator('#scan').innerText()), 'the app does not offer to continue');
+  const offer = await page.locator('#scan').innerText();
+  expect(/Continue/.test(offer), `the app does not offer to continue: ${offer}`);
   await look(page, shots, 'resume');
   await page.click('#scan');
   const done = await waitFor(page, (state) => state.project.scan_complete && state.jobs.every((job) => job.state !== 'running'));

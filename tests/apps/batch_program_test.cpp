@@ -167,6 +167,25 @@ TEST_F(BatchRecord, AFrameThatChangesOrGoesIsSeen) {
   EXPECT_EQ(run("--table").exit_code, 0);
 }
 
+TEST_F(BatchRecord, AMissingFileThatAppearsIsSeen) {
+  fs::remove(one() / "a" / "rig.toml");
+  const auto mark = result("done.json");
+  const auto is_tried_again = [&] {
+    const fs::file_time_type before{};
+    fs::last_write_time(mark, before);
+    EXPECT_EQ(run().exit_code, 4);
+    return fs::last_write_time(mark) != before;
+  };
+  EXPECT_EQ(run().exit_code, 4);
+  ASSERT_TRUE(fs::exists(mark)) << "it is missing, and the scan has failed for it";
+  EXPECT_FALSE(is_tried_again());
+  std::ofstream(one() / "a" / "rig.toml") << "no rig";
+  EXPECT_TRUE(is_tried_again());
+  EXPECT_FALSE(is_tried_again());
+  fs::remove(one() / "a" / "rig.toml");
+  EXPECT_TRUE(is_tried_again());
+}
+
 TEST_F(BatchRecord, VerifyFindsWhatChangedWithoutATrace) {
   ASSERT_EQ(run().exit_code, 0);
   // As a disk does it: the bytes change, and neither the time nor the size does.

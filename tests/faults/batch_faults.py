@@ -5,7 +5,7 @@ import shutil
 import subprocess
 import time
 
-from campaign import RIG, Answer
+from campaign import ROOT, Answer
 
 NAMES = ["a", "b"]
 CALLS = {"write,writev": 60, "fsync": 12, "fdatasync": 4, "rename": 12, "mkdir": 3}
@@ -39,7 +39,7 @@ def run(campaign):
                 "simulate",
                 "plate",
                 "--rig",
-                RIG,
+                ROOT / "examples" / "python" / "small-rig.toml",
                 "--views",
                 str(3 + i),
                 "-o",

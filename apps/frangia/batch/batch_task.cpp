@@ -94,6 +94,14 @@ NamedFiles recorded_results(const Json& record, const fs::path& folder) {
   return files;
 }
 
+/// The name of the first file that a record states as missing; empty when it has all. A scan may
+/// fail for a missing file, but what is done needs all.
+std::string first_missing(const Json& record) {
+  for (const auto& [name, file] : record.items())
+    if (file.is_null()) return name;
+  return {};
+}
+
 /// Waits until the results and their names are on the disk.
 void sync_results(const fs::path& folder) {
   for (const auto& [name, path] : results_in(folder))
@@ -149,7 +157,7 @@ BatchRow read_row(const BatchScan& scan,
     if (changed_in("inputs", inputs_of(scan))) return open;
     if (row.state == BatchState::Done) {
       const Json results = mark.value("results", Json());
-      if (!results.is_object() || results.empty() ||
+      if (!results.is_object() || results.empty() || !first_missing(results).empty() ||
           changed_in("results", recorded_results(results, folder)))
         return open;
     }
@@ -219,8 +227,14 @@ BatchRow run_task(const BatchScan& scan,
   sync_results(folder);
   Json content{{"row", json_of(row)}, {"cause", cause_of(scan, plan, folder)}};
   try {
-    content["inputs"] = record_of(inputs);
-    content["results"] = record_of(results_in(folder));
+    const Json read = record_of(inputs);
+    const Json left = record_of(results_in(folder));
+    if (row.state == BatchState::Done) {
+      const std::string missing = first_missing(read) + first_missing(left);
+      require(missing.empty(), "a file of it is missing since; the next run does it again");
+    }
+    content["inputs"] = read;
+    content["results"] = left;
   } catch (const Error& error) {
     row.state = BatchState::Open;
     row.message = error.what();  // a file is gone again

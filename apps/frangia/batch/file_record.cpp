@@ -33,7 +33,8 @@ std::string checksum_of(const fs::path& path) {
 /// Whether a file is the recorded one. A record of another form is of none.
 bool is_unchanged(const Json& record, const fs::path& path, bool verify) {
   const Json stamp = stamp_of(path);
-  if (stamp.is_null() || !record.is_object()) return false;
+  if (stamp.is_null()) return record.is_null();
+  if (!record.is_object()) return false;
   const auto known = record.find("stamp");
   const auto checksum = record.find("checksum");
   if (known == record.end() || checksum == record.end()) return false;
@@ -60,7 +61,9 @@ Json record_of(const NamedFiles& files) {
   for (const auto& [name, path] : files) {
     // The stamp is older than the checksum: a change between them is found by the checksum.
     Json stamp = stamp_of(path);
-    record[name] = {{"stamp", std::move(stamp)}, {"checksum", checksum_of(path)}};
+    record[name] = stamp.is_null()
+                       ? Json()
+                       : Json{{"stamp", std::move(stamp)}, {"checksum", checksum_of(path)}};
   }
   return record;
 }

@@ -12,7 +12,6 @@ export const SURFACE = {
   'surface.editsOne': ['1 edit', '1 Schritt'],
   'surface.show': ['Show', 'Zeigen'],
   'surface.shown': ['Shown', 'Gezeigt'],
-  'surface.showVersion': ['Show surface {number}', 'Fläche {number} zeigen'],
   'surface.replay': [
     'Replay the {count} edits of surface {version}',
     'Die {count} Schritte der Fläche {version} wiederholen',

@@ -39,7 +39,10 @@ export function scanStep(app: App): TemplateResult {
     .map((station, place) => ({ station, place }))
     .filter(({ station }) => station.setup === shown);
   const stations = all.map(({ station }) => station);
-  const begun = project.stations.some((station) => station.setup === present && station.state !== 'waiting');
+  // Frames of the first station may be there although no station is complete yet.
+  const begun =
+    (project.scan_begun && !project.scan_complete) ||
+    project.stations.some((station) => station.setup === present && station.state !== 'waiting');
   const measured = stations.some((station) => station.points > 0);
   const complete = done(app);
   if (app.setups.turning && complete && !job) return nextSetup(app);

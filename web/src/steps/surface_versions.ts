@@ -23,19 +23,22 @@ function replaying(app: App): TemplateResult | string {
 export function versions(app: App): TemplateResult | string {
   const { versions: all, current_version: current } = app.project;
   if (all.length < 2) return '';
-  const row = (version: Version): TemplateResult =>
-    html`<div class="file" data-version=${version.number}>
-      <b>${t('surface.version', { number: version.number })}</b>
+  const row = (version: Version): TemplateResult => {
+    const name = t('surface.version', { number: version.number });
+    const act = t(version.number === current ? 'surface.shown' : 'surface.show');
+    return html`<div class="file" data-version=${version.number}>
+      <b>${name}</b>
       <span class="num quiet">${moment(version.built_s)} · ${count('surface.edits', version.steps_done)}</span>
       <button
         class="btn small"
-        aria-label=${t('surface.showVersion', { number: version.number })}
+        aria-label=${`${act}: ${name}`}
         ?disabled=${app.busy || version.number === current}
         @click=${() => app.command('open-version', { version: version.number })}
       >
-        ${t(version.number === current ? 'surface.shown' : 'surface.show')}
+        ${act}
       </button>
     </div>`;
+  };
   return html`<section class="group" id="versions">
     <h2>${t('surface.versions')}</h2>
     ${replaying(app)}
