@@ -267,9 +267,9 @@ TEST_F(GrblTurntable, AcceptsTheGreetingsOfItsKin) {
     EXPECT_NE(firmware->identify(soon()).find("Idle"), std::string::npos) << version;
     firmware->enable_motor(true, soon());
     port.with<EmulatedGrbl>([](auto& grbl) { grbl.reset_in_next_move = true; });
-    EXPECT_NE(error_of([&] { firmware->move_to(5.0, 10.0, soon()); }).find("restarted"),
-              std::string::npos)
-        << version;
+    const std::string fault = error_of([&] { firmware->move_to(5.0, 10.0, soon()); });
+    EXPECT_NE(fault.find("it was reset while it moved"), std::string::npos)
+        << version << ": " << fault;
   }
 }
 

@@ -334,10 +334,10 @@ TEST(CalibrationFiles, AllocateNoMatrixThatAJsonFileOnlyNames) {
   const TemporaryFolder folder;
   const Files files{folder.path() / "a.json"};
   std::string row = "[0";
-  for (int i = 0; i < 400'000; ++i)
+  for (int i = 0; i < 200'000; ++i)
     row += ",0";
   std::string rows = row + "]";
-  for (int i = 0; i < 400'000; ++i)
+  for (int i = 0; i < 200'000; ++i)
     rows += ",[]";
   std::ofstream(files[0]) << "{\"K\": [" << rows << "]}";
   EXPECT_NE(error_of([&] { return read_calibration_files(files); }).find("states no calibration"),
