@@ -58,7 +58,7 @@ TEST_F(OpenBelow, NamesALinkAtEveryPlaceOfThePathAndWhereItLeads) {
   for (const char* inner : {"a/linked/file", "a/within/file", "a/b/linked-file", "dangling"}) {
     const std::string sentence = refusal_of(inner);
     EXPECT_NE(sentence.find("is a link to "), std::string::npos) << inner << ": " << sentence;
-    EXPECT_NE(sentence.find("mount --bind"), std::string::npos) << sentence;
+    EXPECT_NE(sentence.find("bind-mount"), std::string::npos) << sentence;
   }
   EXPECT_NE(refusal_of("a/linked/file").find((folder_ / "a" / "linked").string() + ": "),
             std::string::npos)

@@ -41,7 +41,7 @@ std::vector<std::string> components_of(const fs::path& folder, const fs::path& i
   refuse_below(
       shown,
       fmt::format("is a link to {}, and links in a scan or project are not followed; put the "
-                  "files themselves here, or mount the other disk here (mount --bind)",
+                  "files themselves here, or bind-mount the other disk here",
                   count > 0 ? target.data() : "another place"));
 }
 
