@@ -1,5 +1,6 @@
 #include "frangia/acquisition/capture_scan.h"
 
+#include <algorithm>
 #include <csignal>
 
 #include <sys/resource.h>
@@ -37,6 +38,17 @@ TEST_F(CaptureScan, WritesAScanThatReadsBackWithAnAssessmentOfEachView) {
   const Scan scan = read_scan(plan_.folder);
   EXPECT_EQ(scan.views.size(), 3U);
   EXPECT_EQ(read_frames(scan, 2).size(), 2U);
+}
+
+TEST_F(CaptureScan, AssessesAViewOfGrayCodeAlone) {
+  use("digital", 4);
+  plan_.patterns = default_patterns(plan_.rig, {.sequence = "gray-alone", .fringes = 64.0});
+  static_cast<void>(capture());
+  const auto assessed = std::find_if(
+      notes_.begin(), notes_.end(), [](const auto& note) { return holds(note, "view 1 of 3"); });
+  ASSERT_NE(assessed, notes_.end());
+  EXPECT_TRUE(holds(*assessed, ": good: ")) << *assessed;
+  EXPECT_FALSE(holds(*assessed, "contrast")) << *assessed;
 }
 
 /// The scan that was captured and one that was rendered, of the same part: what 95 % of the mesh is

@@ -297,7 +297,7 @@ class Robust(unittest.TestCase):
             server.command(command, **arguments)
             self.assertEqual(server.wait()["jobs"][-1]["state"], "done", command)
 
-    def test_ctrl_c_ends_with_less_than_a_second_of_work_whoever_is_connected(self):
+    def test_ctrl_c_ends_with_less_than_a_second_of_work_with_clients_connected(self):
         for sign in (signal.SIGINT, signal.SIGTERM):
             for work in ("nothing", "live", "scan", "reconstruct"):
                 with self.subTest(sign=sign.name, work=work):

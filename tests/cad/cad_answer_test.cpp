@@ -47,7 +47,7 @@ TEST(CadAnswer, IsRefusedWhenItIsCutShortOrGoesOn) {
   EXPECT_FALSE(parsed_answer(sound + "z"));
 }
 
-/// Sizes in the bytes are those of somebody else.
+/// The sizes in the bytes come from another process.
 TEST(CadAnswer, NeverReadsBeyondItsEnd) {
   const std::string sound = answer_of({{}, "inch", {"one"}}, std::string(100, 's'));
   for (std::uint64_t i = 0; i < 20'000; ++i) {

@@ -1,8 +1,11 @@
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
 
 #include <gtest/gtest.h>
+
+#include "frangia/rig/write_rig.h"
 
 #include "service/live_service.h"
 
@@ -55,6 +58,41 @@ TEST_F(LiveServiceTest, CalibratesTheRigFromPosesThatItAsksFor) {
   for (const Json& pose : residuals.at("poses"))
     EXPECT_FALSE(pose.at("outlier").get<bool>()) << pose;
   EXPECT_GT(std::filesystem::file_size(service_.exported("calibration.html").path), 10'000U);
+}
+
+/// After the calibration of a new rig nothing says where its turntable is.
+TEST_F(LiveServiceTest, FindsTheAxisOfItsTurntableAndScansNoStationsBefore) {
+  const std::filesystem::path file = folder_.path() / "live" / "rig.toml";
+  const Turntable truth = read_rig(file).turntable.value();
+  Rig rig = read_rig(file);
+  rig.turntable.reset();
+  command("close-project");
+  const std::filesystem::path fresh = folder_.path() / "live" / "fresh.toml";
+  write_rig(fresh, rig, Durability::Buffered, file);
+  std::filesystem::rename(fresh, file);
+  const Rig simulated = read_rig(folder_.path() / "live" / "true-rig.toml");
+  ASSERT_TRUE(simulated.turntable) << "the simulated table turns as before";
+  command("open-project", {{"name", "live"}});
+  ASSERT_TRUE(wait([&] { return !busy(); }));
+  ASSERT_TRUE(project().at("rig").at("turntable").is_null());
+  EXPECT_NE(error_of([&] { command("start-scan"); }).find("the axis of the turntable is unknown"),
+            std::string::npos);
+  EXPECT_NE(error_of([&] { command("find-axis"); }).find("the board is not known"),
+            std::string::npos);
+
+  command("find-axis", {{"square_mm", 14.0}, {"columns", 10}, {"rows", 7}});
+  ASSERT_TRUE(wait([&] { return !busy(); }));
+  const Json axis = project().at("axis");
+  ASSERT_FALSE(axis.is_null()) << service_.state();
+  EXPECT_GE(axis.at("views").get<int>(), 5);
+  const Turntable found = read_rig(file).turntable.value();
+  const double turned_rad = std::acos(std::min(1.0, found.axis.dot(truth.axis)));
+  EXPECT_LT(turned_rad, 0.002);
+  const Eigen::Vector3d between = found.point_mm - truth.point_mm;
+  EXPECT_LT((between - between.dot(truth.axis) * truth.axis).norm(), 0.5);
+  EXPECT_LT(axis.at("point_sigma_mm").get<double>(), 0.5);
+  EXPECT_FALSE(project().at("rig").at("turntable").is_null());
+  command("start-scan");
 }
 
 TEST_F(LiveServiceTest, ShowsTheCameraOfARigThatIsNotCalibrated) {

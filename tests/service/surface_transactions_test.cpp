@@ -157,7 +157,7 @@ class SurfaceTransactions : public TransactionTest {
     } else if (!done && !unconfirmed) {
       EXPECT_FALSE(changed) << "it was said to have failed; " << said();
     } else {
-      EXPECT_TRUE(changed) << "it was said to be done; " << said();
+      EXPECT_TRUE(changed) << "it was reported as done; " << said();
       EXPECT_EQ(job->at("revision"), after.revision) << said();
       if (done) {
         for (const bool all_names : {false, true}) {
@@ -168,7 +168,7 @@ class SurfaceTransactions : public TransactionTest {
     }
   }
 
-  /// The same, but that nobody knows the bytes of a new surface.
+  /// The same, without the bytes of a new surface, which are unknown.
   static bool same_but_surface(ProjectOnDisk expected, const ProjectOnDisk& after) {
     for (auto& [number, version] : expected.versions)
       if (version.surface.empty() && after.versions.contains(number))

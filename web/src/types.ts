@@ -13,6 +13,7 @@ export interface Job {
     | 'devices'
     | 'exposure'
     | 'calibrate'
+    | 'axis'
     | 'scan'
     | 'reconstruct'
     | 'edit'
@@ -175,6 +176,13 @@ export interface Verdict {
   projector_rms_px: number;
   poses: number;
 }
+export interface Axis {
+  views: number;
+  axis_sigma_deg: number;
+  point_sigma_mm: number;
+  angles_rms_deg: number;
+  distance_mm: number;
+}
 export interface Calibration {
   active: boolean;
   waiting: boolean;
@@ -268,6 +276,8 @@ export interface Project {
   devices: Device[];
   live: { pattern: LivePattern; table_deg: number } | null;
   calibration: Calibration | null;
+  /** Of the turntable, since it was searched for. */
+  axis: Axis | null;
   table_angle: { last_deg: number | null } | null;
   stations: Station[];
   /** The surface exists, and is being read. */

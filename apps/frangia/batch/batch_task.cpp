@@ -85,7 +85,7 @@ NamedFiles results_in(const fs::path& folder) {
   return files;
 }
 
-/// The results that a record names: further files beside them are of somebody else.
+/// The results that a record names: other files in the folder belong to the user.
 NamedFiles recorded_results(const Json& record, const fs::path& folder) {
   NamedFiles files;
   if (!record.is_object()) return files;

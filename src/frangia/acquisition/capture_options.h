@@ -24,7 +24,7 @@ struct ViewAssessment {
   std::size_t view = 0;                  ///< index in the plan
   std::string verdict;                   ///< "good", or the fault and its remedy in a few words
   bool good = false;                     ///< nothing to remedy
-  double contrast = 0.0;                 ///< of the finest fringes, 0 to 1
+  double contrast = 0.0;                 ///< of the finest fringes, 0 to 1; 0 without fringes
   double saturated_fraction = 0.0;       ///< of the lit pixels, 0 to 1
   std::size_t points = 0;                ///< pixels with a phase
   const DecodedView* decoded = nullptr;  ///< valid during the call; null: cannot be decoded

@@ -34,6 +34,8 @@ struct ProjectFolder {
   [[nodiscard]] std::filesystem::path reference_name() const { return derived / "reference.json"; }
   /// Poses of a board, see CalibrationWizard.
   [[nodiscard]] std::filesystem::path calibration() const { return derived / "calibration"; }
+  /// Views of a board that the turntable turns, see calibrate_axis.
+  [[nodiscard]] std::filesystem::path axis() const { return derived / "axis"; }
   /// Residuals of the calibration, JSON.
   [[nodiscard]] std::filesystem::path residuals() const { return derived / "residuals.json"; }
   /// Folder of the exported files.

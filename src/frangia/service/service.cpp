@@ -74,8 +74,7 @@ Service::Implementation::Implementation(ServiceOptions options, std::function<vo
       on_change_([told = std::move(on_change)]() noexcept {
         try {
           told();
-        } catch (const std::exception&) {  // NOLINT(bugprone-empty-catch): whoever listens hears
-                                           // of the next change
+        } catch (const std::exception&) {  // NOLINT(bugprone-empty-catch): the next change is told
         }
       }),
       projects_(library_.list()),
@@ -100,6 +99,7 @@ std::string Service::Implementation::command(const std::string& name, const std:
       {"find-exposure", &Implementation::start_find_exposure},
       {"set-rig", &Implementation::set_rig},
       {"start-calibration", &Implementation::start_calibration},
+      {"find-axis", &Implementation::find_axis},
       {"capture-pose", &Implementation::capture_pose},
       {"end-poses", &Implementation::end_poses},
       {"edit", &Implementation::start_edit},

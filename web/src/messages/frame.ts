@@ -85,6 +85,7 @@ export const FRAME = {
   'job.exposure': ['Finding the exposure', 'Belichtung wird gesucht'],
   'job.devices': ['Testing the devices', 'Geräte werden geprüft'],
   'job.calibrate': ['Calibrating', 'Kalibrierung'],
+  'job.axis': ['Finding the axis', 'Achse wird gesucht'],
   'job.scan': ['Scanning', 'Scan läuft'],
   'job.reconstruct': ['Building the surface', 'Fläche wird berechnet'],
   'job.edit': ['Editing', 'Bearbeitung'],

@@ -24,6 +24,11 @@ export const SCAN = {
     'Dieser Scan wurde unterbrochen. Nichts Aufgenommenes ist verloren.',
   ],
   'scan.tableAngle': ['Present angle of the turntable, °', 'Jetziger Winkel des Drehtischs, °'],
+  'scan.noAxis': [
+    'The axis of the turntable is not known yet; without it the stations cannot be joined.',
+    'Die Achse des Drehtischs ist noch nicht bekannt; ohne sie lassen sich die Stationen nicht verbinden.',
+  ],
+  'scan.toAxis': ['Find the axis', 'Achse suchen'],
   'scan.noRig': [
     'This folder holds a finished scan without devices.',
     'Dieser Ordner enthält einen fertigen Scan ohne Geräte.',

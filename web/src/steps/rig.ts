@@ -6,6 +6,7 @@ import { number, t, type MessageKey } from '../messages';
 import { poseTable } from '../residuals';
 import type { Calibration, RigGeometry } from '../types';
 import { nextStep, plain } from '../ui';
+import { axisCard, axisIsKnown, hasTable } from './rig_axis';
 import { devices } from './rig_devices';
 
 /** The report of `frangia calibrate rig`, which the calibration writes to the exports. */
@@ -212,6 +213,6 @@ export function rigStep(app: App): TemplateResult {
   const fault = project.rig_begun
     ? t('rig.uncalibrated')
     : project.rig_fault || (project.can_scan ? '' : t(project.scan_complete ? 'scan.noRig' : 'rig.none'));
-  return html`${devices(app)}${project.can_scan || project.calibration ? calibration(app) : ''}${rig ? geometry(app, rig) : fault ? html`<section class="group"><p class="quiet">${fault}</p></section>` : ''}
-  ${project.can_scan && !project.calibration?.active ? nextStep(app, 'live') : ''}`;
+  return html`${devices(app)}${project.can_scan || project.calibration ? calibration(app) : ''}${axisCard(app)}${rig ? geometry(app, rig) : fault ? html`<section class="group"><p class="quiet">${fault}</p></section>` : ''}
+  ${project.can_scan && !project.calibration?.active ? nextStep(app, 'live', axisIsKnown(app) || !hasTable(app)) : ''}`;
 }

@@ -5,6 +5,7 @@ import { icon } from '../icons';
 import { number, t } from '../messages';
 import type { Station } from '../types';
 import { numberForm, span } from '../ui';
+import { axisIsKnown } from './rig_axis';
 import { joins, nextSetup, presentSetup, setupChoice } from './scan_setups';
 
 /** Whether the present setup is captured. */
@@ -67,16 +68,21 @@ export function scanStep(app: App): TemplateResult {
                   app.occupied,
                   (angle) => void app.command('start-scan', { table_deg: angle }),
                 )
-              : project.can_scan
-                ? html`<button
-                    class="btn primary wide"
-                    id="scan"
-                    ?disabled=${app.occupied}
-                    @click=${() => app.command('start-scan')}
-                  >
-                    ${icon('play')}${begun ? t('scan.continue') : t('scan.start')}
-                  </button>`
-                : ''
+              : project.can_scan && stations.length > 1 && !axisIsKnown(app)
+                ? html`<p class="bad">${t('scan.noAxis')}</p>
+                    <button class="btn primary wide" id="to-axis" @click=${() => app.go('rig')}>
+                      ${t('scan.toAxis')}${icon('arrow')}
+                    </button>`
+                : project.can_scan
+                  ? html`<button
+                      class="btn primary wide"
+                      id="scan"
+                      ?disabled=${app.occupied}
+                      @click=${() => app.command('start-scan')}
+                    >
+                      ${icon('play')}${begun ? t('scan.continue') : t('scan.start')}
+                    </button>`
+                  : ''
       }
       <p class="quiet">
         ${!job && begun && !complete ? t('scan.resume') : project.can_scan ? t('scan.lead') : t('scan.noRig')}
@@ -119,7 +125,7 @@ export function scanStep(app: App): TemplateResult {
                 ${
                   measured || begun
                     ? station.points
-                      ? html`<td>${number(station.contrast, 2)}</td>
+                      ? html`<td>${station.contrast > 0 ? number(station.contrast, 2) : '·'}</td>
                           <td>${number(100 * station.saturated, 1)} %</td>
                           <td>${number(station.points)}</td>`
                       : html`<td>·</td>

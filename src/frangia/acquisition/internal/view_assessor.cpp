@@ -15,12 +15,13 @@ namespace frangia {
 namespace {
 
 constexpr const char* kGood = "good";
+constexpr const char* kNothingMeasured = "nothing measured, check light and exposure";
 
 /// The result in a few words, with the remedy.
 std::string word_for(const FrameAssessment& frames, std::size_t points) {
   constexpr double kOverexposed = 0.02;
   constexpr double kLowContrast = 0.2;
-  if (points == 0) return "nothing measured, check light and exposure";
+  if (points == 0) return kNothingMeasured;
   if (frames.vibration_suspected) return "vibration suspected, check the mounting";
   if (frames.saturated_fraction > kOverexposed)
     return "overexposed, shorten or bracket the exposure";
@@ -75,12 +76,18 @@ std::string ViewAssessor::decode(std::size_t view,
         std::count_if(phase.begin(), phase.end(), [](float value) { return !std::isnan(value); }));
     for (const UnresolvedRegion& region : decoded.unresolved)
       found.points += region.pixel.size();
+    found.decoded = &decoded;
+    if (decoded.assessments.empty()) {  // Gray code alone has no fringes to assess
+      found.verdict = found.points == 0 ? kNothingMeasured : kGood;
+      found.good = found.points != 0;
+      if (on_view_) on_view_(found);
+      return fmt::format("{}: {} points", found.verdict, found.points);
+    }
     const FrameAssessment& finest = decoded.assessments.back();
     found.verdict = word_for(finest, found.points);
     found.good = found.verdict == kGood;
     found.contrast = finest.contrast;
     found.saturated_fraction = finest.saturated_fraction;
-    found.decoded = &decoded;
     if (on_view_) on_view_(found);
     return fmt::format("{}: contrast {:.2f}, {:.1f} % saturated, {} points",
                        found.verdict,

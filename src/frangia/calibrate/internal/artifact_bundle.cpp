@@ -10,6 +10,7 @@
 #include "frangia/calibrate/internal/artifact_light.h"
 #include "frangia/calibrate/internal/artifact_model.h"
 #include "frangia/calibrate/internal/artifact_residuals.h"
+#include "frangia/calibrate/internal/cost_function.h"
 #include "frangia/calibrate/internal/rig_prior.h"
 #include "frangia/calibrate/internal/solve_quietly.h"
 #include "frangia/calibrate/internal/stop_callback.h"
@@ -101,12 +102,6 @@ void add_rig_blocks(const ArtifactProblem& problem,
             blocks);
 }
 
-template <int kResiduals, int... kBlocks, typename Residual>
-ceres::CostFunction* artifact_cost(const Residual& residual) {
-  using Cost = ceres::AutoDiffCostFunction<Residual, kResiduals, kBlocks...>;
-  return new Cost(new Residual(residual));  // NOLINT(*-owning-memory): the problem owns both
-}
-
 /// Declares the angles and surfaces of all captures, with what is known of them.
 void add_capture_blocks(const ArtifactProblem& problem,
                         const ArtifactNoise& noise,
@@ -120,7 +115,9 @@ void add_capture_blocks(const ArtifactProblem& problem,
       add_block(out, angle, {v == 0 ? "" : fmt::format("angle.{}.{}", c, v)}, blocks);
       if (v == 0) continue;
       out.AddResidualBlock(
-          artifact_cost<1, 1>(NumberPrior{0, 0.0, 1.0 / noise.angle_rad}), nullptr, angle);
+          cost_function(NumberPrior{0, 0.0, 1.0 / noise.angle_rad}, 1, std::array{1}),
+          nullptr,
+          angle);
     }
     const auto* balls = std::get_if<Balls>(&problem.captures[c].artifact);
     for (std::size_t s = 0; s < parameters.surfaces[c].size(); ++s) {
@@ -131,12 +128,13 @@ void add_capture_blocks(const ArtifactProblem& problem,
       add_block(out, surface, names, blocks);
       if (balls == nullptr) continue;
       const double weight = 1.0 / problem.options.diameter_sigma;
-      out.AddResidualBlock(artifact_cost<1, 4>(NumberPrior{3, 0.0, weight}), nullptr, surface);
+      out.AddResidualBlock(
+          cost_function(NumberPrior{3, 0.0, weight}, 1, std::array{4}), nullptr, surface);
     }
     if (balls == nullptr || !balls->spacing_mm) continue;
     const double spacing = *balls->spacing_mm;
     out.AddResidualBlock(
-        artifact_cost<1, 4, 4>(SpacingResidual{spacing, 1.0 / (kCertified * spacing)}),
+        cost_function(SpacingResidual{spacing, 1.0 / (kCertified * spacing)}, 1, std::array{4, 4}),
         nullptr,
         parameters.surfaces[c][0].data(),
         parameters.surfaces[c][1].data());
@@ -154,11 +152,13 @@ void add_views(const ArtifactProblem& problem,
       for (std::size_t i = 0; i < view.sites.size(); ++i) {
         const LightSite& site = view.sites[i];
         out.AddResidualBlock(
-            artifact_cost<2, 9, 9, 6, 1, Wavefront::kTerms, 4, 1, 4>(
+            cost_function(
                 LightResidual{turned_surface(problem, c, view, view.surface[i], site.camera_px),
                               angular,
                               site.light,
-                              light_weight(site, noise.light)}),
+                              light_weight(site, noise.light)},
+                2,
+                std::array{9, 9, 6, 1, int{Wavefront::kTerms}, 4, 1, 4}),
             new ceres::HuberLoss(kHuberSigmas),  // NOLINT(*-owning-memory) the problem owns it
             parameters.camera.data(),
             parameters.projector.data(),
@@ -197,9 +197,10 @@ std::vector<FreeBlock> compose(const ArtifactProblem& problem,
     // Without a known length the baseline keeps that of the start.
     const double length =
         problem.options.baseline_mm.value_or(problem.start.projector.position_mm.norm());
-    out.AddResidualBlock(artifact_cost<1, 6>(LengthResidual{length, 1.0 / (kCertified * length)}),
-                         nullptr,
-                         parameters.pose.data());
+    out.AddResidualBlock(
+        cost_function(LengthResidual{length, 1.0 / (kCertified * length)}, 1, std::array{6}),
+        nullptr,
+        parameters.pose.data());
   }
   return blocks;
 }

@@ -1,10 +1,12 @@
 #include "frangia/calibrate/internal/rig_bundle.h"
 
+#include <array>
 #include <cmath>
 #include <memory>
 
 #include <ceres/ceres.h>
 
+#include "frangia/calibrate/internal/cost_function.h"
 #include "frangia/calibrate/internal/rig_residuals.h"
 #include "frangia/calibrate/internal/solve_quietly.h"
 #include "frangia/calibrate/internal/stop_callback.h"
@@ -28,12 +30,6 @@ void fix(ceres::Problem& problem, double* block, int size, const RigFreedom& fre
   }
 }
 
-template <int... sizes, typename Residual>
-ceres::CostFunction* cost_of(const Residual& residual) {
-  return new ceres::AutoDiffCostFunction<Residual, 2, sizes...>(  // NOLINT(*-owning-memory)
-      new Residual(residual));                                    // NOLINT(*-owning-memory)
-}
-
 /// The residual of an observation and the blocks of parameters on which it depends.
 struct RigCost {
   ceres::CostFunction* function = nullptr;
@@ -50,24 +46,25 @@ RigCost cost_of_observation(const RigObservation& seen,
   double* projector_pose = parameters.projector_from_camera.data();
   const CameraResidual by_camera{seen.site, seen.circle_radius_mm, seen.pixel, weight};
   const ProjectorResidual by_projector{seen.site, seen.pixel, weight, seen.reading};
+  const LabelResidual by_label{seen.site, seen.pixel, weight, seen.reference, seen.reading};
   constexpr int kI = kIntrinsics;
   if (seen.camera == 0 && !seen.by_projector)
-    return {cost_of<kI, kShape, kPose>(by_camera), {reference, shape, pose}};
+    return {cost_function(by_camera, 2, std::array{kI, kShape, kPose}), {reference, shape, pose}};
   if (seen.camera == 0) {
-    return {cost_of<kI, kI, kPose, kShape, kPose>(by_projector),
+    return {cost_function(by_projector, 2, std::array{kI, kI, kPose, kShape, kPose}),
             {reference, projector, projector_pose, shape, pose}};
   }
   RigParameters::FurtherCamera& further = parameters.more[seen.camera - 1];
   double* camera = further.intrinsics.data();
   double* camera_pose = further.from_reference.data();
   if (!seen.by_projector)
-    return {cost_of<kI, kPose, kShape, kPose>(by_camera), {camera, camera_pose, shape, pose}};
+    return {cost_function(by_camera, 2, std::array{kI, kPose, kShape, kPose}),
+            {camera, camera_pose, shape, pose}};
   if (seen.is_label) {
-    return {cost_of<kI, kI, kPose, kShape, kPose>(
-                LabelResidual{seen.site, seen.pixel, weight, seen.reference, seen.reading}),
+    return {cost_function(by_label, 2, std::array{kI, kI, kPose, kShape, kPose}),
             {reference, camera, camera_pose, shape, pose}};
   }
-  return {cost_of<kI, kPose, kI, kPose, kShape, kPose>(by_projector),
+  return {cost_function(by_projector, 2, std::array{kI, kPose, kI, kPose, kShape, kPose}),
           {camera, camera_pose, projector, projector_pose, shape, pose}};
 }
 

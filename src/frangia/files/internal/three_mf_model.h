@@ -54,7 +54,7 @@ class ThreeMfModel {
 
   Reference read_reference(const XmlAttributes& attributes);
   void check_extensions(std::string_view prefixes) const;
-  /// A name of this part that is told from those of others.
+  /// A name that no other part of the file has.
   [[nodiscard]] std::string in_part(std::string_view id) const;
   /// Scale from the unit of a part to that of another.
   [[nodiscard]] double scale_between(const std::string& from, const std::string& to) const;

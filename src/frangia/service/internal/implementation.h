@@ -73,6 +73,7 @@ class Service::Implementation {
   Json start_find_exposure(CommandArguments& arguments);
   Json set_rig(CommandArguments& arguments);
   Json start_calibration(CommandArguments& arguments);
+  Json find_axis(CommandArguments& arguments);
   Json capture_pose(CommandArguments& arguments);
   Json end_poses(CommandArguments& arguments);
 
@@ -132,7 +133,8 @@ class Service::Implementation {
                     int number,
                     const Run& run);
   /// The end of each change: writes which versions there are, and shows the model. Returns what to
-  /// say when the disk did not confirm it; throws when nothing has changed, or nobody knows.
+  /// say when the disk did not confirm it; throws when nothing has changed or when the state on
+  /// disk is unknown.
   [[nodiscard]] std::string commit(const ProjectFolder& project,
                                    SurfaceModel next,
                                    SurfaceVersions versions,

@@ -1,7 +1,9 @@
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 
 #include "frangia/core/error.h"
+#include "frangia/dataset/scan_folder.h"
 #include "frangia/rig/read_rig.h"
 #include "frangia/rig/write_rig.h"
 #include "frangia/service/arrange_rig.h"
@@ -73,8 +75,47 @@ nlohmann::ordered_json Service::Implementation::start_calibration(CommandArgumen
                  [this, wizard, board, poses, settings = project.capture, folder = project.folder](
                      const Run& run) {
                    wizard->run(board, poses, settings, options_.capture, run);
+                   change([](OpenProject& now) { now.axis.reset(); });
                    reload_rig(folder);
                  });
+}
+
+/// The board that was captured for the calibration, unless another one is described.
+nlohmann::ordered_json Service::Implementation::find_axis(CommandArguments& arguments) {
+  const OpenProject project = opened();
+  constexpr std::size_t kFewestPoints = 3;
+  constexpr std::size_t kMostPoints = 100;
+  Board board;
+  if (const auto square_mm = arguments.positive("square_mm")) {
+    board.square_mm = *square_mm;
+    board.columns = static_cast<int>(arguments.whole("columns", kFewestPoints, kMostPoints));
+    board.rows = static_cast<int>(arguments.whole("rows", kFewestPoints, kMostPoints));
+    check_board(board);
+  } else {
+    std::error_code ignored;
+    const std::filesystem::path poses = project.folder.calibration();
+    require(std::filesystem::exists(poses / "scan.toml", ignored),
+            "square_mm: the board is not known; state columns, rows and square_mm");
+    board = read_scan(poses, {}, RigContent::StartValues).board.value();
+  }
+  arguments.check_all_read();
+  require(project.can_scan, "this project has no rig with devices");
+  require(project.rig.has_value(), "calibrate the rig first; the axis needs camera and projector");
+  require(!project.scan_begun,
+          "the scan has begun with this rig; create a project for another one");
+  const bool has_table =
+      std::any_of(project.devices.begin(), project.devices.end(), [](const auto& device) {
+        return device.test.table == "turntable";
+      });
+  require(has_table, "this rig has no turntable; choose one among the devices");
+  require_idle();
+  stop_live();
+  return started(
+      "axis", [this, board, settings = project.capture, folder = project.folder](const Run& run) {
+        const FoundAxis found = calibrate_axis(folder, board, settings, options_.capture, run);
+        change([&](OpenProject& now) { now.axis = found; });
+        reload_rig(folder);
+      });
 }
 
 nlohmann::ordered_json Service::Implementation::capture_pose(CommandArguments& arguments) {
@@ -100,6 +141,9 @@ namespace {
 }  // namespace
 
 nlohmann::ordered_json Service::Implementation::start_calibration(CommandArguments& /*none*/) {
+  fail_without_calibration();
+}
+nlohmann::ordered_json Service::Implementation::find_axis(CommandArguments& /*none*/) {
   fail_without_calibration();
 }
 nlohmann::ordered_json Service::Implementation::capture_pose(CommandArguments& /*none*/) {

@@ -109,6 +109,14 @@ RigJson json_of_search(const DeviceSearch& search) {
   return json;
 }
 
+RigJson json_of_axis(const FoundAxis& axis) {
+  return {{"views", axis.views},
+          {"axis_sigma_deg", axis.axis_sigma_deg},
+          {"point_sigma_mm", axis.point_sigma_mm},
+          {"angles_rms_deg", axis.angles_rms_deg},
+          {"distance_mm", axis.distance_mm}};
+}
+
 RigJson json_of_wizard(const WizardState& state) {
   const PoseCoverage& coverage = state.coverage;
   RigJson json{

@@ -5,6 +5,7 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "frangia/rig/rig.h"
+#include "frangia/service/calibrate_axis.h"
 #include "frangia/service/calibration_wizard.h"
 #include "frangia/service/internal/state_json.h"
 
@@ -14,6 +15,7 @@ namespace frangia {
 [[nodiscard]] nlohmann::ordered_json json_of_rig(const Rig& rig);
 [[nodiscard]] nlohmann::ordered_json json_of_devices(const std::vector<ProjectDevice>& devices);
 [[nodiscard]] nlohmann::ordered_json json_of_search(const DeviceSearch& search);
+[[nodiscard]] nlohmann::ordered_json json_of_axis(const FoundAxis& axis);
 [[nodiscard]] nlohmann::ordered_json json_of_wizard(const WizardState& state);
 
 }  // namespace frangia

@@ -26,11 +26,14 @@ nlohmann::ordered_json Service::Implementation::start_scan(CommandArguments& arg
   const ProjectFolder project = folder();
   std::vector<ProjectStation> stations;
   bool can_scan = false;
+  bool has_axis = false;
   CaptureSettings settings;
   {
     const std::lock_guard lock(mutex_);
     stations = project_->stations;
     can_scan = project_->can_scan;
+    const std::optional<Rig>& rig = project_->rig ? project_->rig : project_->start;
+    has_axis = !rig || rig->turntable.has_value();
     settings = project_->capture;
   }
   const int present = present_setup(stations);
@@ -46,6 +49,8 @@ nlohmann::ordered_json Service::Implementation::start_scan(CommandArguments& arg
   if (const auto angle = arguments.number("table_deg")) setup.table_at_rad = rad_from_deg(*angle);
   arguments.check_all_read();
   require(can_scan, "this project has no rig with devices; create one to scan");
+  require(has_axis || (asked == 1 && wanted == 0),
+          "the axis of the turntable is unknown: find it in step Rig, or scan a single station");
   std::error_code ignored;
   const bool begun = std::filesystem::exists(project.scan / "capture", ignored);
   if (wanted == present + 1) {

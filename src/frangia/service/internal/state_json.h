@@ -12,6 +12,7 @@
 #include "frangia/devices/find_devices.h"
 #include "frangia/devices/test_devices.h"
 #include "frangia/rig/rig.h"
+#include "frangia/service/calibrate_axis.h"
 #include "frangia/service/calibration_wizard.h"
 #include "frangia/service/capture_settings.h"
 #include "frangia/service/internal/exported_files.h"
@@ -65,6 +66,7 @@ struct OpenProject {
   std::vector<ProjectDevice> devices;
   std::shared_ptr<LivePreview> live;          ///< while a preview runs
   std::shared_ptr<CalibrationWizard> wizard;  ///< since a calibration began
+  std::optional<FoundAxis> axis;              ///< of the turntable, since it was searched for
   std::vector<ProjectStation> stations;
   /// Why the scan did not go on: the angle of its turntable is unknown.
   std::optional<UnknownTableAngle> unknown_angle;
