@@ -78,8 +78,24 @@ await tell(home, async () => {
   await idle(page);
   await look(page, shots, 'chosen-devices');
 
-  // The camera vanishes from the preview: the page says it, and goes on when it is plugged in again.
+  // Without the axis of its turntable the rig scans no stations, and the page leads to where it is found.
   const rig = path.join(home, 'projects', 'Uploaded', 'rig.toml');
+  const complete = fs.readFileSync(rig, 'utf8');
+  fs.writeFileSync(path.join(path.dirname(rig), 'true-rig.toml'), complete);  // the simulated table stays
+  fs.writeFileSync(rig, complete.replace(/\[turntable\](\n\w+ = .*)*\n/, ''));
+  await reopen(page, 'Uploaded');
+  await page.keyboard.press('4');
+  await page.click('#to-axis');
+  await page.waitForSelector('#find-axis:not([disabled])');
+  await look(page, shots, 'axis-unknown');
+  await page.click('#find-axis');
+  const found = await waitFor(page, (state) => state.project.axis !== null);
+  expect(found.project.rig.turntable !== null, 'the axis is not in the rig');
+  await idle(page);
+  await look(page, shots, 'axis-found');
+  passed(`the axis is within ${found.project.axis.axis_sigma_deg.toFixed(3)} degrees`);
+
+  // The camera vanishes from the preview: the page says it, and goes on when it is plugged in again.
   const whole = fs.readFileSync(rig, 'utf8');
   fs.writeFileSync(rig, whole.replace('[devices.camera]\n', '[devices.camera]\nfaults = ["unplugged 0 always"]\n'));
   await page.keyboard.press('3');

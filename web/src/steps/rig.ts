@@ -6,7 +6,7 @@ import { number, t, type MessageKey } from '../messages';
 import { poseTable } from '../residuals';
 import type { Calibration, RigGeometry } from '../types';
 import { nextStep, plain } from '../ui';
-import { axisCard, axisIsKnown, hasTable } from './rig_axis';
+import { axisCard, axisIsKnown, boardField, boardFields, boardOf, hasTable } from './rig_axis';
 import { devices } from './rig_devices';
 
 /** The report of `frangia calibrate rig`, which the calibration writes to the exports. */
@@ -135,27 +135,8 @@ function calibration(app: App): TemplateResult {
   const start = (event: SubmitEvent) => {
     event.preventDefault();
     const form = new FormData(event.target as HTMLFormElement);
-    const value = (name: string) => Number(form.get(name));
-    void app.command('start-calibration', {
-      columns: value('columns'),
-      rows: value('rows'),
-      square_mm: value('square_mm'),
-      poses: value('poses'),
-    });
+    void app.command('start-calibration', { ...boardOf(form), poses: Number(form.get('poses')) });
   };
-  const field = (name: string, label: string, value: number, step = 1) =>
-    html`<label class="field"
-      ><span>${label}</span
-      ><input
-        class="num"
-        name=${name}
-        type="number"
-        min=${step < 1 ? 0.1 : 3}
-        max="100"
-        step=${step}
-        required
-        .defaultValue=${String(value)}
-    /></label>`;
   return html`<section class="group">
     <h2>
       ${t('rig.calibration')}${known && !state ? html`<small class="num">± ${number(known.point_sigma_mm, 3)} mm</small>` : ''}
@@ -192,9 +173,7 @@ function calibration(app: App): TemplateResult {
         ? ''
         : html`${project.exports.some(({ name }) => name === REPORT) ? html`<button class="btn wide" id="report" @click=${() => app.exporting.download(REPORT)}>${icon('download')}${t('rig.report')}</button>` : ''}
             <form class="form-plain" @submit=${start}>
-              <div class="four">
-                ${field('columns', t('rig.columns'), 10)}${field('rows', t('rig.rows'), 7)}${field('square_mm', t('rig.square'), 14, 0.01)}${field('poses', t('rig.poses'), 12)}
-              </div>
+              <div class="four">${boardFields()}${boardField('poses', t('rig.poses'), 12)}</div>
               <button
                 class="btn wide"
                 id="calibrate"
@@ -213,6 +192,7 @@ export function rigStep(app: App): TemplateResult {
   const fault = project.rig_begun
     ? t('rig.uncalibrated')
     : project.rig_fault || (project.can_scan ? '' : t(project.scan_complete ? 'scan.noRig' : 'rig.none'));
-  return html`${devices(app)}${project.can_scan || project.calibration ? calibration(app) : ''}${axisCard(app)}${rig ? geometry(app, rig) : fault ? html`<section class="group"><p class="quiet">${fault}</p></section>` : ''}
+  const axisFirst = !axisIsKnown(app) && !project.calibration?.active;
+  return html`${devices(app)}${axisFirst ? axisCard(app) : ''}${project.can_scan || project.calibration ? calibration(app) : ''}${axisFirst ? '' : axisCard(app)}${rig ? geometry(app, rig) : fault ? html`<section class="group"><p class="quiet">${fault}</p></section>` : ''}
   ${project.can_scan && !project.calibration?.active ? nextStep(app, 'live', axisIsKnown(app) || !hasTable(app)) : ''}`;
 }
