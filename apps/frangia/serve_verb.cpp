@@ -7,11 +7,13 @@
 #include <string>
 #include <thread>
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "frangia/core/atomic_file.h"
 #include "frangia/core/error.h"
+#include "frangia/core/make_folder.h"
 #include "frangia/core/read_text_file.h"
+#include "frangia/core/write_private_file.h"
 #include "frangia/service/access_guard.h"
 #include "frangia/service/service.h"
 #include "frangia/service/session_keys.h"
@@ -45,27 +47,35 @@ struct ServeArguments {
   NetworkAccess access;
 };
 
-/// $XDG_DATA_HOME/frangia/projects, by default in ~/.local/share.
-std::filesystem::path usual_projects() {
-  const auto variable = [](const char* name) -> std::filesystem::path {
+/// A folder of the XDG base directories, such as $XDG_DATA_HOME, by default in the home folder.
+std::filesystem::path user_folder(const char* variable, const char* in_home) {
+  const auto value_of = [](const char* name) -> std::filesystem::path {
     const char* value = std::getenv(name);  // NOLINT(concurrency-mt-unsafe): before any thread
     return value != nullptr && *value == '/' ? value : "";
   };
-  const auto data = variable("XDG_DATA_HOME");
-  if (!data.empty()) return data / "frangia" / "projects";
-  const auto home = variable("HOME");
-  if (!home.empty()) return home / ".local" / "share" / "frangia" / "projects";
-  return std::filesystem::absolute("frangia-projects");
+  if (auto folder = value_of(variable); !folder.empty()) return folder / "frangia";
+  const auto home = value_of("HOME");
+  return home.empty() ? home : home / in_home / "frangia";
+}
+
+/// $XDG_DATA_HOME/frangia/projects, by default in ~/.local/share.
+std::filesystem::path usual_projects() {
+  const auto data = user_folder("XDG_DATA_HOME", ".local/share");
+  return data.empty() ? std::filesystem::absolute("frangia-projects") : data / "projects";
 }
 
 /// The hash of the password for other machines: $XDG_CONFIG_HOME/frangia/serve-password.
 std::filesystem::path password_file() {
-  const auto variable = [](const char* name) -> std::filesystem::path {
-    const char* value = std::getenv(name);  // NOLINT(concurrency-mt-unsafe): before any thread
-    return value != nullptr && *value == '/' ? value : "";
-  };
-  const auto config = variable("XDG_CONFIG_HOME");
-  return (config.empty() ? variable("HOME") / ".config" : config) / "frangia" / "serve-password";
+  return user_folder("XDG_CONFIG_HOME", ".config") / "serve-password";
+}
+
+/// The sessions of a port, which pages name in their address:
+/// $XDG_STATE_HOME/frangia/serve-sessions-6328.json. Empty for a port that the system chose, to
+/// which no page returns.
+std::filesystem::path sessions_file(const ServeArguments& arguments, std::uint16_t port) {
+  const auto folder = user_folder("XDG_STATE_HOME", ".local/state");
+  if (folder.empty() || port != arguments.port.value_or(kUsualPort)) return {};
+  return folder / fmt::format("serve-sessions-{}.json", port);
 }
 
 std::string read_password_hash() {
@@ -84,12 +94,8 @@ void set_password(Terminal& terminal) {
   const auto password = read_answer("password, 10 bytes or more:", run);
   require(password.has_value(), "no password was given on standard input");
   const auto file = password_file();
-  std::filesystem::create_directories(file.parent_path());
-  AtomicFile out(file);
-  out.stream() << hash_password(*password) << '\n';
-  out.commit();
-  using std::filesystem::perms;
-  std::filesystem::permissions(file, perms::owner_read | perms::owner_write);
+  make_folder(file.parent_path());
+  write_private_file(file, hash_password(*password) + '\n', Durability::Synced);
   print_text("wrote {}\n", file.string());
 }
 
@@ -126,7 +132,8 @@ void serve(ServeArguments& arguments, Terminal& terminal) {
     return;
   }
   if (arguments.set_password) return set_password(terminal);
-  PasswordGuard password(read_password_hash());
+  const std::string password_hash = read_password_hash();
+  PasswordGuard password(password_hash);
   arguments.access.check(password.has_password());
   if (arguments.projects.empty()) arguments.projects = usual_projects();
   arguments.projects = std::filesystem::absolute(arguments.projects).lexically_normal();
@@ -144,7 +151,9 @@ void serve(ServeArguments& arguments, Terminal& terminal) {
       .hold_devices = [] { return std::make_shared<DeviceScope>(); }};
   Service service(std::move(options), [&server] { server->announce_change(); });
   if (!arguments.project.empty()) service.open_folder(arguments.project);
-  SessionKeys keys;
+  SessionKeys keys(sessions_file(arguments, server->port()),
+                   password_hash,
+                   [&run](const std::string& sentence) { run.warn(sentence); });
   const AppRoutes routes(
       service, keys, password, app_address(arguments.access, server->port()), [&server] {
         server->announce_change();
@@ -152,13 +161,20 @@ void serve(ServeArguments& arguments, Terminal& terminal) {
   const RuntimeFile file(server->port(), keys.issue_key());
   const std::string link = routes.new_link();
   print_link(link, arguments.projects, terminal);
+  std::optional<LinkPage> page;
   std::jthread opener;  // xdg-open may last as long as the browser, which the server must answer
   if (arguments.open) {
-    opener = std::jthread([&run, &link](const std::stop_token& stop) {
-      if (!show_address(link, stop)) run.warn("xdg-open cannot show the link; open it yourself");
+    page.emplace(link);
+    opener = std::jthread([&run, &page](const std::stop_token& stop) {
+      if (!show_file(page->path(), stop))
+        run.warn("xdg-open cannot show the link; open it yourself");
     });
   }
-  server->serve(routes.app(), run.stop);
+  HttpApp app = routes.app();
+  app.on_exception = [&run](const std::string& words) {
+    run.warn(fmt::format("a connection was closed: {}", words));
+  };
+  server->serve(std::move(app), run.stop);
 }
 
 }  // namespace

@@ -49,13 +49,9 @@ bool run_xdg_open(const std::string& what, const std::stop_token& stop) {
 
 }  // namespace
 
-bool show_file(const std::filesystem::path& path) {
+bool show_file(const std::filesystem::path& path, const std::stop_token& stop) {
   // Absolute, so that a name that begins with a dash is no option of xdg-open.
-  return run_xdg_open(std::filesystem::absolute(path).string(), {});
-}
-
-bool show_address(const std::string& address, const std::stop_token& stop) {
-  return run_xdg_open(address, stop);
+  return run_xdg_open(std::filesystem::absolute(path).string(), stop);
 }
 
 }  // namespace frangia

@@ -101,7 +101,7 @@ export const newHome = () => fs.mkdtempSync(path.join(os.tmpdir(), 'frangia-stor
 
 /** Starts a server whose projects and runtime file are in a folder. */
 export async function startServer(program, home, ...more) {
-  const process_ = spawn(program, ['--json', 'serve', '--port', '0', '--projects', path.join(home, 'projects'), ...more], {
+  const process_ = spawn(program, ['--json', 'serve', ...(more.includes('--port') ? [] : ['--port', '0']), '--projects', path.join(home, 'projects'), ...more], {
     env: { ...process.env, XDG_RUNTIME_DIR: home },
   });
   const url = await new Promise((resolve, reject) => {

@@ -340,7 +340,7 @@ class Robust(unittest.TestCase):
     def test_open_serves_with_any_browser_and_without_one(self):
         tools = self.folder / "tools"
         tools.mkdir()
-        stays = f'echo $$ >"{self.folder}/pid"; echo "$1" >"{self.folder}/shown"; exec sleep 1000'
+        stays = f'echo $$ >"{self.folder}/pid"; cp -p "$1" "{self.folder}/page"; echo "$@" >"{self.folder}/shown"; exec sleep 1000'
         for name, text in (("ends", "exit 0"), ("fails", "exit 3"), ("stays", stays), ("missing", None)):
             with self.subTest(browser=name):
                 opener = tools / "xdg-open"
@@ -355,10 +355,15 @@ class Robust(unittest.TestCase):
                 if name == "stays":  # as a browser does without a desktop
                     shown = self.folder / "shown"
                     self.wait_until(lambda: shown.exists() and shown.read_text().endswith("\n"), "nothing is shown")
-                    self.assertEqual(shown.read_text().strip(), server.url)
+                    # Other users read the command line, but not the page that it names.
+                    self.assertNotIn(server.token, shown.read_text())
+                    page = self.folder / "page"
+                    self.assertIn(f'url={server.url}"', page.read_text())
+                    self.assertEqual(page.stat().st_mode & 0o777, 0o600)
                 if name in ("fails", "missing"):
                     self.wait_until(lambda: "open it yourself" in log.read_text(), "no word")
                 self.assertEqual(server.stop(), 0)  # it does not wait for the browser
+                self.assertEqual(list(server.runtime.iterdir()), [])
                 self.assertEqual("open it yourself" in log.read_text(), name in ("fails", "missing"))
         os.kill(int((self.folder / "pid").read_text()), signal.SIGTERM)
 

@@ -25,7 +25,12 @@ class Server:
         self.runtime = pathlib.Path(folder) / "run"
         self.runtime.mkdir(exist_ok=True)
         self.projects = pathlib.Path(projects or pathlib.Path(folder) / "projects")
-        self.environment = {**os.environ, "XDG_RUNTIME_DIR": str(self.runtime), **environment}
+        self.environment = {
+            **os.environ,
+            "XDG_RUNTIME_DIR": str(self.runtime),
+            "XDG_STATE_HOME": str(folder),
+            **environment,
+        }
         self.process = subprocess.Popen(
             [*wrapper, PROGRAM, "--json", "serve", "--port", "0", "--projects", str(self.projects), *arguments],
             stdout=subprocess.PIPE,

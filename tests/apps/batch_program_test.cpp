@@ -1,9 +1,12 @@
 // Several scans by one command: one that fails is a row of the table and stops nothing.
 #include <array>
+#include <csignal>
 #include <filesystem>
 #include <fstream>
+#include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -15,8 +18,10 @@
 
 #include "support/run_program.h"
 #include "support/small_scan.h"
+#include "support/started_program.h"
 #include "support/temporary_folder.h"
 #include "support/text_of.h"
+#include "support/wait_until.h"
 
 namespace frangia {
 namespace {
@@ -236,6 +241,92 @@ TEST_F(BatchRecord, AMarkThatIsNestedOrForeignIsOfNoScan) {
                                             word_of(out("record") / "meshes") + " --table");
   EXPECT_EQ(shown.exit_code, 0);
   EXPECT_EQ(shown.output.find('\x1b'), std::string::npos) << shown.output;
+}
+
+TEST_F(BatchRecord, ALinkAmongTheResultsIsNamedAndNothingIsWrittenThroughIt) {
+  const fs::path elsewhere = out("record") / "elsewhere";
+  fs::create_directories(elsewhere);
+  fs::create_directories(result("").parent_path());
+  const auto answer_with = [&](const fs::path& target, const fs::path& link) {
+    fs::create_symlink(target, link);
+    const Answer answer = run();
+    EXPECT_TRUE(fs::is_symlink(link)) << "it is the user's";
+    fs::remove(link);
+    EXPECT_EQ(answer.exit_code, 4);
+    return answer.output;
+  };
+  std::ofstream(elsewhere / "file") << "somebody's";
+  for (const char* name : {"reconstruct.json", "reconstruct.log"}) {
+    const std::string said = answer_with(elsewhere / "file", result(name));
+    EXPECT_NE(said.find(result(name).string() + ": is a link to "), std::string::npos) << said;
+    EXPECT_EQ(testing::text_of(elsewhere / "file"), "somebody's");
+  }
+  const fs::path folder = result("done.json").parent_path();
+  fs::remove_all(folder);
+  EXPECT_NE(answer_with(elsewhere, folder).find("bind-mount"), std::string::npos);
+  EXPECT_EQ(std::distance(fs::directory_iterator(elsewhere), {}), 1);
+  EXPECT_EQ(run().exit_code, 0);
+  fs::rename(result("mesh.ply"), elsewhere / "mesh.ply");
+  fs::create_symlink(elsewhere / "mesh.ply", result("mesh.ply"));
+  EXPECT_TRUE(is_done_again()) << "the mesh is not in this folder";
+}
+
+/// The step of a batch whose command line has a word; 0: the batch has ended.
+pid_t step_of(const testing::StartedProgram& batch, const std::string& word) {
+  while (!batch.has_ended()) {
+    std::error_code ended;
+    for (const auto& task :
+         fs::directory_iterator(fmt::format("/proc/{}/task", batch.process()), ended)) {
+      pid_t child = 0;
+      if (!(std::ifstream(task.path() / "children") >> child)) continue;
+      // Before it runs the step, every open file of the batch is its own.
+      if (testing::text_of(fmt::format("/proc/{}/cmdline", child)).find(word) != std::string::npos)
+        return child;
+    }
+  }
+  return 0;
+}
+
+/// Whether a process is halted, and not ended. It is halted a moment after the signal.
+bool is_halted(pid_t process) {
+  char state = ' ';
+  return testing::wait_until([&] {
+           const std::string line = testing::text_of(fmt::format("/proc/{}/stat", process));
+           const auto name_end = line.rfind(')');
+           state = name_end == std::string::npos ? 'X' : line.at(name_end + 2);
+           return state == 'T' || state == 'Z' || state == 'X';
+         }) &&
+         state == 'T';
+}
+
+/// The step that reconstructs outlives its batch; no other one writes beside it.
+TEST_F(BatchRecord, AnOrphanedStepKeepsOthersOut) {
+  std::optional<testing::StartedProgram> batch;
+  pid_t step = 0;
+  bool halted = false;
+  for (int attempt = 0; attempt < 10 && !halted; ++attempt) {  // a step may end before it is seen
+    fs::remove_all(out("record") / "meshes");
+    batch.emplace(std::vector<std::string>{FRANGIA_PROGRAM,
+                                           "--quiet",
+                                           "batch",
+                                           one().string(),
+                                           "-o",
+                                           (out("record") / "meshes").string()},
+                  (out("record") / "log").string());
+    step = step_of(*batch, "reconstruct");
+    // A step that is halted before its parent ends would be woken by SIGHUP.
+    batch->send(SIGKILL);
+    static_cast<void>(batch->wait());
+    halted = step > 0 && ::kill(step, SIGSTOP) == 0 && is_halted(step);
+  }
+  ASSERT_TRUE(halted) << "every step ended before it was halted";
+  const Answer refused = run();
+  EXPECT_EQ(refused.exit_code, 4);
+  EXPECT_NE(refused.output.find("is writing to this folder"), std::string::npos) << refused.output;
+  EXPECT_FALSE(fs::exists(result("done.json")));
+  ASSERT_EQ(::kill(step, SIGKILL), 0);
+  ASSERT_TRUE(testing::wait_until([&] { return run().exit_code == 0; }));
+  EXPECT_TRUE(fs::exists(result("mesh.ply")));
 }
 
 TEST_F(BatchProgram, QuotesWhatTheShellOfSlurmReads) {

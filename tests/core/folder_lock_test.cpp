@@ -77,6 +77,18 @@ TEST(FolderLock, RefusesASecondWriterInTheSameProcessAndOverALink) {
   EXPECT_TRUE(refusal(folder.path() / "other").empty());
 }
 
+TEST(FolderLock, ChangesNoFileOfAnotherName) {
+  const testing::TemporaryFolder folder;
+  std::ofstream(folder.path() / "work") << "somebody's";
+  std::filesystem::create_directory(folder.path() / "scan");
+  std::filesystem::create_hard_link(folder.path() / "work",
+                                    folder.path() / "scan" / FolderLock::kFileName);
+  EXPECT_NE(refusal(folder.path() / "scan").find("a hard link"), std::string::npos);
+  std::string text;
+  std::getline(std::ifstream(folder.path() / "work"), text);
+  EXPECT_EQ(text, "somebody's");
+}
+
 TEST(FolderLock, OfAKilledProcessIsTakenOver) {
   const testing::TemporaryFolder folder;
   LockingProcess other(folder.path());

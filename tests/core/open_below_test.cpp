@@ -5,6 +5,7 @@
 #include <string>
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
 
 #include "support/error_of.h"
@@ -78,12 +79,31 @@ TEST_F(OpenBelow, RefusesNamesThatLeadOut) {
     EXPECT_NE(refusal_of(inner), "") << inner;
 }
 
+TEST_F(OpenBelow, RefusesWhatItCannotLookAt) {
+  fs::create_directory_symlink(outside_, folder_ / "a" / "linked");
+  rlimit usual{};
+  ASSERT_EQ(::getrlimit(RLIMIT_NOFILE, &usual), 0);
+  rlimit none = usual;
+  none.rlim_cur = 0;  // no more files can be opened
+  ASSERT_EQ(::setrlimit(RLIMIT_NOFILE, &none), 0);
+  const std::string sentence =
+      error_of([&] { static_cast<void>(path_below(folder_, "a/linked/file")); });
+  ASSERT_EQ(::setrlimit(RLIMIT_NOFILE, &usual), 0);
+  EXPECT_NE(sentence.find("Too many open files"), std::string::npos) << sentence;
+}
+
 TEST_F(OpenBelow, AppendsAndCreates) {
   for (const char* text : {"one", "two"}) {
     const FileDescriptor file = open_below(folder_, "a/new", OpenFor::Appending);
     ASSERT_EQ(::write(file.number(), text, 3), 3);
   }
   EXPECT_EQ(read_below(folder_, "a/new", 100), "onetwo");
+  fs::create_hard_link(outside_ / "file", folder_ / "hard");
+  EXPECT_NE(error_of([&] {
+              static_cast<void>(open_below(folder_, "hard", OpenFor::Appending));
+            }).find("a hard link"),
+            std::string::npos);
+  EXPECT_EQ(read_below(folder_, "hard", 100), "a secret");
 }
 
 TEST_F(OpenBelow, NamesWhatIsMissingTooLargeOrNoFileWithoutWaiting) {

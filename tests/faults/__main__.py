@@ -28,6 +28,7 @@ STUDIES = [
     "mutated_files",
     "batch_faults",
     "transactions",
+    "hostile_requests",
 ]
 BEGIN, END = "<!-- begin table: written by `./run faults` -->", "<!-- end table -->"
 

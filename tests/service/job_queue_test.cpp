@@ -8,6 +8,7 @@
 #include "frangia/core/error.h"
 
 #include "support/error_of.h"
+#include "support/wait_until.h"
 
 namespace frangia {
 namespace {
@@ -83,6 +84,17 @@ TEST(JobQueue, KeepsTheSentenceOfAFailure) {
   const Job job = finished(queue, number);
   EXPECT_EQ(job.state, JobState::Failed);
   EXPECT_EQ(job.error, "the disk is full");
+}
+
+TEST(JobQueue, FailsAJobThatThrowsWhatIsNoException) {
+  JobQueue queue([] {});
+  static_cast<void>(queue.start("odd", [](const auto& /*run*/) { throw 7; }));
+  static_cast<void>(queue.start("next", [](const auto& /*run*/) {}));
+  ASSERT_TRUE(testing::wait_until([&] { return !queue.is_busy(); }));
+  const std::vector<Job> jobs = queue.jobs();
+  EXPECT_EQ(jobs.at(0).state, JobState::Failed);
+  EXPECT_NE(jobs.at(0).error, "");
+  EXPECT_EQ(jobs.at(1).state, JobState::Done);
 }
 
 TEST(JobQueue, RefusesMoreThanItsLimit) {

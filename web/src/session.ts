@@ -105,17 +105,28 @@ export class Session {
   }
 
   async begin(): Promise<void> {
-    const token = new URLSearchParams(location.hash.slice(1)).get('token');
-    if (token) {
-      history.replaceState(null, '', location.pathname);
-      try {
-        await this.exchange({ token });
-      } catch {
-        // A used link in a tab that has a key already: the key decides.
-      }
-    }
+    addEventListener('hashchange', () => void this.renew());
+    await this.takeLink();
     if (!this.key) return this.set('refused');
     this.listen();
+  }
+
+  /** Exchanges the token of the address, if it has one that is valid, for a key. */
+  private async takeLink(): Promise<boolean> {
+    const token = new URLSearchParams(location.hash.slice(1)).get('token');
+    if (!token) return false;
+    history.replaceState(null, '', location.pathname);
+    try {
+      await this.exchange({ token });
+      return true;
+    } catch {
+      return false; // A used link in a tab that has a key already: the key decides.
+    }
+  }
+
+  /** A link that is pasted into the address of an open page changes its fragment and does not load it again. */
+  private async renew(): Promise<void> {
+    if (await this.takeLink()) this.listen();
   }
 
   /** Runs a command once. Where the connection breaks before the answer, it is sent again with the same id. */
@@ -182,6 +193,10 @@ export class Session {
   }
 
   private listen(): void {
+    if (this.socket) {
+      this.socket.onclose = null;
+      this.socket.close();
+    }
     const socket = new WebSocket(`${location.protocol === 'https:' ? 'wss' : 'ws'}://${location.host}/api/live`);
     socket.binaryType = 'arraybuffer';
     this.socket = socket;

@@ -9,11 +9,11 @@
 #include <fmt/format.h>
 
 #include "frangia/core/atomic_file.h"
-#include "frangia/core/check_nesting.h"
 #include "frangia/core/error.h"
 #include "frangia/core/folder_lock.h"
 #include "frangia/core/make_folder.h"
-#include "frangia/core/read_text_file.h"
+#include "frangia/core/open_below.h"
+#include "frangia/core/read_json_below.h"
 #include "frangia/core/sync_to_disk.h"
 
 #include "batch/batch_inputs.h"
@@ -64,6 +64,23 @@ std::vector<Step> steps_of(const BatchScan& scan, const BatchPlan& plan, const f
   return steps;
 }
 
+/// The files of a step in a folder: its standard output, and what it said.
+fs::path output_of(const Step& step, const fs::path& folder) {
+  return folder / (step.name + ".json");
+}
+fs::path messages_of(const Step& step, const fs::path& folder) {
+  return folder / (step.name + ".log");
+}
+
+/// @errors   Error(Input) that names a link through which a scan's results would be written
+void require_no_links(const BatchScan& scan, const BatchPlan& plan, const fs::path& out) {
+  const fs::path folder = path_below(out, scan.name);
+  for (const Step& step : steps_of(scan, plan, folder)) {
+    static_cast<void>(path_below(folder, output_of(step, folder).filename()));
+    static_cast<void>(path_below(folder, messages_of(step, folder).filename()));
+  }
+}
+
 /// What a result depends on beside files.
 Json cause_of(const BatchScan& scan, const BatchPlan& plan, const fs::path& folder) {
   Json cause{{"version", FRANGIA_VERSION}};
@@ -79,7 +96,7 @@ NamedFiles results_in(const fs::path& folder) {
   NamedFiles files;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
     const std::string name = entry.path().filename().string();
-    if (name != kMark && name.front() != '.' && entry.is_regular_file())
+    if (name != kMark && name.front() != '.' && !entry.is_symlink() && entry.is_regular_file())
       files.emplace(name, entry.path());
   }
   return files;
@@ -92,6 +109,13 @@ NamedFiles recorded_results(const Json& record, const fs::path& folder) {
   for (const auto& [name, value] : record.items())
     if (name == fs::path(name).filename()) files.emplace(name, folder / name);
   return files;
+}
+
+/// Words for the first result that a link has taken the place of; empty without one.
+std::string first_link(const Json& record, const fs::path& folder) {
+  for (const auto& [name, path] : recorded_results(record, folder))
+    if (fs::is_symlink(path)) return fmt::format("{} is a link now", name);
+  return {};
 }
 
 /// The name of the first file that a record states as missing; empty when it has all. A scan may
@@ -109,13 +133,12 @@ void sync_results(const fs::path& folder) {
   sync_to_disk(folder);
 }
 
-/// JSON of a file; null when there is none, or it is damaged or nested as no program writes it.
-Json read_json(const fs::path& path) {
+/// JSON of a file below a folder; null when there is none, or it is a link, damaged, or nested as
+/// no program writes it.
+Json read_json(const fs::path& folder, const fs::path& inner) {
   constexpr std::uint64_t kMostBytes = 64'000'000;  // the record of a frame has some 150
   try {
-    const std::string text = read_text_file(path, kMostBytes);
-    check_json_nesting(text, path);
-    return Json::parse(text, nullptr, false);
+    return Json::parse(read_json_below(folder, inner, kMostBytes), nullptr, false);
   } catch (const Error&) {
     return nullptr;
   }
@@ -142,7 +165,7 @@ BatchRow read_row(const BatchScan& scan,
   open.name = scan.name;
   open.sigma_mm = std::nan("");
   const fs::path folder = out / scan.name;
-  const Json mark = read_json(folder / kMark);
+  const Json mark = read_json(out, fs::path(scan.name) / kMark);
   try {
     if (!mark.is_object() || mark.value("cause", Json()) != cause_of(scan, plan, folder))
       return open;
@@ -157,6 +180,10 @@ BatchRow read_row(const BatchScan& scan,
     if (changed_in("inputs", inputs_of(scan))) return open;
     if (row.state == BatchState::Done) {
       const Json results = mark.value("results", Json());
+      if (std::string link = first_link(results, folder); !link.empty()) {
+        open.message = std::move(link);
+        return open;
+      }
       if (!results.is_object() || results.empty() || !first_missing(results).empty() ||
           changed_in("results", recorded_results(results, folder)))
         return open;
@@ -180,16 +207,18 @@ BatchRow run_task(const BatchScan& scan,
                   const BatchCommand& command,
                   const CheckFiles& check) {
   const fs::path folder = out / scan.name;
-  make_folder(folder);
   BatchRow row;
   row.name = scan.name;
   row.sigma_mm = std::nan("");
   std::optional<FolderLock> lock;
   try {
+    require_no_links(scan, plan, out);
+    make_folder(folder);
     lock.emplace(folder);
   } catch (const Error& error) {
     if (error.kind() != ErrorKind::Input) throw;
-    row.message = error.what();  // another process writes to it, perhaps a step that was orphaned
+    // A link, or another process writes to it, perhaps a step that was orphaned.
+    row.message = error.what();
     return row;
   }
   if (BatchRow known = read_row(scan, plan, out, check); known.state == BatchState::Done)
@@ -202,15 +231,15 @@ BatchRow run_task(const BatchScan& scan,
     if (command.threads > 0)
       words.insert(words.end(), {"--threads", std::to_string(command.threads)});
     words.insert(words.end(), step.words.begin(), step.words.end());
-    const fs::path output = folder / (step.name + ".json");
-    const fs::path messages = folder / (step.name + ".log");
+    const fs::path output = output_of(step, folder);
+    const fs::path messages = messages_of(step, folder);
     const ChildResult result =
         run_child(words, output, messages, check.run.stop, lock->descriptor());
     if (check.run.stop.stop_requested()) return row;
     row.seconds += result.seconds;
     row.processor_s += result.processor_s;
     row.memory_mb = std::max(row.memory_mb, result.memory_mb);
-    take_results(read_json(output), row);
+    take_results(read_json(folder, output.filename()), row);
     if (result.exit_code == 0) continue;
     row.state = BatchState::Failed;
     row.exit_code = result.exit_code;

@@ -35,7 +35,7 @@ pid_t start(const std::vector<std::string>& command,
   for (std::string& word : words)
     arguments.push_back(word.data());
   arguments.push_back(nullptr);
-  constexpr int kWrite = O_WRONLY | O_CREAT | O_TRUNC;
+  constexpr int kWrite = O_WRONLY | O_CREAT | O_TRUNC | O_NOFOLLOW;
   constexpr mode_t kMode = 0666;
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);

@@ -8,6 +8,7 @@
 #include "frangia/core/atomic_file.h"
 #include "frangia/core/error.h"
 #include "frangia/core/make_folder.h"
+#include "frangia/core/open_below.h"
 #include "frangia/core/read_text_file.h"
 
 #include "batch/child_process.h"
@@ -84,7 +85,7 @@ std::string slurm_script(const SlurmJob& job) {
 }
 
 std::string submit(const SlurmJob& job, const std::stop_token& stop) {
-  const fs::path folder = job.out / "slurm";
+  const fs::path folder = path_below(job.out, "slurm");
   make_folder(folder);
   write_script(folder / "scans.sh", slurm_script(job));
   write_script(folder / "table.sh", table_script(job));

@@ -37,6 +37,7 @@ void NetworkAccess::check(bool has_password) const {
 
 AppAddress app_address(const NetworkAccess& access, std::uint16_t port) {
   AppAddress address;
+  address.behind_proxy = access.behind_proxy;
   for (const std::string& host : access.allowed_hosts)
     admit(host, access.behind_proxy, address);
   if (access.plain_lan && access.listen != "0.0.0.0" && access.listen != "::")

@@ -12,6 +12,7 @@ struct AppAddress {
   std::vector<std::string> hosts;    ///< accepted in the header Host
   std::vector<std::string> origins;  ///< accepted in the header Origin
   std::vector<std::string> sockets;  ///< WebSockets that the page may open
+  bool behind_proxy = false;         ///< X-Forwarded-For names the client
 };
 
 /// How a server is reached from other machines.

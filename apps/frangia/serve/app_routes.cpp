@@ -11,7 +11,6 @@
 #include <nlohmann/json.hpp>
 
 #include "frangia/core/error.h"
-#include "frangia/core/read_regular_file.h"
 
 #include "web_assets.h"
 
@@ -19,6 +18,10 @@ namespace frangia {
 namespace {
 
 constexpr std::string_view kBearer = "Bearer ";
+constexpr std::string_view kLivePath = "/api/live";
+constexpr std::string_view kJsonType = "application/json";
+constexpr std::string_view kBytesType = "application/octet-stream";
+constexpr std::uint64_t kMostSessionBytes = 4096;  // what is read without a key
 constexpr unsigned kOk = 200;
 constexpr unsigned kBadRequest = 400;
 constexpr unsigned kUnauthorized = 401;
@@ -26,7 +29,9 @@ constexpr unsigned kForbidden = 403;
 constexpr unsigned kNotFound = 404;
 constexpr unsigned kWrongMethod = 405;
 constexpr unsigned kConflict = 409;
+constexpr unsigned kTooLarge = 413;
 constexpr unsigned kWrongType = 415;
+constexpr unsigned kTooManyTries = 429;
 constexpr unsigned kFailed = 500;
 
 HttpResponse failure(unsigned status, const std::string& sentence) {
@@ -79,6 +84,24 @@ HttpResponse found(std::string bytes, const char* otherwise) {
   return bytes.empty() ? failure(kNotFound, otherwise) : binary(std::move(bytes));
 }
 
+std::string path_of(const HttpRequest& request) {
+  return request.target.substr(0, request.target.find('?'));
+}
+
+/// The key that a request shows; empty without one.
+std::string key_of(const HttpRequest& request) {
+  return rest_of(request.authorization, kBearer).value_or("");
+}
+
+/// Whether Content-Type states JSON, in UTF-8 where it says so, or bytes.
+bool is_of_type(const std::string& content_type, bool bytes) {
+  std::string text;  // types and names of character sets are case-insensitive
+  for (const char c : content_type)
+    if (c != ' ' && c != '\t' && c != '"') text += c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c;
+  if (bytes) return text == kBytesType;
+  return text == kJsonType || text == fmt::format("{};charset=utf-8", kJsonType);
+}
+
 HttpResponse asset_at(const std::string& path) {
   const std::string wanted = path == "/" ? "/index.html" : path;
   for (const WebAsset& asset : web_assets()) {
@@ -107,10 +130,9 @@ AppRoutes::AppRoutes(Service& service,
 
 HttpApp AppRoutes::app() const {
   HttpApp app;
+  app.refusal = [this](const HttpRequest& request) { return refusal(request); };
   app.answer = [this](const HttpRequest& request) { return answer(request); };
-  app.may_connect = [this](const HttpRequest& request) {
-    return is_from_here(request) && request.target == "/api/live";
-  };
+  app.may_connect = [](const HttpRequest& request) { return request.target == kLivePath; };
   app.authorizes = [this](std::string_view message) {
     const auto json = nlohmann::json::parse(message, nullptr, false);
     if (!json.is_object() || json.value("type", nlohmann::json()) != "hello") return false;
@@ -159,44 +181,61 @@ bool AppRoutes::is_from_here(const HttpRequest& request) const {
   return request.origin.empty() || is_in(address_.origins, request.origin);
 }
 
-HttpResponse AppRoutes::answer(const HttpRequest& request) const {
-  try {
-    const std::string path = request.target.substr(0, request.target.find('?'));
-    // A link of another page may open the app: the page itself holds nothing.
-    const bool page = request.method == "GET" && !path.starts_with("/api/");
-    HttpRequest checked = request;
-    if (page) checked.fetch_site.clear();
-    if (!is_from_here(checked))
-      return failure(kForbidden, "this server answers only its own page on this machine");
-    if (path.starts_with("/api/")) return answer_api(request, path);
-    if (request.method != "GET") return failure(kWrongMethod, "a page is read with GET");
-    return asset_at(path);
-  } catch (const Error& error) {
-    return failure(kBadRequest, error.what());
-  } catch (const std::exception& error) {
-    return failure(kFailed, error.what());
-  }
+std::optional<HttpResponse> AppRoutes::refusal(const HttpRequest& request) const {
+  const std::string path = path_of(request);
+  // A link of another page may open the app: the page itself holds nothing.
+  const bool page = request.method == "GET" && !path.starts_with("/api/");
+  HttpRequest checked = request;
+  if (page) checked.fetch_site.clear();
+  if (!is_from_here(checked))
+    return failure(kForbidden, "this server answers only its own page on this machine");
+  if (request.method == "GET" && path == kLivePath)
+    return std::nullopt;  // its first message holds the key
+  if (path.starts_with("/api/")) return refusal_of_api(request, path);
+  if (request.method != "GET") return failure(kWrongMethod, "a page is read with GET");
+  return std::nullopt;
 }
 
-HttpResponse AppRoutes::answer_api(const HttpRequest& request, const std::string& path) const {
+std::optional<HttpResponse> AppRoutes::refusal_of_api(const HttpRequest& request,
+                                                      const std::string& path) const {
   if (request.method != "GET" && request.method != "POST")
     return failure(kWrongMethod, "the methods are GET and POST");
   const bool is_file = path.starts_with("/api/reference/");
-  const char* type = is_file ? "application/octet-stream" : "application/json";
-  if (request.method == "POST" && request.content_type != type)
-    return failure(kWrongType, fmt::format("the wrong kind of body; send Content-Type: {}", type));
+  if (request.method == "POST" && !is_of_type(request.content_type, is_file)) {
+    return failure(kWrongType,
+                   fmt::format("the wrong kind of body; send Content-Type: {}",
+                               is_file ? kBytesType : kJsonType));
+  }
   if (path == "/api/session") {
     if (request.method != "POST") return failure(kWrongMethod, "a token is exchanged with POST");
-    return begin_session(request.body);
+    if (request.body_bytes > kMostSessionBytes)
+      return failure(kTooLarge, "a token or a password is shorter than this");
+    return std::nullopt;
   }
-  const std::string& given = request.authorization;
-  if (!given.starts_with(kBearer) || !keys_.is_valid(given.substr(kBearer.size()))) {
+  if (!keys_.is_valid(key_of(request))) {
     return failure(kUnauthorized,
                    "no valid key was sent; open the app with a new link from `frangia serve "
                    "--new-link`");
   }
-  return request.method == "GET" ? get(path)
-                                 : post(path, request.body, given.substr(kBearer.size()));
+  return std::nullopt;
+}
+
+HttpResponse AppRoutes::answer(const HttpRequest& request) const {
+  try {
+    const std::string path = path_of(request);
+    return path.starts_with("/api/") ? answer_api(request, path) : asset_at(path);
+  } catch (const Error& error) {
+    return failure(kBadRequest, error.what());
+  } catch (const std::exception& error) {
+    return failure(kFailed, error.what());
+  } catch (...) {
+    return failure(kFailed, "the request failed for a reason that has no words");
+  }
+}
+
+HttpResponse AppRoutes::answer_api(const HttpRequest& request, const std::string& path) const {
+  if (path == "/api/session") return begin_session(request);
+  return request.method == "GET" ? get(path) : post(path, request.body, key_of(request));
 }
 
 HttpResponse AppRoutes::get(const std::string& path) const {
@@ -220,10 +259,8 @@ HttpResponse AppRoutes::get(const std::string& path) const {
   if (const auto text = rest_of(path, "/api/exports/")) {
     const auto name = percent_decoded(*text);
     if (!name) return failure(kBadRequest, "the name is not percent-encoded");
-    const ExportedFile file = service_.exported(*name);
-    const auto bytes = read_regular_file(file.path);
-    HttpResponse response = binary({bytes.begin(), bytes.end()});
-    response.download = file.name;
+    HttpResponse response = binary({});
+    response.download = service_.exported(*name).file;
     return response;
   }
   return failure(kNotFound, "there is no such resource");
@@ -255,8 +292,8 @@ HttpResponse AppRoutes::post(const std::string& path,
   return {.status = kOk, .body = service_.command(*command, body)};
 }
 
-HttpResponse AppRoutes::begin_session(const std::string& body) const {
-  const auto json = nlohmann::json::parse(body, nullptr, false);
+HttpResponse AppRoutes::begin_session(const HttpRequest& request) const {
+  const auto json = nlohmann::json::parse(request.body, nullptr, false);
   const auto text = [&](const char* key) -> std::string {
     const bool has = json.is_object() && json.contains(key) && json[key].is_string();
     return has ? json[key].get<std::string>() : std::string();
@@ -264,7 +301,13 @@ HttpResponse AppRoutes::begin_session(const std::string& body) const {
   std::optional<SessionKey> session;
   const std::string password = text("password");
   if (!password.empty() && password_.has_password()) {
-    if (password_.admits(password)) session = keys_.admit();
+    const std::string client =
+        client_address(request.peer, request.forwarded_for, address_.behind_proxy);
+    try {
+      if (password_.admits(password, client)) session = keys_.admit();
+    } catch (const TooManyTries& error) {
+      return failure(kTooManyTries, error.what());
+    }
     if (!session) return failure(kForbidden, "the password is wrong");
   } else {
     session = keys_.redeem(text("token"));

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 
 #include "frangia/service/access_guard.h"
@@ -30,13 +31,16 @@ class AppRoutes {
 
  private:
   [[nodiscard]] bool is_from_here(const HttpRequest& request) const;
+  [[nodiscard]] std::optional<HttpResponse> refusal(const HttpRequest& request) const;
+  [[nodiscard]] std::optional<HttpResponse> refusal_of_api(const HttpRequest& request,
+                                                           const std::string& path) const;
   [[nodiscard]] HttpResponse answer(const HttpRequest& request) const;
   [[nodiscard]] HttpResponse answer_api(const HttpRequest& request, const std::string& path) const;
   [[nodiscard]] HttpResponse get(const std::string& path) const;
   [[nodiscard]] HttpResponse post(const std::string& path,
                                   const std::string& body,
                                   const std::string& key) const;
-  [[nodiscard]] HttpResponse begin_session(const std::string& body) const;
+  [[nodiscard]] HttpResponse begin_session(const HttpRequest& request) const;
 
   Service& service_;
   SessionKeys& keys_;

@@ -1,5 +1,6 @@
 #include "http_server.h"
 
+#include <exception>
 #include <utility>
 
 #include <fmt/format.h>
@@ -16,30 +17,68 @@ struct HttpServer::Implementation {
   tcp::acceptor acceptor{context};
   SharedPtr shared = std::make_shared<Shared>();
   asio::steady_timer announcement{context};
+  asio::steady_timer retry{context};
+  bool accepts = false;    ///< waits for the next connection, or to do so
   bool announced = false;  ///< live messages are due
   bool state_changed = false;
   bool picture_changed = false;
 
   void accept() {
     acceptor.async_accept([this](ErrorCode error, tcp::socket socket) {
+      accepts = false;
       if (error == asio::error::operation_aborted) return;
-      if (!error) {
-        if (shared->connections >= shared->limits.connections) make_room();
-        if (shared->connections < shared->limits.connections + kReserve)
-          serve_http(std::move(socket), shared);
-      }
+      if (error) return accept_later();
+      if (shared->connections >= shared->limits.connections) static_cast<void>(make_room());
+      if (shared->connections < shared->limits.connections + kReserve)
+        serve_http(std::move(socket), shared);
       accept();
     });
+    accepts = true;
+  }
+
+  /// The system is short of descriptors or memory.
+  void accept_later() {
+    if (make_room()) return accept();
+    retry.expires_after(shared->limits.live_interval);
+    retry.async_wait([this](ErrorCode) {
+      accepts = false;
+      accept();
+    });
+    accepts = true;
+  }
+
+  /// Handles events until the server is stopped. An exception ends the connection whose handler
+  /// threw it: the handler held it.
+  void run() {
+    for (;;) {
+      try {
+        if (!accepts) accept();
+        context.run();
+        return;
+      } catch (const std::exception& error) {
+        report(error.what());
+      } catch (...) {
+        report("an exception without words");
+      }
+    }
+  }
+
+  void report(const char* words) const noexcept {
+    try {
+      if (shared->app.on_exception) shared->app.on_exception(words);
+    } catch (...) {  // NOLINT(bugprone-empty-catch): nobody can be told
+    }
   }
 
   /// Closes the connection that has waited longest, first among those that wait for a request,
-  /// otherwise for its client to take an answer; its memory follows.
-  void make_room() const {
+  /// otherwise for its client to take an answer; its memory follows. Returns whether there is one.
+  [[nodiscard]] bool make_room() const {
     for (const Connections* list : {&shared->idle, &shared->sending}) {
       if (list->empty()) continue;
       list->front()->close();
-      return;
+      return true;
     }
+    return false;
   }
 
   void announce(bool state) {
@@ -54,8 +93,12 @@ struct HttpServer::Implementation {
       const bool with_state = std::exchange(state_changed, false);
       const bool with_picture = std::exchange(picture_changed, false);
       for (const auto& changed : live) {
-        if (with_state) changed(true);
-        if (with_picture) changed(false);
+        try {
+          if (with_state) changed(true);
+          if (with_picture) changed(false);
+        } catch (const std::exception& thrown) {  // the others are told all the same
+          report(thrown.what());
+        }
       }
     });
   }
@@ -94,9 +137,8 @@ std::uint16_t HttpServer::port() const {
 void HttpServer::serve(HttpApp app, const std::stop_token& stop) {
   Implementation& server = *implementation_;
   server.shared->app = std::move(app);
-  server.accept();
   const std::stop_callback on_stop(stop, [&server] { server.context.stop(); });
-  server.context.run();
+  server.run();
 }
 
 void HttpServer::announce(bool state) {

@@ -10,9 +10,11 @@
 #include <string>
 #include <string_view>
 
+#include "frangia/core/file_descriptor.h"
+
 namespace frangia {
 
-/// A request after its limits were checked.
+/// A request whose header was checked against the limits.
 struct HttpRequest {
   std::string method;         ///< "GET", "POST", ...
   std::string target;         ///< path and query as sent, such as "/api/state"
@@ -21,7 +23,10 @@ struct HttpRequest {
   std::string fetch_site;     ///< header Sec-Fetch-Site; empty without one
   std::string content_type;   ///< header Content-Type; empty without one
   std::string authorization;  ///< header Authorization; empty without one
-  std::string body;
+  std::string forwarded_for;  ///< header X-Forwarded-For; empty without one
+  std::string peer;           ///< IP address at the other end of the connection
+  std::uint64_t body_bytes;   ///< header Content-Length; 0 without one
+  std::string body;           ///< empty while only the header is known
 };
 
 /// The answer to a request.
@@ -31,7 +36,7 @@ struct HttpResponse {
   std::string body = {};
   bool gzip = false;               ///< `body` is compressed
   std::string cache = "no-store";  ///< header Cache-Control
-  std::string download = {};       ///< name of a file to save; empty: to show
+  FileDescriptor download = {};    ///< a regular file to save, sent in place of `body`
 };
 
 /// A picture that a WebSocket may receive.
@@ -40,9 +45,12 @@ struct HttpPicture {
   std::shared_ptr<const std::string> bytes;  ///< null: there is no newer one
 };
 
-/// What the server asks of the app. All functions are called on the server's thread.
+/// What the server asks of the app. All functions are called on the server's thread. An exception
+/// of one of them ends the connection for which it was called.
 struct HttpApp {
-  /// Answers a request. It does not throw.
+  /// Refuses a request by its header, before its body is read; empty: it goes on.
+  std::function<std::optional<HttpResponse>(const HttpRequest&)> refusal;
+  /// Answers a request that was not refused.
   std::function<HttpResponse(const HttpRequest&)> answer;
   /// Whether a request may open the WebSocket: its path, host and origin.
   std::function<bool(const HttpRequest&)> may_connect;
@@ -57,15 +65,23 @@ struct HttpApp {
   std::function<HttpPicture(int channel, std::uint64_t after)> picture;
   /// Content-Security-Policy of all answers, for the port of the server.
   std::string content_security_policy;
+  /// Is told the words of an exception that ended a connection.
+  std::function<void(const std::string&)> on_exception;
 };
 
 /// Limits that keep one client from hindering others.
 struct HttpLimits {
   std::size_t header_bytes = 16UL * 1024;
   std::size_t body_bytes = 1024UL * 1024;
-  std::size_t connections = 256;            ///< beyond it, the one that is idle longest is closed
-  std::chrono::seconds request_time{10};    ///< for a whole request to arrive
-  std::chrono::seconds response_time{120};  ///< for the answer to be taken
+  std::size_t connections = 256;  ///< beyond it, the one that is idle longest is closed
+  /// Of bodies that arrive; beyond it, those above 64 kB are refused with 503.
+  std::size_t all_bodies_bytes = 64UL * 1024 * 1024;
+  /// Of answers in memory; beyond it, the connection is closed whose client takes longest.
+  std::size_t all_answers_bytes = 128UL * 1024 * 1024;
+  std::size_t refused_bytes =
+      1024UL * 1024;                      ///< read and dropped after a refusal, so that it arrives
+  std::chrono::seconds request_time{10};  ///< for a whole request to arrive
+  std::chrono::seconds response_time{120};  ///< for each MB of the answer to be taken
   std::size_t live_message_bytes = 4096;    ///< of a message from a client
   /// A WebSocket is asked for a sign of life after half of this time without a message, and closed
   /// after all of it. Proxies close a connection that is silent for a minute.

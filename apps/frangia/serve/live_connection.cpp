@@ -12,15 +12,14 @@ namespace {
 /// asks for them, pictures.
 class LiveConnection : public Connection, public std::enable_shared_from_this<LiveConnection> {
  public:
-  LiveConnection(beast::tcp_stream stream, SharedPtr shared)
-      : socket_(std::move(stream)), shared_(std::move(shared)) {}
+  LiveConnection(beast::tcp_stream stream, SharedPtr shared, Claim counted)
+      : socket_(std::move(stream)), shared_(std::move(shared)), counted_(std::move(counted)) {}
   LiveConnection(const LiveConnection&) = delete;
   LiveConnection& operator=(const LiveConnection&) = delete;
   LiveConnection(LiveConnection&&) = delete;
   LiveConnection& operator=(LiveConnection&&) = delete;
   ~LiveConnection() override {
     if (registered_) shared_->live.erase(place_);
-    --shared_->connections;
   }
 
   void close() override { beast::get_lowest_layer(socket_).close(); }
@@ -117,6 +116,7 @@ class LiveConnection : public Connection, public std::enable_shared_from_this<Li
 
   websocket::stream<beast::tcp_stream> socket_;
   SharedPtr shared_;
+  Claim counted_;
   beast::flat_buffer buffer_;
   std::optional<asio::steady_timer> timer_;
   std::list<std::function<void(bool)>>::iterator place_;
@@ -134,8 +134,10 @@ class LiveConnection : public Connection, public std::enable_shared_from_this<Li
 
 void serve_live(beast::tcp_stream stream,
                 const http::request<http::string_body>& request,
-                const SharedPtr& shared) {
-  const auto connection = std::make_shared<LiveConnection>(std::move(stream), shared);
+                const SharedPtr& shared,
+                Claim place) {
+  const auto connection =
+      std::make_shared<LiveConnection>(std::move(stream), shared, std::move(place));
   connection->accept(request);
 }
 

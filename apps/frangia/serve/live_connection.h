@@ -4,9 +4,11 @@
 
 namespace frangia {
 
-/// Turns a connection into a WebSocket that lives until its client leaves.
+/// Turns a connection into a WebSocket that lives until its client leaves; `place` counts it among
+/// the connections.
 void serve_live(beast::tcp_stream stream,
                 const http::request<http::string_body>& request,
-                const SharedPtr& shared);
+                const SharedPtr& shared,
+                Claim place);
 
 }  // namespace frangia

@@ -15,15 +15,22 @@
 #include <unistd.h>
 
 #include "frangia/core/error.h"
+#include "frangia/core/html_escaped.h"
 #include "frangia/core/read_text_file.h"
+#include "frangia/core/write_private_file.h"
 
 namespace frangia {
 namespace {
 
-std::filesystem::path runtime_path() {
+/// $XDG_RUNTIME_DIR; empty without one.
+std::filesystem::path runtime_folder() {
   const char* folder = std::getenv("XDG_RUNTIME_DIR");  // NOLINT(concurrency-mt-unsafe)
-  if (folder == nullptr || *folder != '/') return {};
-  return std::filesystem::path(folder) / "frangia-serve.json";
+  return folder != nullptr && *folder == '/' ? folder : "";
+}
+
+std::filesystem::path runtime_path() {
+  const auto folder = runtime_folder();
+  return folder.empty() ? folder : folder / "frangia-serve.json";
 }
 
 /// Closes a file descriptor at the end of a scope.
@@ -85,6 +92,29 @@ RuntimeFile::~RuntimeFile() {
     if (read_text_file(path_) == text_) ::unlink(path_.c_str());
   } catch (const std::exception&) {  // NOLINT(bugprone-empty-catch): it was removed already
   }
+}
+
+LinkPage::LinkPage(const std::string& link) {
+  std::filesystem::path folder = runtime_folder();
+  if (folder.empty()) {
+    std::string name = (std::filesystem::temp_directory_path() / "frangia-XXXXXX").string();
+    if (::mkdtemp(name.data()) == nullptr)
+      throw Error(ErrorKind::File, fmt::format("{}: cannot be created", name));
+    folder_ = folder = name;
+  }
+  path_ = folder / fmt::format("frangia-open-{}.html", ::getpid());
+  const std::string shown = html_escaped(link);
+  write_private_file(path_,
+                     fmt::format("<!doctype html><meta charset=\"utf-8\"><title>Frangia</title>"
+                                 "<meta http-equiv=\"refresh\" content=\"0; url={}\">"
+                                 "<a href=\"{}\">Frangia</a>\n",
+                                 shown,
+                                 shown));
+}
+
+LinkPage::~LinkPage() {
+  ::unlink(path_.c_str());
+  if (!folder_.empty()) ::rmdir(folder_.c_str());
 }
 
 std::string ask_for_link() {

@@ -36,6 +36,8 @@ class Connection {
   Connection& operator=(Connection&&) = delete;
   virtual ~Connection() = default;
   virtual void close() = 0;
+  /// Memory of the answer that its client takes.
+  [[nodiscard]] virtual std::size_t answer_bytes() const { return 0; }
 };
 
 /// Connections in the order in which they are closed to make room.
@@ -73,9 +75,42 @@ struct Shared {
   Connections idle;     ///< that wait for a request or for a key, the longest first
   Connections sending;  ///< whose client takes an answer, the longest first
   std::size_t connections = 0;
+  std::size_t body_bytes = 0;    ///< of the requests that arrive
+  std::size_t answer_bytes = 0;  ///< in memory, of the answers that are sent
   /// Tell a WebSocket that the state, or else a picture, has changed.
   std::list<std::function<void(bool state)>> live;
 };
 using SharedPtr = std::shared_ptr<Shared>;
+
+/// A part of a number that connections share, until the end of its life.
+class Claim {
+ public:
+  Claim() = default;
+  Claim(SharedPtr shared, std::size_t Shared::*total, std::size_t count)
+      : shared_(std::move(shared)), total_(total), count_(count) {
+    (*shared_).*total_ += count_;
+  }
+  Claim(const Claim&) = delete;
+  Claim& operator=(const Claim&) = delete;
+  Claim(Claim&& other) noexcept { swap(other); }
+  Claim& operator=(Claim&& other) noexcept {
+    Claim(std::move(other)).swap(*this);
+    return *this;
+  }
+  ~Claim() {
+    if (shared_) (*shared_).*total_ -= count_;
+  }
+
+ private:
+  void swap(Claim& other) noexcept {
+    std::swap(shared_, other.shared_);
+    std::swap(total_, other.total_);
+    std::swap(count_, other.count_);
+  }
+
+  SharedPtr shared_;
+  std::size_t Shared::*total_ = nullptr;
+  std::size_t count_ = 0;
+};
 
 }  // namespace frangia

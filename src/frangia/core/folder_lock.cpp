@@ -34,6 +34,13 @@ bool is_at(int file, const std::filesystem::path& path) {
          opened.st_ino == named.st_ino && opened.st_dev == named.st_dev;
 }
 
+/// Whether an open file has no further name: who made the folder may have named a file of somebody
+/// else so.
+bool has_one_name(int file) {
+  struct ::stat opened {};
+  return ::fstat(file, &opened) == 0 && opened.st_nlink <= 1;
+}
+
 /// What the owner wrote into the lock file. It locks first: its line may be a moment late.
 std::string owner_of(const std::filesystem::path& file) {
   std::string owner;
@@ -59,7 +66,14 @@ int lock(const std::filesystem::path& folder, const std::filesystem::path& path)
                             O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK,
                             0644);
     const int result = file < 0 ? -1 : ::flock(file, LOCK_EX | LOCK_NB);
-    if (result == 0 && is_at(file, path)) return file;
+    if (result == 0 && is_at(file, path)) {
+      if (has_one_name(file)) return file;
+      ::close(file);
+      throw Error(ErrorKind::Input,
+                  fmt::format("{}: has another name (a hard link), under which it would change; "
+                              "remove it",
+                              path.string()));
+    }
     const int error = errno;
     if (file >= 0) ::close(file);
     if (result == 0 || error == EINTR) continue;

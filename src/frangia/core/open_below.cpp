@@ -45,11 +45,20 @@ std::vector<std::string> components_of(const fs::path& folder, const fs::path& i
                   count > 0 ? target.data() : "another place"));
 }
 
+[[noreturn]] void refuse_error(int error, const fs::path& shown) {
+  if (error == ENOENT || error == ENOTDIR) refuse_below(shown, "does not exist; check the path");
+  refuse_below(shown, fmt::format("cannot be opened: {}", std::generic_category().message(error)));
+}
+
 /// Whether a name in an open folder is a link; it may be anything else, or missing.
-bool is_link(int folder, const std::string& name) {
+///
+/// @errors   Error(Input) when the system does not say what it is
+bool is_link(int folder, const std::string& name, const fs::path& shown) {
   struct ::stat state {};
-  return ::fstatat(folder, name.c_str(), &state, AT_SYMLINK_NOFOLLOW) == 0 &&
-         S_ISLNK(state.st_mode);
+  if (::fstatat(folder, name.c_str(), &state, AT_SYMLINK_NOFOLLOW) == 0)
+    return S_ISLNK(state.st_mode);
+  if (errno != ENOENT) refuse_error(errno, shown);
+  return false;
 }
 
 /// The path without "." and doubled slashes, for messages.
@@ -72,7 +81,7 @@ BelowStep step_into(int from, const std::string& name, const fs::path& shown) {
   step.folder = FileDescriptor(::openat(from, name.c_str(), kFlags));  // NOLINT(*-vararg)
   if (step.folder.is_open()) return step;
   step.error = errno;
-  if (is_link(from, name)) refuse_link(from, name, shown);
+  if (is_link(from, name, shown)) refuse_link(from, name, shown);
   return step;
 }
 
@@ -103,12 +112,7 @@ FileDescriptor open_below(const fs::path& folder, const fs::path& inner, OpenFor
   const std::vector<std::string> components = components_of(folder, inner);
   const fs::path shown = joined(folder, components);
   const BelowStep last = walk_below(folder, components);
-  const auto fail_to_open = [&](int error) {
-    if (error == ENOENT || error == ENOTDIR) refuse_below(shown, "does not exist; check the path");
-    refuse_below(shown,
-                 fmt::format("cannot be opened: {}", std::generic_category().message(error)));
-  };
-  if (last.error != 0) fail_to_open(last.error);
+  if (last.error != 0) refuse_error(last.error, shown);
   constexpr int kCommon = O_NOFOLLOW | O_NONBLOCK | O_NOCTTY | O_CLOEXEC;
   const int flags = use == OpenFor::Reading ? O_RDONLY : O_WRONLY | O_APPEND | O_CREAT;
   FileDescriptor file(::openat(  // NOLINT(*-vararg)
@@ -126,7 +130,9 @@ FileDescriptor open_below(const fs::path& folder, const fs::path& inner, OpenFor
   if (known && S_ISLNK(state.st_mode)) refuse_link(last.folder.number(), components.back(), shown);
   if (known && !S_ISREG(state.st_mode))
     refuse_below(shown, fmt::format("is {}, not a file; replace it", kind_of_mode(state.st_mode)));
-  if (!file.is_open() || !known) fail_to_open(error);
+  if (!file.is_open() || !known) refuse_error(error, shown);
+  if (use == OpenFor::Appending && state.st_nlink > 1)
+    refuse_below(shown, "has another name (a hard link), under which it would change; remove it");
   return file;
 }
 
@@ -134,7 +140,9 @@ fs::path path_below(const fs::path& folder, const fs::path& inner) {
   const std::vector<std::string> components = components_of(folder, inner);
   const fs::path shown = joined(folder, components);
   const BelowStep last = walk_below(folder, components);
-  if (last.error == 0 && is_link(last.folder.number(), components.back()))
+  if (last.error == ENOENT || last.error == ENOTDIR) return shown;
+  if (last.error != 0) refuse_error(last.error, shown);
+  if (is_link(last.folder.number(), components.back(), shown))
     refuse_link(last.folder.number(), components.back(), shown);
   return shown;
 }

@@ -20,7 +20,8 @@ enum class OpenFor {
 ///
 /// @errors   Error(Input) that names the first component which is a link, and where it leads; the
 ///          path, when `inner` is absolute, empty, or holds ".." or a NUL character; and the file,
-///          when it is missing, not a regular file, or cannot be opened
+///          when it is missing, not a regular file, cannot be opened, or, for appending, has a
+///          further name (a hard link)
 [[nodiscard]] FileDescriptor open_below(const std::filesystem::path& folder,
                                         const std::filesystem::path& inner,
                                         OpenFor use = OpenFor::Reading);
@@ -28,7 +29,8 @@ enum class OpenFor {
 /// The path `folder / inner` after the same walk, for readers and writers that open by name. The
 /// end of the path may be missing.
 ///
-/// @errors   Error(Input) as `open_below` for a link and for a path that leads out
+/// @errors   Error(Input) as `open_below` for a link and for a path that leads out, and where the
+///           system does not let the path be looked at
 [[nodiscard]] std::filesystem::path path_below(const std::filesystem::path& folder,
                                                const std::filesystem::path& inner);
 

@@ -1,8 +1,12 @@
 #include "frangia/service/access_guard.h"
 
+#include <algorithm>
 #include <array>
+#include <iterator>
 
+#include <arpa/inet.h>
 #include <fmt/format.h>
+#include <netinet/in.h>
 #include <sodium.h>
 
 #include "frangia/core/error.h"
@@ -26,22 +30,59 @@ std::string hash_password(std::string_view password) {
   return text.data();
 }
 
-bool PasswordGuard::admits(std::string_view password, Clock::time_point now) {
+bool PasswordGuard::admits(std::string_view password,
+                           const std::string& address,
+                           Clock::time_point now) {
   const std::lock_guard lock(mutex_);
-  if (now < paused_until_) {
-    const auto left = std::chrono::ceil<std::chrono::seconds>(paused_until_ - now);
-    throw Error(ErrorKind::Input,
-                fmt::format("too many wrong passwords; try again in {} s", left.count()));
+  std::erase_if(tries_, [&](const auto& one) { return now - one.second.last > kMemory; });
+  const auto known = tries_.find(address);
+  if (known != tries_.end() && now < known->second.paused_until) {
+    const auto left = std::chrono::ceil<std::chrono::seconds>(known->second.paused_until - now);
+    throw TooManyTries(
+        ErrorKind::Input,
+        fmt::format("too many wrong passwords from {}; try again in {} s", address, left.count()));
   }
   const bool right = !hash_.empty() && password.size() <= kMostBytes && sodium_init() >= 0 &&
                      crypto_pwhash_str_verify(hash_.c_str(), password.data(), password.size()) == 0;
   if (right) {
-    wrong_ = 0;
-  } else if (++wrong_ >= kFreeTries) {
-    wrong_ = 0;
-    paused_until_ = now + kPause;
+    tries_.erase(address);
+    return true;
   }
-  return right;
+  if (known == tries_.end() && tries_.size() >= kMostAddresses) {
+    tries_.erase(std::min_element(tries_.begin(), tries_.end(), [](const auto& a, const auto& b) {
+      return a.second.last < b.second.last;
+    }));
+  }
+  Tries& tries = tries_[address];
+  tries.last = now;
+  if (++tries.wrong < kFreeTries) return false;
+  const int doublings = std::min(tries.wrong - kFreeTries, 10);
+  tries.paused_until =
+      now + std::min<std::chrono::seconds>(kLongestPause, kFirstPause * (1 << doublings));
+  return false;
+}
+
+std::string client_address(const std::string& peer,
+                           const std::string& forwarded_for,
+                           bool behind_proxy) {
+  std::string address = peer;
+  const bool from_here = peer == "::1" || peer.starts_with("127.");
+  if (behind_proxy && from_here && !forwarded_for.empty()) {
+    address = forwarded_for.substr(forwarded_for.rfind(',') + 1);
+    std::erase_if(address, [](char c) { return c == ' ' || c == '\t'; });
+  }
+  ::in6_addr number{};
+  if (::inet_pton(AF_INET6, address.c_str(), &number) != 1)
+    return address.substr(0, INET6_ADDRSTRLEN);
+  std::array<char, INET6_ADDRSTRLEN> text{};
+  constexpr std::size_t kNetworkBytes = 8;
+  if (IN6_IS_ADDR_V4MAPPED(&number)) {
+    ::inet_ntop(AF_INET, &number.s6_addr[12], text.data(), text.size());
+    return text.data();
+  }
+  std::fill(std::begin(number.s6_addr) + kNetworkBytes, std::end(number.s6_addr), 0);
+  ::inet_ntop(AF_INET6, &number, text.data(), text.size());
+  return fmt::format("{}/64", text.data());
 }
 
 }  // namespace frangia

@@ -161,7 +161,7 @@ void CalibrationWizard::solve(const Board& board, const Run& run) {
   const RigCalibration result =
       calibrate_rig(read_scan(folder_, listening, RigContent::StartValues), options, listening);
   keep(result, board);
-  const std::filesystem::path fresh = project_.folder / "rig-calibrated.toml";
+  const std::filesystem::path fresh = project_.in_folder("rig-calibrated.toml");
   write_rig(fresh, result.rig, Durability::Synced, project_.rig());
   std::filesystem::rename(fresh, project_.rig());
   const RigSolution& solution = result.solution;

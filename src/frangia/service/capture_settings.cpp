@@ -8,7 +8,7 @@
 
 #include "frangia/core/atomic_file.h"
 #include "frangia/core/error.h"
-#include "frangia/core/read_text_file.h"
+#include "frangia/core/read_json_below.h"
 #include "frangia/phase/published_algorithms.h"
 #include "frangia/simulate/default_patterns.h"
 
@@ -46,7 +46,7 @@ CaptureSettings read_capture_settings(const std::filesystem::path& file) {
   std::error_code ignored;
   if (!std::filesystem::exists(file, ignored)) return settings;
   try {
-    const auto json = nlohmann::json::parse(read_text_file(file));
+    const auto json = nlohmann::json::parse(read_json_below(file.parent_path(), file.filename()));
     settings.camera.exposure_ms = json.at("exposure_ms").get<double>();
     settings.camera.gain_db = json.at("gain_db").get<double>();
     settings.camera.black_level_counts = json.at("black_level_counts").get<double>();

@@ -159,6 +159,8 @@ void JobQueue::run_task(const TaskPtr& task) {
     finish(task, JobState::Failed, "this does not fit into the memory of the machine");
   } catch (const std::exception& error) {
     finish(task, JobState::Failed, words_of(error));
+  } catch (...) {  // of another library
+    finish(task, JobState::Failed, "the task failed for a reason that has no words");
   }
 }
 

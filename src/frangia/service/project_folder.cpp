@@ -9,6 +9,8 @@
 #include "frangia/core/atomic_file.h"
 #include "frangia/core/error.h"
 #include "frangia/core/make_folder.h"
+#include "frangia/core/open_below.h"
+#include "frangia/core/read_json_below.h"
 
 namespace frangia {
 namespace {
@@ -41,15 +43,50 @@ bool is_project(const std::filesystem::path& folder) {
   return is_file(folder / kProjectFile) || is_file(folder / "scan.toml");
 }
 
+/// A project that holds a link is listed by its name: opening it says which one.
+ProjectEntry entry_of(const std::filesystem::path& folder) {
+  try {
+    const ProjectFolder project = project_in(folder);
+    return {project.name,
+            newest_s(project),
+            is_file(project.in_scan("scan.toml")),
+            is_file(project.versions()) || is_file(project.in_derived("surface.ply"))};
+  } catch (const Error&) {
+    return {.name = folder.filename().string(), .modified_s = modified_s(folder)};
+  }
+}
+
 }  // namespace
 
 std::filesystem::path ProjectFolder::cloud(std::size_t station) const {
-  return derived / "clouds" / fmt::format("{:03}.bin", station);
+  return in_derived(std::filesystem::path("clouds") / fmt::format("{:03}.bin", station));
 }
 
 std::filesystem::path ProjectFolder::reference(const std::string& format, int number) const {
-  return derived / (number == 0 ? fmt::format("reference.{}", format)
+  return in_derived(number == 0 ? fmt::format("reference.{}", format)
                                 : fmt::format("reference-{}.{}", number, format));
+}
+
+std::filesystem::path ProjectFolder::in_folder(const std::filesystem::path& inner) const {
+  return path_below(folder, inner);
+}
+
+std::filesystem::path ProjectFolder::in_scan(const std::filesystem::path& inner) const {
+  return path_below(folder, scan.lexically_relative(folder) / inner);
+}
+
+std::filesystem::path ProjectFolder::in_derived(const std::filesystem::path& inner) const {
+  return path_below(folder, derived.lexically_relative(folder) / inner);
+}
+
+FileDescriptor ProjectFolder::open_in_derived(const std::filesystem::path& inner,
+                                              OpenFor use) const {
+  return open_below(folder, derived.lexically_relative(folder) / inner, use);
+}
+
+std::string ProjectFolder::read_json(const std::filesystem::path& inner,
+                                     std::uint64_t max_bytes) const {
+  return read_json_below(folder, derived.lexically_relative(folder) / inner, max_bytes);
 }
 
 ProjectFolder project_in(const std::filesystem::path& folder) {
@@ -64,9 +101,9 @@ ProjectFolder project_in(const std::filesystem::path& folder) {
   }
   ProjectFolder project{real.filename().string(), real, real, real};
   if (is_file(real / kProjectFile)) {
-    project.scan = real / "scan";
+    project.scan = path_below(real, "scan");
   } else {
-    project.derived = real / "derived";
+    project.derived = path_below(real, "derived");
   }
   return project;
 }
@@ -76,11 +113,7 @@ std::vector<ProjectEntry> ProjectLibrary::list() const {
   std::error_code error;
   for (const auto& entry : std::filesystem::directory_iterator(root_, error)) {
     if (entry.is_symlink() || !entry.is_directory(error) || !is_project(entry.path())) continue;
-    const ProjectFolder project = project_in(entry.path());
-    entries.push_back({project.name,
-                       newest_s(project),
-                       is_file(project.scan / "scan.toml"),
-                       is_file(project.versions()) || is_file(project.derived / "surface.ply")});
+    entries.push_back(entry_of(entry.path()));
   }
   std::sort(entries.begin(), entries.end(), [](const ProjectEntry& a, const ProjectEntry& b) {
     return a.modified_s != b.modified_s ? a.modified_s > b.modified_s : a.name < b.name;

@@ -6,40 +6,65 @@
 #include <string>
 #include <vector>
 
+#include "frangia/core/file_descriptor.h"
+#include "frangia/core/open_below.h"
+
 namespace frangia {
 
 /// Where the files of a project are. A project is a scan folder with what was derived from it:
-/// either a folder of the operator's app with project.json, or any scan folder with scan.toml.
+/// either a folder of the operator's app with project.json, or any scan folder with scan.toml. The
+/// paths that its functions return lead through no link: where there is one, they throw
+/// Error(Input), which names it, as `path_below`.
 struct ProjectFolder {
   std::string name;               ///< for people: the name of the folder
   std::filesystem::path folder;   ///< absolute
   std::filesystem::path scan;     ///< scan folder; the same as `folder` for a plain scan folder
   std::filesystem::path derived;  ///< for surfaces, stations.json, clouds, exports
 
+  /// A file or folder in `folder`.
+  [[nodiscard]] std::filesystem::path in_folder(const std::filesystem::path& inner) const;
+  /// A file or folder in `scan`.
+  [[nodiscard]] std::filesystem::path in_scan(const std::filesystem::path& inner) const;
+  /// A file or folder in `derived`.
+  [[nodiscard]] std::filesystem::path in_derived(const std::filesystem::path& inner) const;
+  /// Opens a file in `derived`.
+  ///
+  /// @errors   Error(Input) as `open_below`
+  [[nodiscard]] FileDescriptor open_in_derived(const std::filesystem::path& inner,
+                                               OpenFor use = OpenFor::Reading) const;
+  /// Text of a JSON file in `derived`.
+  ///
+  /// @errors   Error(Input) as `read_json_below`
+  [[nodiscard]] std::string read_json(const std::filesystem::path& inner,
+                                      std::uint64_t max_bytes = 1'000'000) const;
   /// Rig with its devices that a scan is captured with.
-  [[nodiscard]] std::filesystem::path rig() const { return folder / "rig.toml"; }
+  [[nodiscard]] std::filesystem::path rig() const { return in_folder("rig.toml"); }
   /// Settings of the capture, see read_capture_settings.
-  [[nodiscard]] std::filesystem::path capture() const { return derived / "capture.json"; }
+  [[nodiscard]] std::filesystem::path capture() const { return in_derived("capture.json"); }
   /// Names the surfaces, their edits and which is shown, JSON; each has a folder in `versions`. A
   /// project of an older program has none, but surface.ply in its place.
-  [[nodiscard]] std::filesystem::path versions() const { return derived / "versions.json"; }
+  [[nodiscard]] std::filesystem::path versions() const { return in_derived("versions.json"); }
   /// Quality of each station, JSON.
-  [[nodiscard]] std::filesystem::path stations() const { return derived / "stations.json"; }
+  [[nodiscard]] std::filesystem::path stations() const { return in_derived("stations.json"); }
   /// A reference of the surface, of one of `reference_formats`. Each one has the next number, so
   /// that it never takes the place of the one before; 0: that of an older program.
   [[nodiscard]] std::filesystem::path reference(const std::string& format, int number) const;
   /// The file in which a reference arrives.
-  [[nodiscard]] std::filesystem::path reference_part() const { return derived / "reference.part"; }
+  [[nodiscard]] std::filesystem::path reference_part() const {
+    return in_derived("reference.part");
+  }
   /// Name and format of the reference, JSON.
-  [[nodiscard]] std::filesystem::path reference_name() const { return derived / "reference.json"; }
+  [[nodiscard]] std::filesystem::path reference_name() const {
+    return in_derived("reference.json");
+  }
   /// Poses of a board, see CalibrationWizard.
-  [[nodiscard]] std::filesystem::path calibration() const { return derived / "calibration"; }
+  [[nodiscard]] std::filesystem::path calibration() const { return in_derived("calibration"); }
   /// Views of a board that the turntable turns, see calibrate_axis.
-  [[nodiscard]] std::filesystem::path axis() const { return derived / "axis"; }
+  [[nodiscard]] std::filesystem::path axis() const { return in_derived("axis"); }
   /// Residuals of the calibration, JSON.
-  [[nodiscard]] std::filesystem::path residuals() const { return derived / "residuals.json"; }
+  [[nodiscard]] std::filesystem::path residuals() const { return in_derived("residuals.json"); }
   /// Folder of the exported files.
-  [[nodiscard]] std::filesystem::path exports() const { return derived / "exports"; }
+  [[nodiscard]] std::filesystem::path exports() const { return in_derived("exports"); }
   /// Points of a station, packed by encode_points.
   [[nodiscard]] std::filesystem::path cloud(std::size_t station) const;
 };

@@ -13,7 +13,6 @@
 #include "frangia/core/atomic_file.h"
 #include "frangia/core/folder_lock.h"
 #include "frangia/core/make_folder.h"
-#include "frangia/core/read_text_file.h"
 #include "frangia/rig/read_rig.h"
 #include "frangia/service/encode_arrays.h"
 #include "frangia/service/internal/opened_devices.h"
@@ -177,16 +176,18 @@ std::vector<ProjectStation> read_stations(const ProjectFolder& project, const Ru
   std::error_code ignored;
   if (std::filesystem::exists(project.stations(), ignored)) {
     try {
-      const auto json = nlohmann::json::parse(read_text_file(project.stations()));
+      const auto json = nlohmann::json::parse(project.read_json(project.stations().filename()));
       for (const auto& station : json.at("stations"))
         stations.push_back(station_from(station));
       return stations;
-    } catch (const nlohmann::json::exception&) {
-      run.warn(fmt::format("{}: is damaged and ignored", project.stations().string()));
+    } catch (const std::exception& fault) {
+      run.warn(fmt::format("{}: is damaged and ignored ({})",
+                           (project.derived / "stations.json").string(),
+                           fault.what()));
       stations.clear();
     }
   }
-  if (!std::filesystem::exists(project.scan / "scan.toml", ignored)) return stations;
+  if (!std::filesystem::exists(project.in_scan("scan.toml"), ignored)) return stations;
   const Scan scan = read_scan(project.scan, run);
   for (const ScanView& view : scan.views) {
     ProjectStation station;
@@ -207,7 +208,7 @@ CaptureReport capture_project(
     const Run& run) {
   run.stage("devices");
   const Scan plan = plan_of(project, stations, settings, run);
-  make_folder(project.derived / "clouds");
+  make_folder(project.in_derived("clouds"));
   const FolderLock lock(plan.folder);
   OpenedDevices opened(project.rig(), plan.rig, setup.drivers(), setup, run);
   RigDevices& devices = opened.devices();

@@ -74,7 +74,7 @@ Service::Implementation::Implementation(ServiceOptions options, std::function<vo
       on_change_([told = std::move(on_change)]() noexcept {
         try {
           told();
-        } catch (const std::exception&) {  // NOLINT(bugprone-empty-catch): the next change is told
+        } catch (...) {  // NOLINT(bugprone-empty-catch): the next change is told
         }
       }),
       projects_(library_.list()),
@@ -158,8 +158,12 @@ std::string Service::Implementation::state() const {
     view.project = project_;
     view.search = search_;
   }
-  if (view.project && options_.command_lines)
-    view.commands = options_.command_lines(progress_of(*view.project));
+  try {
+    if (view.project && options_.command_lines)
+      view.commands = options_.command_lines(progress_of(*view.project));
+  } catch (const Error&) {  // NOLINT(bugprone-empty-catch): a link was put into the project, which
+                            // what needs its files refuses
+  }
   if (view.project && is_over(view.jobs, view.project->open_job))
     view.project->surface_loading = false;  // it failed, or was stopped
   return state_json(view);
@@ -212,7 +216,10 @@ std::string Service::Implementation::residuals() const {
 ExportedFile Service::Implementation::exported(const std::string& name) const {
   const ProjectFolder project = folder();
   for (const ExportEntry& entry : exports_of(project))
-    if (entry.name == name) return {name, project.exports() / name};
+    if (entry.name == name)
+      return {name,
+              project.exports() / name,
+              project.open_in_derived(std::filesystem::path("exports") / name)};
   throw Error(ErrorKind::Input, "there is no exported file of this name; export it first");
 }
 LivePicture Service::Implementation::live_picture(LiveLayer layer, std::uint64_t after) const {

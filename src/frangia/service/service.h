@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "frangia/core/file_descriptor.h"
 #include "frangia/editor/edit_operation.h"
 #include "frangia/rig/board.h"
 #include "frangia/service/capture_settings.h"
@@ -70,6 +71,7 @@ struct ServiceOptions {
 struct ExportedFile {
   std::string name;            ///< "bust.dxf"
   std::filesystem::path path;  ///< in the project's exports
+  FileDescriptor file;         ///< opened for reading, not through a link
 };
 
 /// A packed message of a live preview.

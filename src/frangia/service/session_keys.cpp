@@ -4,12 +4,31 @@
 #include <array>
 #include <cerrno>
 #include <cstdint>
+#include <utility>
 
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
 #include <sys/random.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include "frangia/core/error.h"
+#include "frangia/core/make_folder.h"
+#include "frangia/core/read_json_below.h"
+#include "frangia/core/sha256.h"
+#include "frangia/core/write_private_file.h"
 
 namespace frangia {
+namespace {
+
+constexpr std::size_t kDigestLength = 64;  // of SHA-256 in hexadecimal digits
+
+std::int64_t now_s() {
+  const auto now = std::chrono::system_clock::now().time_since_epoch();
+  return std::chrono::duration_cast<std::chrono::seconds>(now).count();
+}
+
+}  // namespace
 
 std::string random_key() {
   constexpr std::string_view kLetters =
@@ -43,6 +62,13 @@ bool equal_secrets(std::string_view expected, std::string_view given) {
   return difference == 0U;
 }
 
+SessionKeys::SessionKeys(std::filesystem::path file,
+                         std::string_view password_hash,
+                         std::function<void(const std::string&)> warn)
+    : file_(std::move(file)), password_(sha256(password_hash)), warn_(std::move(warn)) {
+  load();
+}
+
 std::string SessionKeys::issue_token(Clock::time_point now) {
   const std::lock_guard lock(mutex_);
   if (tokens_.size() >= kMostTokens) tokens_.pop_front();
@@ -58,17 +84,17 @@ std::optional<SessionKey> SessionKeys::redeem(std::string_view token, Clock::tim
   });
   if (found == tokens_.end()) return std::nullopt;
   tokens_.erase(found);
-  return add_key(false).session;
+  return add_key(false);
 }
 
 SessionKey SessionKeys::admit() {
   const std::lock_guard lock(mutex_);
-  return add_key(false).session;
+  return add_key(false);
 }
 
 std::string SessionKeys::issue_key() {
   const std::lock_guard lock(mutex_);
-  return add_key(true).session.key;
+  return add_key(true).key;
 }
 
 bool SessionKeys::is_valid(std::string_view key) const {
@@ -79,12 +105,13 @@ bool SessionKeys::is_valid(std::string_view key) const {
 bool SessionKeys::may_act(std::string_view key) const {
   const std::lock_guard lock(mutex_);
   const Key* known = find(key);
-  return known != nullptr && (known->script || known->session.id == operator_id_);
+  return known != nullptr && (known->script || known->id == operator_id_);
 }
 
 void SessionKeys::take_over(std::string_view key) {
   const std::lock_guard lock(mutex_);
-  if (const Key* known = find(key)) operator_id_ = known->session.id;
+  if (const Key* known = find(key)) operator_id_ = known->id;
+  save();
 }
 
 std::string SessionKeys::operator_id() const {
@@ -93,22 +120,74 @@ std::string SessionKeys::operator_id() const {
 }
 
 const SessionKeys::Key* SessionKeys::find(std::string_view key) const {
+  const std::string digest = sha256(key);
   const Key* found = nullptr;  // all are compared, so that the time tells nothing
   for (const Key& one : keys_)
-    if (equal_secrets(one.session.key, key)) found = &one;
+    if (equal_secrets(one.digest, digest)) found = &one;
   return found;
 }
 
-const SessionKeys::Key& SessionKeys::add_key(bool script) {
+SessionKey SessionKeys::add_key(bool script) {
   if (keys_.size() >= kMostKeys) {
     const auto oldest =
         std::find_if(keys_.begin(), keys_.end(), [](const Key& one) { return !one.script; });
     keys_.erase(oldest != keys_.end() ? oldest : keys_.begin());
   }
   constexpr std::size_t kIdLength = 8;
-  keys_.push_back({{random_key(), random_key().substr(0, kIdLength)}, script});
-  if (!script && operator_id_.empty()) operator_id_ = keys_.back().session.id;
-  return keys_.back();
+  SessionKey session{random_key(), random_key().substr(0, kIdLength)};
+  keys_.push_back({sha256(session.key), session.id, script, now_s()});
+  if (!script && operator_id_.empty()) operator_id_ = session.id;
+  if (!script) save();
+  return session;
+}
+
+void SessionKeys::load() {
+  struct ::stat state {};
+  if (::lstat(file_.c_str(), &state) != 0) return;
+  if (!S_ISREG(state.st_mode) || state.st_uid != ::geteuid() || (state.st_mode & 077U) != 0) {
+    warn_(
+        fmt::format("{}: is not readable by you alone, and its sessions are not accepted; delete "
+                    "it",
+                    file_.string()));
+    return;
+  }
+  try {
+    const auto json = nlohmann::json::parse(read_json_below(file_.parent_path(), file_.filename()));
+    if (json.at("password").get<std::string>() != password_) return;
+    for (const nlohmann::json& one : json.at("sessions")) {
+      Key key{.digest = one.at("sha256").get<std::string>(),
+              .id = one.at("id").get<std::string>(),
+              .issued_s = one.at("issued_s").get<std::int64_t>()};
+      const std::chrono::seconds age(now_s() - key.issued_s);
+      if (key.digest.size() == kDigestLength && age <= kKeyLife && keys_.size() < kMostKeys)
+        keys_.push_back(std::move(key));
+    }
+    operator_id_ = json.at("operator").get<std::string>();
+  } catch (
+      const std::exception&) {  // damaged, as a power cut may leave it: browsers take new links
+    keys_.clear();
+  }
+  const auto operates = [&](const Key& key) { return key.id == operator_id_; };
+  if (std::none_of(keys_.begin(), keys_.end(), operates)) operator_id_.clear();
+}
+
+void SessionKeys::save() noexcept {
+  if (file_.empty()) return;
+  try {
+    nlohmann::ordered_json json{{"password", password_}, {"operator", operator_id_}};
+    json["sessions"] = nlohmann::ordered_json::array();
+    for (const Key& key : keys_) {
+      if (key.script) continue;
+      json["sessions"].push_back(
+          {{"sha256", key.digest}, {"id", key.id}, {"issued_s", key.issued_s}});
+    }
+    make_folder(file_.parent_path());
+    write_private_file(file_, json.dump(1) + '\n');
+  } catch (const std::exception& error) {
+    if (std::exchange(said_, true)) return;
+    warn_(
+        fmt::format("browsers will need new links when the server starts again: {}", error.what()));
+  }
 }
 
 }  // namespace frangia

@@ -2,7 +2,10 @@
 
 #include <chrono>
 #include <cstddef>
+#include <cstdint>
 #include <deque>
+#include <filesystem>
+#include <functional>
 #include <mutex>
 #include <optional>
 #include <string>
@@ -30,10 +33,23 @@ struct SessionKey {
 /// threads.
 class SessionKeys {
  public:
+  /// Keys that end with this object.
+  SessionKeys() = default;
+  /// Keys of browsers that outlive this object: `file` holds their SHA-256, from which nobody gets
+  /// 256 random bits back, with mode 0600. Those of an earlier object hold, unless they are older
+  /// than kKeyLife, another password was set since, or the file is not this user's alone. Where it
+  /// cannot be written, `warn` is told and the keys end with this object.
+  ///
+  /// `password_hash`: as hash_password returns it; empty without one
+  SessionKeys(std::filesystem::path file,
+              std::string_view password_hash,
+              std::function<void(const std::string&)> warn);
+
   using Clock = std::chrono::steady_clock;            ///< measures the life of tokens
   static constexpr std::chrono::hours kTokenLife{1};  ///< from `issue_token` on
   static constexpr std::size_t kMostTokens = 32;      ///< that wait; the oldest is dropped
   static constexpr std::size_t kMostKeys = 64;        ///< browsers; the oldest is dropped
+  static constexpr std::chrono::days kKeyLife{30};    ///< of a key in the file
 
   /// Makes a token for one browser.
   [[nodiscard]] std::string issue_token(Clock::time_point now = Clock::now());
@@ -59,16 +75,24 @@ class SessionKeys {
     Clock::time_point issued;
   };
   struct Key {
-    SessionKey session;
+    std::string digest;  ///< SHA-256 of the key
+    std::string id;
     bool script = false;
+    std::int64_t issued_s = 0;  ///< seconds since 1970
   };
-  const Key& add_key(bool script);
+  SessionKey add_key(bool script);
   [[nodiscard]] const Key* find(std::string_view key) const;
+  void load();
+  void save() noexcept;
 
   mutable std::mutex mutex_;
   std::deque<Token> tokens_;
   std::deque<Key> keys_;
   std::string operator_id_;
+  std::filesystem::path file_;  ///< empty: none
+  std::string password_;        ///< SHA-256 of the password's hash
+  std::function<void(const std::string&)> warn_;
+  bool said_ = false;  ///< that the file cannot be written
 };
 
 }  // namespace frangia

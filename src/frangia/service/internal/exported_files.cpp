@@ -10,10 +10,8 @@
 #include <sys/stat.h>
 
 #include "frangia/core/atomic_file.h"
-#include "frangia/core/check_nesting.h"
 #include "frangia/core/error.h"
 #include "frangia/core/make_folder.h"
-#include "frangia/core/read_text_file.h"
 #include "frangia/core/sync_to_disk.h"
 
 namespace frangia {
@@ -27,6 +25,8 @@ struct FileStamp {
 
   bool operator==(const FileStamp&) const = default;
 };
+
+constexpr std::uint64_t kMostRecordBytes = 64'000'000;
 
 struct ExportRecord {
   std::string name;
@@ -44,7 +44,7 @@ std::optional<FileStamp> stamp_of(const std::filesystem::path& file) {
 }
 
 std::filesystem::path records_file(const ProjectFolder& project) {
-  return project.derived / "exports.json";
+  return project.in_derived("exports.json");
 }
 
 /// What is recorded; nothing where that cannot be read: the files are there all the same.
@@ -54,8 +54,7 @@ std::vector<ExportRecord> read_records(const ProjectFolder& project) {
   const auto file = records_file(project);
   if (!std::filesystem::is_regular_file(file, error)) return records;
   try {
-    const std::string text = read_text_file(file);
-    check_json_nesting(text, file);
+    const std::string text = project.read_json(file.filename(), kMostRecordBytes);
     const nlohmann::json json = nlohmann::json::parse(text, nullptr, false);
     if (!json.is_object()) return {};
     for (const nlohmann::json& one : json.at("files")) {
@@ -130,7 +129,7 @@ WrittenExport write_export(const ProjectFolder& project,
                            const std::function<void(const std::filesystem::path&)>& write,
                            const Run& run) {
   const auto target = project.exports() / name;
-  const StagedFile staged(project.exports() / ".new" / name);
+  const StagedFile staged(project.in_derived(std::filesystem::path("exports") / ".new" / name));
   make_folder(staged.path.parent_path());
   write(staged.path);
   sync_to_disk(staged.path);

@@ -80,6 +80,7 @@ void read_rig_of(const ProjectFolder& folder, OpenProject& project) {
   std::error_code ignored;
   if (!std::filesystem::exists(folder.rig(), ignored)) return;
   try {
+    static_cast<void>(folder.in_folder("true-rig.toml"));  // simulated devices read it
     for (DeviceSettings& device : read_device_settings(folder.rig())) {
       const DeviceTest untested{.table = device.device(), .driver = device.text_or("driver", "")};
       project.devices.push_back({untested, device_table_lines(device)});
@@ -133,11 +134,11 @@ void Service::Implementation::open(const ProjectFolder& folder) {
   }
   if (!project.lock) project.lock = lock_of(folder);
   std::error_code ignored;
-  project.scan_complete = std::filesystem::exists(folder.scan / "scan.toml", ignored);
+  project.scan_complete = std::filesystem::exists(folder.in_scan("scan.toml"), ignored);
   project.stations = read_stations(folder);
   project.exports = exports_of(folder);
   project.reference = reference_of(folder);
-  project.scan_begun = std::filesystem::exists(folder.scan / "capture", ignored);
+  project.scan_begun = std::filesystem::exists(folder.in_scan("capture"), ignored);
   bool loads = true;
   try {
     const auto versions = std::make_shared<const SurfaceVersions>(read_surface_versions(folder));

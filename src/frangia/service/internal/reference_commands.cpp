@@ -1,14 +1,17 @@
 #include <algorithm>
+#include <cerrno>
 #include <filesystem>
-#include <fstream>
+#include <string_view>
 #include <utility>
 
 #include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include "frangia/core/atomic_file.h"
 #include "frangia/core/error.h"
 #include "frangia/core/make_folder.h"
-#include "frangia/core/read_text_file.h"
+#include "frangia/core/open_below.h"
 #include "frangia/core/sync_to_disk.h"
 #include "frangia/service/compare_surface.h"
 #include "frangia/service/internal/implementation.h"
@@ -18,11 +21,24 @@ namespace {
 
 constexpr std::size_t kMostReferenceBytes = 512UL * 1024 * 1024;
 constexpr std::size_t kMostNameBytes = 120;
+constexpr const char* kReferenceName = "reference.json";
+constexpr const char* kReferencePart = "reference.part";
 
 void require_reference_format(const std::string& format) {
   const auto& known = reference_formats();
   require(std::find(known.begin(), known.end(), format) != known.end(),
           "a reference is an STL, PLY, OBJ, 3MF or STEP file; choose another file");
+}
+
+/// Whether all bytes were written.
+bool append(int file, std::string_view bytes) {
+  while (!bytes.empty()) {
+    const ::ssize_t count = ::write(file, bytes.data(), bytes.size());
+    if (count < 0 && errno == EINTR) continue;
+    if (count <= 0) return false;
+    bytes.remove_prefix(static_cast<std::size_t>(count));
+  }
+  return true;
 }
 
 /// Names the reference, whose file is there: the commit point.
@@ -38,7 +54,7 @@ void commit_reference(const ProjectFolder& project, const ProjectReference& refe
 
 ProjectReference reference_of(const ProjectFolder& project) {
   try {
-    const auto json = nlohmann::json::parse(read_text_file(project.reference_name()));
+    const auto json = nlohmann::json::parse(project.read_json(kReferenceName));
     ProjectReference known{json.at("name"), json.at("format"), json.value("number", 0)};
     require_reference_format(known.format);
     std::error_code ignored;
@@ -53,21 +69,22 @@ void Service::Implementation::add_to_reference(std::size_t offset, const std::st
   const ProjectFolder project = folder();
   require(offset + bytes.size() <= kMostReferenceBytes,
           "a reference has at most 512 MB; choose a smaller file");
-  const auto path = project.reference_part();
-  std::error_code error;
   if (offset == 0) {
     make_folder(project.derived);
-    std::filesystem::remove(path, error);  // also what is no file
+    std::error_code ignored;
+    std::filesystem::remove(project.reference_part(), ignored);  // also what is no file
   }
-  const auto present = std::filesystem::file_size(path, error);
-  require(offset == (error ? 0 : present), "the pieces of a file arrive in order; begin at 0");
-  std::ofstream file(path, std::ios::binary | std::ios::app);
-  file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  file.close();
-  if (file.good()) return;
-  std::filesystem::remove(path, error);
-  throw Error(ErrorKind::File,
-              fmt::format("{}: cannot be written; is the disk full?", path.string()));
+  const FileDescriptor file = project.open_in_derived(kReferencePart, OpenFor::Appending);
+  struct ::stat present {};
+  require(::fstat(file.number(), &present) == 0 &&
+              static_cast<std::uint64_t>(present.st_size) == offset,
+          "the pieces of a file arrive in order; begin at 0");
+  if (append(file.number(), bytes)) return;
+  std::error_code ignored;
+  std::filesystem::remove(project.reference_part(), ignored);
+  throw Error(
+      ErrorKind::File,
+      fmt::format("{}: cannot be written; is the disk full?", project.reference_part().string()));
 }
 
 nlohmann::ordered_json Service::Implementation::set_reference(CommandArguments& arguments) {

@@ -52,7 +52,7 @@ nlohmann::ordered_json Service::Implementation::start_scan(CommandArguments& arg
   require(has_axis || (asked == 1 && wanted == 0),
           "the axis of the turntable is unknown: find it in step Rig, or scan a single station");
   std::error_code ignored;
-  const bool begun = std::filesystem::exists(project.scan / "capture", ignored);
+  const bool begun = std::filesystem::exists(project.in_scan("capture"), ignored);
   if (wanted == present + 1) {
     require_setup_done(stations, present);
     const auto more = planned_stations(asked, wanted);
@@ -108,8 +108,9 @@ nlohmann::ordered_json Service::Implementation::rescan_station(CommandArguments&
     now.stations = stations;
     now.scan_complete = false;
   });
-  std::filesystem::remove(project.scan / "scan.toml");
-  std::filesystem::remove_all(project.scan / "views" / fmt::format("{:03}", station));
+  std::filesystem::remove(project.in_scan("scan.toml"));
+  std::filesystem::remove_all(
+      project.in_scan(std::filesystem::path("views") / fmt::format("{:03}", station)));
   CommandArguments none("{}");
   return start_scan(none);
 }

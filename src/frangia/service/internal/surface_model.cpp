@@ -11,10 +11,9 @@
 
 #include <fmt/format.h>
 
-#include "frangia/core/check_nesting.h"
 #include "frangia/core/error.h"
 #include "frangia/core/parallel.h"
-#include "frangia/core/read_text_file.h"
+#include "frangia/core/read_json_below.h"
 #include "frangia/editor/edit_preview.h"
 #include "frangia/editor/edit_script.h"
 #include "frangia/features/feature_points.h"
@@ -169,16 +168,17 @@ void apply_all(EditHistory& history,
   }
 }
 
-/// The figures that a reconstruction left; empty where it left none.
-std::string summary_in(const std::filesystem::path& file) {
-  std::error_code ignored;
-  if (!std::filesystem::exists(file, ignored)) return {};
+/// The figures that a reconstruction left; empty where it left none. The surface can be shown
+/// without.
+std::string summary_in(const VersionFiles& files, const Run& run) {
   try {
-    std::string text = read_text_file(file);
-    check_json_nesting(text, file);
-    return text;
-  } catch (const Error&) {
-    return {};  // the surface can be shown without
+    const auto file = files.summary();
+    std::error_code ignored;
+    if (!std::filesystem::exists(file, ignored)) return {};
+    return read_json_below(files.folder, file.filename());
+  } catch (const Error& error) {
+    run.warn(fmt::format("{}; the surface is shown without its figures", error.what()));
+    return {};
   }
 }
 
@@ -200,7 +200,7 @@ SurfaceModel::SurfaceModel(const VersionFiles& files, int version, int revision,
   history_ = std::make_shared<const EditHistory>(std::move(history));
   auto first = std::make_shared<SurfaceSnapshot>();
   first->version = version;
-  first->summary = std::make_shared<const std::string>(summary_in(files.summary()));
+  first->summary = std::make_shared<const std::string>(summary_in(files, run));
   snapshot_ = std::move(first);
   publish(revision, run);
 }

@@ -10,9 +10,8 @@
 #include <nlohmann/json.hpp>
 
 #include "frangia/core/atomic_file.h"
-#include "frangia/core/check_nesting.h"
 #include "frangia/core/make_folder.h"
-#include "frangia/core/read_text_file.h"
+#include "frangia/core/open_below.h"
 #include "frangia/core/sync_to_disk.h"
 #include "frangia/editor/edit_script.h"
 
@@ -21,13 +20,14 @@ namespace {
 
 constexpr const char* kVersionsFormat = "frangia-versions";
 constexpr int kVersionsFormatVersion = 1;
+constexpr std::uint64_t kMostBytes = 64'000'000;
 
 std::filesystem::path versions_folder(const ProjectFolder& project) {
-  return project.derived / "versions";
+  return project.in_derived("versions");
 }
 
 std::filesystem::path folder_of_version(const ProjectFolder& project, int number) {
-  return versions_folder(project) / fmt::format("{:03}", number);
+  return project.in_derived(std::filesystem::path("versions") / fmt::format("{:03}", number));
 }
 
 /// The number in a name such as "012" or, between a beginning and an ending, "edits-12.json"; 0:
@@ -185,12 +185,12 @@ void SurfaceVersions::answer(const CommandKey& key) {
 }
 
 std::filesystem::path VersionFiles::setup_cloud(std::size_t joined) const {
-  return folder / "clouds" / fmt::format("setup-{}.bin", joined);
+  return path_below(folder, std::filesystem::path("clouds") / fmt::format("setup-{}.bin", joined));
 }
 
 VersionFiles files_of(const ProjectFolder& project, const SurfaceVersion& version) {
   return {version.in_place ? project.derived : folder_of_version(project, version.number),
-          version.in_place && version.edits == 0 ? project.derived / "edits.json"
+          version.in_place && version.edits == 0 ? project.in_derived("edits.json")
                                                  : edits_file(project, version, version.edits)};
 }
 
@@ -199,11 +199,11 @@ std::filesystem::path edits_file(const ProjectFolder& project,
                                  int revision) {
   const auto folder =
       version.in_place ? project.derived : folder_of_version(project, version.number);
-  return folder / fmt::format("edits-{}.json", revision);
+  return path_below(folder, fmt::format("edits-{}.json", revision));
 }
 
 std::filesystem::path new_version_folder(const ProjectFolder& project) {
-  return versions_folder(project) / ".new";
+  return project.in_derived("versions/.new");
 }
 
 int next_version_number(const ProjectFolder& project, const SurfaceVersions& versions) {
@@ -221,8 +221,7 @@ SurfaceVersions read_surface_versions(const ProjectFolder& project) {
     return versions_in_place(project);
   std::string why;
   try {
-    const std::string text = read_text_file(file);
-    check_json_nesting(text, file);
+    const std::string text = project.read_json(file.filename(), kMostBytes);
     const nlohmann::json json = nlohmann::json::parse(text, nullptr, false);
     if (json.is_object()) return versions_from(json);
     why = "it is no JSON object";

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "frangia/core/error.h"
+#include "frangia/core/open_below.h"
 #include "frangia/service/internal/command_arguments.h"
 #include "frangia/service/project_folder.h"
 
@@ -52,14 +53,14 @@ struct SurfaceVersions {
   void answer(const CommandKey& key);
 };
 
-/// Where the files of a version are.
+/// Where the files of a version are. Its functions throw Error(Input) as `path_below` for a link.
 struct VersionFiles {
   std::filesystem::path folder;
   std::filesystem::path edits;  ///< script, see read_edit_script; there need not be one
 
-  [[nodiscard]] std::filesystem::path surface() const { return folder / "surface.ply"; }
+  [[nodiscard]] std::filesystem::path surface() const { return path_below(folder, "surface.ply"); }
   /// Figures of the reconstruction, JSON.
-  [[nodiscard]] std::filesystem::path summary() const { return folder / "surface.json"; }
+  [[nodiscard]] std::filesystem::path summary() const { return path_below(folder, "surface.json"); }
   /// Registered points of a joined setup, counted from 0, packed by encode_points.
   [[nodiscard]] std::filesystem::path setup_cloud(std::size_t joined) const;
 };
