@@ -1,7 +1,8 @@
 // A page outlives its server: it reconnects to the next one on the same port and operates there. A link that is pasted into
-// an open page is taken.
+// an open page is taken. The page that `--open` shows leads to the app.
 //
 //   node reconnect.mjs PROGRAM
+import fs from 'node:fs';
 import net from 'node:net';
 import path from 'node:path';
 import { expect, launch, newHome, newLink, openPage, passed, requireChromium, startServer, stateOf, tell } from './harness.mjs';
@@ -50,4 +51,16 @@ await tell(home, async () => {
   await until(other, 'open');
   expect((await linkOf(page)) === 'open', 'the other page has lost its server');
   passed('a link that is pasted into an open page is taken');
+
+  const tools = path.join(home, 'tools');
+  fs.mkdirSync(tools);
+  fs.writeFileSync(path.join(tools, 'xdg-open'), `#!/bin/sh\necho "$1" >${tools}/new && mv ${tools}/new ${tools}/shown\n`, { mode: 0o755 });
+  process.env.PATH = `${tools}:${process.env.PATH}`;
+  await startServer(program, path.join(home, 'tools'), '--open');
+  while (!fs.existsSync(path.join(tools, 'shown'))) await page.waitForTimeout(20);
+  const desktop = await (await browser.newContext()).newPage();
+  await desktop.goto(`file://${fs.readFileSync(path.join(tools, 'shown'), 'utf8').trim()}`);
+  await desktop.waitForURL('http://127.0.0.1:**');
+  await until(desktop, 'open');
+  passed('the page that --open shows leads to the app');
 }, 'pages keep their server');

@@ -196,6 +196,9 @@ TEST_F(HttpBudget, StreamsDownloadsAndServesOthersMeanwhile) {
 
 TEST_F(HttpBudget, ClosesTheSlowestClientWhenAnswersTakeTooMuchMemory) {
   const double before = resident_mb();
+  const SocketClient download = connect();
+  ASSERT_TRUE(download.send("GET /file HTTP/1.1\r\nHost: a\r\n\r\n"));
+  ASSERT_EQ(download.read_header().substr(0, 12), "HTTP/1.1 200");
   std::vector<std::unique_ptr<SocketClient>> slow;
   for (int i = 0; i < 6; ++i) {
     slow.push_back(std::make_unique<SocketClient>(server_.port(), 4096));
@@ -206,6 +209,7 @@ TEST_F(HttpBudget, ClosesTheSlowestClientWhenAnswersTakeTooMuchMemory) {
   EXPECT_LT(resident_mb(), before + 150.0) << "six answers have 240 MB";
   EXPECT_LT(slow.front()->read(kAnswerBytes).size(), kAnswerBytes);
   EXPECT_EQ(slow.back()->read(kAnswerBytes).size(), kAnswerBytes);
+  EXPECT_EQ(download.read(kFileBytes).size(), kFileBytes) << "it takes no memory";
 }
 
 }  // namespace

@@ -208,13 +208,16 @@ class HttpConnection : public Connection, public std::enable_shared_from_this<Ht
     begin_to_send(sending);
   }
 
-  /// The memory follows when the closed connections notice it.
+  /// Closes the connections of slow clients, whose memory follows when they notice it. The answer
+  /// of this one does not count: it may be larger than what all others may take.
   void make_room_for_answers() const {
-    std::size_t over = shared_->answer_bytes;
+    std::size_t over = shared_->answer_bytes - answer_bytes_;
     for (auto slowest = shared_->sending.begin();
          over > shared_->limits.all_answers_bytes && slowest != shared_->sending.end();
          ++slowest) {
-      over -= std::min(over, (*slowest)->answer_bytes());
+      const std::size_t held = (*slowest)->answer_bytes();
+      if (held == 0) continue;  // a download
+      over -= std::min(over, held);
       (*slowest)->close();
     }
   }

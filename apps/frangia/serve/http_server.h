@@ -76,7 +76,8 @@ struct HttpLimits {
   std::size_t connections = 256;  ///< beyond it, the one that is idle longest is closed
   /// Of bodies that arrive; beyond it, those above 64 kB are refused with 503.
   std::size_t all_bodies_bytes = 64UL * 1024 * 1024;
-  /// Of answers in memory; beyond it, the connection is closed whose client takes longest.
+  /// Of answers in memory beside the newest; beyond it, the connection is closed whose client takes
+  /// longest.
   std::size_t all_answers_bytes = 128UL * 1024 * 1024;
   std::size_t refused_bytes =
       1024UL * 1024;                      ///< read and dropped after a refusal, so that it arrives
