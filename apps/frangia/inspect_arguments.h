@@ -10,6 +10,7 @@
 #include "frangia/cad/read_cad.h"
 #include "frangia/files/read_mesh.h"
 #include "frangia/inspect/render_mesh.h"
+#include "frangia/inspect/surface_verdict.h"
 #include "frangia/uncertainty/conformity.h"
 
 #include "inspect_alignment.h"
@@ -39,6 +40,7 @@ struct InspectArguments {
   bool thickness = false;
   bool fail_out_of_tolerance = false;
   AlignmentArguments alignment;
+  SurfaceRule surface;  ///< of the plan; the limits are those of `alignment`
   double expansion_ppm_per_k = 0.0;
   double temperature_u_k = 0.0;
   std::vector<std::filesystem::path> outputs;

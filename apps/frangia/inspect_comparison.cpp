@@ -1,6 +1,7 @@
 #include "inspect_comparison.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -9,7 +10,6 @@
 
 #include "frangia/core/angles.h"
 #include "frangia/core/lowercase_extension.h"
-#include "frangia/core/percent_text.h"
 #include "frangia/dataset/scan_folder.h"
 #include "frangia/files/deviation_csv.h"
 #include "frangia/files/ply.h"
@@ -50,6 +50,47 @@ Json json_of_counts(const DeviationSummary& summary) {
   return counts;
 }
 
+Json json_of_place(const Eigen::Vector3d& at) {
+  return {number_or_null(at.x()), number_or_null(at.y()), number_or_null(at.z())};
+}
+
+Json json_of_verdict(const SurfaceVerdict& verdict) {
+  constexpr std::array<std::string_view, 5> kReasons{
+      "none", "not_measured", "noise", "systematic", "near_limit"};
+  const SurfaceRule& rule = verdict.rule;
+  Json places = Json::array();
+  for (const SurfacePlace& place : verdict.places) {
+    places.push_back({{"decision", name_of(place.decision)},
+                      {"at_mm", json_of_place(place.at_mm)},
+                      {"deviation_mm", number_or_null(place.deviation_mm)},
+                      {"u95_mm", number_or_null(place.u95_mm)},
+                      {"area_mm2", place.area_mm2},
+                      {"missing", place.missing}});
+  }
+  return {{"tolerance_mm", {rule.limits.lower, rule.limits.upper}},
+          {"verdict", name_of(verdict.conformity)},
+          {"sentence", sentence_of(verdict)},
+          {"reason", kReasons.at(static_cast<std::size_t>(verdict.reason))},
+          {"in_share", verdict.share_of(PatchDecision::In)},
+          {"out_share", verdict.share_of(PatchDecision::Out)},
+          {"undecided_share", verdict.share_of(PatchDecision::NearLimit)},
+          {"not_well_measured_share", verdict.share_of(PatchDecision::NotWellMeasured)},
+          {"not_measured_share", verdict.share_of(PatchDecision::NotMeasured)},
+          {"coverage", verdict.coverage},
+          {"nominal_area_mm2", verdict.area_mm2},
+          {"gap_mm", verdict.gap_mm},
+          {"gap_at_mm", json_of_place(verdict.gap_at_mm)},
+          {"patch_mm", rule.min_feature_mm},
+          {"patches", verdict.patches},
+          {"independent_patches", verdict.independent},
+          {"max_uncertainty_share", rule.max_uncertainty_share},
+          {"min_coverage", rule.min_coverage},
+          {"max_gap_mm", rule.max_gap_mm},
+          {"filtered_min_mm", number_or_null(verdict.lowest.deviation_mm)},
+          {"filtered_max_mm", number_or_null(verdict.highest.deviation_mm)},
+          {"places", places}};
+}
+
 std::string left_out_text(const DeviationSummary& summary) {
   std::vector<std::string> parts;
   for (std::size_t i = 1; i < kDeviationStatuses; ++i) {
@@ -78,59 +119,57 @@ std::vector<VertexProperty> measured_properties(const InspectedPart& part) {
 
 }  // namespace
 
-Comparison compare_with(const InspectArguments& arguments,
-                        const Mesh& mesh,
-                        const Reference& reference,
-                        const std::optional<Alignment>& alignment,
-                        const Run& run) {
+SurfaceInspection compare_with(const InspectArguments& arguments,
+                               const Mesh& mesh,
+                               const Reference& reference,
+                               const std::optional<Alignment>& alignment,
+                               const Run& run) {
   constexpr double kPerMillion = 1e-6;
   DeviationOptions options;
   if (alignment) options.pose = alignment->pose.uncertainty;
   options.expansion_per_k = kPerMillion * arguments.expansion_ppm_per_k;
   options.temperature_u_k = arguments.temperature_u_k;
   options.exact = reference.cad.get();
-  Comparison comparison;
-  comparison.deviations = deviations_of(mesh, reference.scene, options, run);
-  comparison.summary = summarize(mesh, comparison.deviations, arguments.alignment.band());
-  return comparison;
+  SurfaceRule rule = arguments.surface;
+  rule.limits = arguments.alignment.band();
+  return inspect_surface(mesh, reference.scene, rule, options, run);
 }
 
-void add_deviations(InspectAnswer& answer, const Comparison& comparison) {
+void add_deviations(InspectAnswer& answer, const SurfaceInspection& comparison) {
   const DeviationSummary& summary = comparison.summary;
-  answer.verdict = summary.verdict;
-  answer.json["deviation"] = {
-      {"tolerance_mm", {summary.limits.lower, summary.limits.upper}},
-      {"verdict", name_of(summary.verdict)},
-      {"in_share", summary.in_share},
-      {"out_share", summary.out_share},
-      {"undecided_share", summary.undecided_share},
-      {"rms_mm", number_or_null(summary.rms_mm)},
-      {"mean_mm", number_or_null(summary.mean_mm)},
-      {"min_mm", number_or_null(summary.min_mm)},
-      {"max_mm", number_or_null(summary.max_mm)},
-      {"area_mm2", summary.area_mm2},
-      {"median_u_mm", number_or_null(summary.median_u_mm)},
-      {"largest_alignment_u_mm", comparison.deviations.largest_pose_u_mm},
-      {"largest_temperature_u_mm", comparison.deviations.largest_temperature_u_mm},
-      {"vertices", json_of_counts(summary)}};
-  answer.text += fmt::format(
-      "deviation: {} to {} mm; of {:.0f} mm2 compared, {} are in {} to {} mm, {} out, {} "
-      "undecided; the part is {}\n",
-      signed_text(summary.min_mm, 4),
-      signed_text(summary.max_mm, 4),
-      summary.area_mm2,
-      percent_text(summary.in_share),
-      signed_text(summary.limits.lower, 4),
-      signed_text(summary.limits.upper, 4),
-      percent_text(summary.out_share),
-      percent_text(summary.undecided_share),
-      summary.verdict == Conformity::Undecided ? "undecided"
-      : summary.verdict == Conformity::In      ? "in tolerance"
-                                               : "out of tolerance");
+  const SurfaceVerdict& verdict = comparison.verdict;
+  const ToleranceLimits& limits = verdict.rule.limits;
+  answer.verdict = verdict.conformity;
+  Json& json = answer.json["deviation"];
+  json = json_of_verdict(verdict);
+  json.update(Json{{"rms_mm", number_or_null(summary.rms_mm)},
+                   {"mean_mm", number_or_null(summary.mean_mm)},
+                   {"min_mm", number_or_null(summary.min_mm)},
+                   {"max_mm", number_or_null(summary.max_mm)},
+                   {"min_at_mm", json_of_place(summary.min_at_mm)},
+                   {"max_at_mm", json_of_place(summary.max_at_mm)},
+                   {"area_mm2", summary.area_mm2},
+                   {"median_u_mm", number_or_null(summary.median_u_mm)},
+                   {"largest_alignment_u_mm", comparison.deviations.largest_pose_u_mm},
+                   {"largest_temperature_u_mm", comparison.deviations.largest_temperature_u_mm},
+                   {"vertices", json_of_counts(summary)}});
+  answer.text += fmt::format("tolerance {} to {} mm: {}\n",
+                             signed_text(limits.lower, 4),
+                             signed_text(limits.upper, 4),
+                             sentence_of(verdict));
   if (comparison.deviations.u_mm.empty()) {
     answer.text +=
         "the mesh has no sigma: its uncertainty is not known, and the limits alone decide\n";
   }
+  answer.text += fmt::format(
+      "means over patches of {:.3g} mm: {} to {} mm; single vertices: {} at {} to {} at {}\n",
+      verdict.rule.min_feature_mm,
+      signed_text(verdict.lowest.deviation_mm, 4),
+      signed_text(verdict.highest.deviation_mm, 4),
+      signed_text(summary.min_mm, 4),
+      place_text(summary.min_at_mm),
+      signed_text(summary.max_mm, 4),
+      place_text(summary.max_at_mm));
   answer.text += fmt::format("vertices left out: {}\n", left_out_text(summary));
 }
 
@@ -196,10 +235,10 @@ void write_deviations(const std::filesystem::path& path,
     write_ply(path, mesh, measured_properties(part));
     return;
   }
-  const Comparison& comparison = part.comparison.value();
+  const SurfaceInspection& comparison = part.comparison.value();
   const Deviations& found = comparison.deviations;
   if (extension == ".csv") {
-    const auto decided = conformities(found, comparison.summary.limits);
+    const auto decided = conformities(found, comparison.verdict.rule.limits);
     std::vector<DeviationRow> rows;
     for (std::size_t i = 0; i < decided.size(); ++i) {
       if (found.status[i] != DeviationStatus::Compared) continue;
@@ -214,7 +253,7 @@ void write_deviations(const std::filesystem::path& path,
   }
   Mesh colored = mesh;
   colored.colors.clear();
-  const double scale = scale_mm(arguments, comparison.summary.limits);
+  const double scale = scale_mm(arguments, comparison.verdict.rule.limits);
   for (const float deviation : found.deviation_mm) {
     const float share = 0.5F + 0.5F * deviation / static_cast<float>(scale);
     colored.colors.push_back(pixel_of(ColorMap::Diverging, share));

@@ -2,31 +2,24 @@
 
 #include <optional>
 
-#include "frangia/inspect/deviation.h"
-#include "frangia/inspect/deviation_summary.h"
+#include "frangia/inspect/inspect_surface.h"
 
 #include "inspect_arguments.h"
 #include "inspect_reference.h"
 
 namespace frangia {
 
-/// The deviations of the mesh as the reports and the outputs need them.
-struct Comparison {
-  Deviations deviations;
-  DeviationSummary summary;
-};
-
 struct InspectedPart;
 
 /// Measures the deviations of the aligned mesh from its reference.
-[[nodiscard]] Comparison compare_with(const InspectArguments& arguments,
-                                      const Mesh& mesh,
-                                      const Reference& reference,
-                                      const std::optional<Alignment>& alignment,
-                                      const Run& run);
+[[nodiscard]] SurfaceInspection compare_with(const InspectArguments& arguments,
+                                             const Mesh& mesh,
+                                             const Reference& reference,
+                                             const std::optional<Alignment>& alignment,
+                                             const Run& run);
 
 /// Adds `deviation`.
-void add_deviations(InspectAnswer& answer, const Comparison& comparison);
+void add_deviations(InspectAnswer& answer, const SurfaceInspection& comparison);
 
 /// Adds the statistics of all vertices, the completeness and the validity.
 void add_statistics(InspectAnswer& answer,

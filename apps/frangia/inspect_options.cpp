@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "frangia/core/lowercase_extension.h"
+#include "frangia/report/report_logo.h"
 
 #include "allow_memory.h"
 #include "check_can_write.h"
@@ -40,6 +41,8 @@ void check_alignment(const InspectArguments& arguments) {
 }  // namespace
 
 void check_inspect_arguments(const InspectArguments& arguments, const InspectionPlan& plan) {
+  if (!arguments.report.empty() && !plan.report.logo.empty())
+    static_cast<void>(read_logo(plan.report.logo));
   const bool drawn = !arguments.picture.empty();
   const bool planned = !plan.features.empty() || !plan.sections.empty();
   require(

@@ -38,10 +38,10 @@ void check_shown(const InspectArguments& arguments, const Mesh& mesh) {
 
 RenderOptions deviation_picture(const InspectArguments& arguments,
                                 const Mesh& mesh,
-                                const Comparison& comparison) {
+                                const SurfaceInspection& comparison) {
   constexpr std::size_t kBins = 60;
   RenderOptions options;
-  const ToleranceLimits& limits = comparison.summary.limits;
+  const ToleranceLimits& limits = comparison.verdict.rule.limits;
   const double scale = scale_mm(arguments, limits);
   options.values = comparison.deviations.deviation_mm;
   options.value_max = static_cast<float>(scale);

@@ -14,7 +14,7 @@ void check_shown(const InspectArguments& arguments, const Mesh& mesh);
 /// Options of a picture of the deviations, with the tolerance band and the histogram.
 [[nodiscard]] RenderOptions deviation_picture(const InspectArguments& arguments,
                                               const Mesh& mesh,
-                                              const Comparison& comparison);
+                                              const SurfaceInspection& comparison);
 
 /// Draws the picture that the arguments ask for.
 void draw_picture(const InspectArguments& arguments, const InspectedPart& part, const Run& run);

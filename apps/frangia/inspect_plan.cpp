@@ -56,6 +56,7 @@ void apply_plan(const InspectionPlan& plan, InspectArguments& arguments) {
     alignment.tolerance_mm = {plan.tolerance_mm->lower, plan.tolerance_mm->upper};
   if (arguments.expansion_ppm_per_k == 0.0)
     arguments.expansion_ppm_per_k = plan.expansion_ppm_per_k;
+  arguments.surface = plan.surface;
   arguments.thickness = arguments.thickness || plan.thickness;
   if (arguments.temperature_u_k == 0.0) arguments.temperature_u_k = plan.temperature_u_k;
 }

@@ -2,10 +2,10 @@
 #include "inspect_report.h"
 
 #include <algorithm>
-#include <array>
 #include <chrono>
 #include <cmath>
 #include <ctime>
+#include <utility>
 
 #include <fmt/chrono.h>
 #include <fmt/format.h>
@@ -15,9 +15,8 @@
 #include "frangia/core/median.h"
 #include "frangia/core/sha256.h"
 #include "frangia/dataset/scan_folder.h"
-#include "frangia/inspect/render_mesh.h"
 
-#include "inspect_picture.h"
+#include "inspect_report_pictures.h"
 #include "json_number.h"
 #include "text_table.h"
 
@@ -152,38 +151,6 @@ NamedTexts alignment_rows(const InspectedPart& part) {
   return rows;
 }
 
-std::vector<ReportPicture> pictures_of(const InspectArguments& arguments,
-                                       const InspectedPart& part,
-                                       const Run& run) {
-  constexpr std::array<double, 4> kAzimuths{35.0, 125.0, 215.0, 305.0};
-  RenderOptions options;
-  if (part.comparison) options = deviation_picture(arguments, part.mesh, *part.comparison);
-  // Two stand side by side on the page: more pixels and rays would not be seen, but waited for.
-  options.width_px = 720;
-  options.height_px = 576;
-  options.samples_across = 2;
-  std::vector<ReportPicture> pictures;
-  for (const double azimuth : kAzimuths) {
-    options.azimuth_rad = rad_from_deg(azimuth);
-    pictures.push_back({fmt::format("{}seen from azimuth {:.0f}°, elevation 20°",
-                                    part.comparison ? "deviation, " : "",
-                                    azimuth),
-                        render_mesh(part.mesh, options, run)});
-    if (!part.comparison && pictures.size() == 2) break;
-  }
-  if (!part.walls) return pictures;
-  RenderOptions walls = thickness_picture(arguments, part.mesh, *part.walls);
-  walls.width_px = options.width_px;
-  walls.height_px = options.height_px;
-  walls.samples_across = options.samples_across;
-  for (const double azimuth : {35.0, 215.0}) {
-    walls.azimuth_rad = rad_from_deg(azimuth);
-    pictures.push_back({fmt::format("thickness, seen from azimuth {:.0f}°, elevation 20°", azimuth),
-                        render_mesh(part.mesh, walls, run)});
-  }
-  return pictures;
-}
-
 std::string file_name_part(const std::string& name) {
   std::string safe;
   for (const char c : name)
@@ -202,7 +169,7 @@ std::string created_now() {
 std::vector<SectionResult> cut_sections(const InspectionPlan& plan,
                                         const Mesh& mesh,
                                         const RayScene* reference,
-                                        const std::optional<Comparison>& comparison,
+                                        const std::optional<SurfaceInspection>& comparison,
                                         const Run& run) {
   std::vector<SectionResult> sections;
   for (const PlannedSection& planned : plan.sections) {
@@ -285,14 +252,19 @@ std::vector<std::string> write_report(const InspectArguments& arguments,
   run.stage("report");
   InspectionReport report;
   report.part = plan.part;
+  report.fields = plan.report;
+  if (!plan.report.logo.empty()) report.logo = read_logo(plan.report.logo);
   report.mesh = arguments.mesh.filename().string();
   report.created = created_now();
   report.version = "Frangia " FRANGIA_VERSION;
   report.conditions = conditions_of(arguments, run);
   report.alignment = alignment_rows(part);
-  if (part.comparison) report.deviation = part.comparison->summary;
+  if (part.comparison) {
+    report.deviation = part.comparison->summary;
+    report.surface = part.comparison->verdict;
+  }
   if (part.walls) report.thickness = part.walls->summary;
-  report.pictures = pictures_of(arguments, part, run);
+  report.pictures = report_pictures(arguments, part, run);
   report.characteristics = part.characteristics;
   report.features = part.features;
   report.nominals = part.nominals;

@@ -24,7 +24,7 @@ namespace {
 /// The decision about the part, by its deviations and its characteristics.
 Conformity verdict_of_part(const InspectedPart& part) {
   InspectionReport report;
-  if (part.comparison) report.deviation = part.comparison->summary;
+  if (part.comparison) report.surface = part.comparison->verdict;
   report.characteristics = part.characteristics;
   return verdict_of(report);
 }

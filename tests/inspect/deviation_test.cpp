@@ -136,47 +136,21 @@ TEST(Deviation, IsDecidedByTheRuleOfIso14253) {
   EXPECT_NEAR(guard_band_of_many(1'000'000), 5.3267, 1e-3);  // quantile of 1 - 5e-8
 }
 
-TEST(Deviation, SumsUpSharesOfTheArea) {
+TEST(Deviation, IsSummedUpOverTheArea) {
   // One half of the sphere is 0.2 mm too high.
   Mesh mesh = testing::sphere({0, 0, 0}, 20.0, 60);
   for (auto& vertex : mesh.vertices_mm)
     if (vertex.z() > 1e-3F) vertex *= 20.2F / 20.0F;
   mesh.sigma_mm.assign(mesh.vertices_mm.size(), 0.005F);
   const Deviations found = deviations_of(mesh, RayScene(testing::sphere({0, 0, 0}, 20.0, 180)));
-  const DeviationSummary summary = summarize(mesh, found, {-0.1, 0.1});
-  EXPECT_EQ(summary.verdict, Conformity::Out);
-  EXPECT_NEAR(summary.out_share, 0.5, 0.03);
-  EXPECT_NEAR(summary.in_share + summary.out_share + summary.undecided_share, 1.0, 1e-9);
+  const DeviationSummary summary = summarize(mesh, found);
   EXPECT_NEAR(summary.max_mm, 0.2, 0.005);
+  EXPECT_GT(summary.max_at_mm.z(), 0.0);
+  EXPECT_NEAR(summary.max_at_mm.norm(), 20.2, 0.005);
   EXPECT_NEAR(summary.median_u_mm, 0.005, 1e-6);
-  const auto wide = summarize(mesh, found, {-0.3, 0.3});
-  EXPECT_EQ(wide.verdict, Conformity::In);
-  EXPECT_EQ(summarize(mesh, found, {-0.201, 0.201}).verdict, Conformity::Undecided);
   const auto shares = deviation_histogram(mesh, found.deviation_mm, -0.3, 0.3, 6);
   EXPECT_NEAR(shares[2] + shares[3], 0.5, 0.03);
   EXPECT_NEAR(shares[4] + shares[5], 0.5, 0.03);
-}
-
-/// A good part is called out no more often than in one of twenty cases, however many vertices it
-/// has.
-TEST(Deviation, DoesNotCallAGoodPartBad) {
-  const Mesh nominal = testing::sphere({0, 0, 0}, 20.0, 60);
-  Mesh mesh = nominal;
-  mesh.sigma_mm.assign(mesh.vertices_mm.size(), 0.02F);
-  Deviations found;
-  found.status.assign(mesh.vertices_mm.size(), DeviationStatus::Compared);
-  found.u_mm = mesh.sigma_mm;
-  int bad = 0;
-  for (std::uint64_t seed = 0; seed < 200; ++seed) {
-    found.deviation_mm.clear();
-    for (std::size_t i = 0; i < mesh.vertices_mm.size(); ++i) {
-      // The whole part lies at its limit.
-      found.deviation_mm.push_back(static_cast<float>(0.1 + 0.02 * normal_from(hash(seed, i))));
-    }
-    bad += summarize(mesh, found, {-0.1, 0.1}).verdict == Conformity::Out ? 1 : 0;
-  }
-  EXPECT_LE(bad, 18);  // 5 % and 2.6 standard deviations
-  EXPECT_GE(bad, 1);
 }
 
 }  // namespace

@@ -222,6 +222,12 @@ class Meshes(unittest.TestCase):
         smaller = frangia.edit(part, [("offset", "-0.5mm")])
         self.assertAlmostEqual(frangia.deviations(smaller, part).mean(), -0.5, delta=0.1)
         self.assertGreater(frangia.surface_error(smaller, part)["rms_mm"], 0.3)
+        itself = frangia.inspect_surface(part, part, min_feature_mm=2)
+        self.assertEqual(itself["verdict"], "in")
+        self.assertRegex(itself["sentence"], "^in, over .* of the nominal area")
+        found = frangia.inspect_surface(smaller, part, min_feature_mm=2)
+        self.assertEqual(found["verdict"], "out")
+        self.assertAlmostEqual(found["places"][0]["deviation_mm"], -0.5, delta=0.1)
         picture = part.show(width_px=200, height_px=150)
         self.assertTrue(picture._repr_png_().startswith(b"\x89PNG"))
         with self.assertRaises(frangia.InputError):

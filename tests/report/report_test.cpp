@@ -90,6 +90,25 @@ TEST(InspectionPlan, MeasuresItsFeaturesAndDecides) {
   EXPECT_EQ(overall(rows), Conformity::Out);
 }
 
+TEST(InspectionPlan, StatesHowTheSurfaceIsJudgedAndTheHeadOfTheReport) {
+  const InspectionPlan plan = plan_from(
+      "min_feature_mm = 3\nmax_uncertainty_share = 0.2\nmin_coverage = 0.95\nmax_gap_mm = 8\n"
+      "[[excluded]]\nname = \"base\"\nmin_mm = [-50, -50, -1]\nmax_mm = [50, 50, 0.5]\n"
+      "[report]\ndrawing = \"D-17\"\noperator = \"A. Smith\"\npaper = \"Letter\"\n"
+      "logo = \"logo.png\"\n");
+  EXPECT_EQ(plan.surface.min_feature_mm, 3.0);
+  EXPECT_EQ(plan.surface.max_uncertainty_share, 0.2);
+  EXPECT_EQ(plan.surface.min_coverage, 0.95);
+  EXPECT_EQ(plan.surface.max_gap_mm, 8.0);
+  ASSERT_EQ(plan.surface.excluded.size(), 1U);
+  EXPECT_EQ(plan.surface.excluded[0].max_mm.z(), 0.5);
+  EXPECT_EQ(plan.report.drawing, "D-17");
+  EXPECT_EQ(plan.report.inspector, "A. Smith");
+  EXPECT_EQ(plan.report.paper, "Letter");
+  EXPECT_EQ(plan.report.logo.filename(), "logo.png");
+  EXPECT_TRUE(plan.report.logo.has_parent_path());
+}
+
 TEST(InspectionPlan, ReportsAFeatureThatIsNotFound) {
   std::vector<std::string> warnings;
   frangia::Run run;
@@ -117,6 +136,10 @@ TEST(InspectionPlan, NamesTheKeyThatIsWrong) {
   expect("align = \"roughly\"\n", "align is \"roughly\"");
   expect("align = \"datum\"\n", "datums must name one to three of [[features]]");
   expect("datums = [\"A\"]\n", "datums names \"A\", which is no name of [[features]]");
+  expect("min_coverage = 1.5\n", "min_coverage must be 1 at most");
+  expect("[report]\npaper = \"A3\"\n", "paper is \"A3\"; it must be A4 or Letter");
+  expect("[[excluded]]\nname = \"b\"\nmin_mm = [0, 0, 0]\nmax_mm = [1, 1, 0]\n",
+         "max_mm must be larger than min_mm");
   expect("tolerance_mm = [0.1, -0.1]\n", "tolerance_mm must be [LOWER, UPPER]");
   expect("[[features]]\nname = \"A\"\nkind = \"ball\"\nnear_mm = [0, 0, 0]\n",
          "features[0].kind is \"ball\"");
@@ -194,8 +217,8 @@ TEST(InspectionReport, IsOnePageWithEscapedTexts) {
 TEST(InspectionReport, ClaimsNoUncertaintyForAMeshWithoutSigma) {
   InspectionReport report;
   report.deviation.emplace();
-  report.deviation->verdict = Conformity::In;
-  report.deviation->limits = {-0.1, 0.1};
+  report.surface.emplace();
+  report.surface->conformity = Conformity::In;
   EXPECT_NE(html_of(report).find("In tolerance, but without an uncertainty"), std::string::npos);
   report.deviation->median_u_mm = 0.01;
   EXPECT_NE(html_of(report).find("In tolerance, the uncertainty counted"), std::string::npos);

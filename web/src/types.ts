@@ -215,9 +215,15 @@ export interface Comparison {
   scale_mm: [number, number];
   histogram: number[];
   verdict: 'in' | 'out' | 'undecided';
+  /** The verdict in words, with the reason and what to do. */
+  sentence: string;
+  /** Shares of the nominal area; they sum to 1. */
   in_share: number;
   out_share: number;
   undecided_share: number;
+  not_measured_share: number;
+  /** Diameter of the patches over which deviations are averaged. */
+  patch_mm: number;
   rms_mm: number | null;
   mean_mm: number | null;
   min_mm: number | null;

@@ -76,6 +76,7 @@ class DeviationFinder {
       out.status[i] = status_of(i, point, foot);
       if (out.status[i] != DeviationStatus::Compared) continue;
       out.deviation_mm[i] = static_cast<float>(foot.signed_distance_mm);
+      out.foot_mm[i] = foot.point_mm.cast<float>();
       if (!out.u_mm.empty()) out.u_mm[i] = static_cast<float>(uncertainty(i, point, foot));
     }
   }
@@ -219,6 +220,7 @@ Deviations deviations_of(const Mesh& mesh,
   found.deviation_mm.assign(count, kMissing);
   if (!mesh.sigma_mm.empty()) found.u_mm.assign(count, kMissing);
   found.status = initial_status(mesh);
+  found.foot_mm.assign(count, Eigen::Vector3f::Constant(kMissing));
   const DeviationFinder finder(mesh, reference, options);
   if (!mesh.sigma_mm.empty()) finder.leave_out_sharp_edges(found.status);
   constexpr std::size_t kChunk = 4096;

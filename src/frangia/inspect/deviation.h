@@ -47,9 +47,10 @@ struct DeviationOptions {
 
 /// The deviation of each vertex from a reference.
 struct Deviations {
-  std::vector<float> deviation_mm;      ///< positive outside; NaN where it was not compared
-  std::vector<float> u_mm;              ///< standard uncertainty; empty when no sigma is known
-  std::vector<DeviationStatus> status;  ///< of each vertex
+  std::vector<float> deviation_mm;       ///< positive outside; NaN where it was not compared
+  std::vector<float> u_mm;               ///< standard uncertainty; empty when no sigma is known
+  std::vector<DeviationStatus> status;   ///< of each vertex
+  std::vector<Eigen::Vector3f> foot_mm;  ///< nearest point of the reference; of those compared
   /// Largest contribution of the pose and of the temperature to `u_mm`.
   double largest_pose_u_mm = 0.0;
   double largest_temperature_u_mm = 0.0;  ///< see `largest_pose_u_mm`

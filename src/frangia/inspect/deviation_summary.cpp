@@ -16,34 +16,6 @@ double u_of(const Deviations& deviations, std::size_t vertex) {
   return deviations.u_mm.empty() ? 0.0 : static_cast<double>(deviations.u_mm[vertex]);
 }
 
-/// The share of each conformity and the verdict about the part.
-void decide(DeviationSummary& summary,
-            const Deviations& deviations,
-            const std::vector<double>& areas) {
-  std::array<double, 3> area{};
-  bool is_out = false;
-  bool all_in = true;
-  const std::size_t compared =
-      summary.count.at(static_cast<std::size_t>(DeviationStatus::Compared));
-  const double many = guard_band_of_many(compared);
-  for (std::size_t i = 0; i < areas.size(); ++i) {
-    if (deviations.status[i] != DeviationStatus::Compared) continue;
-    const auto value = static_cast<double>(deviations.deviation_mm[i]);
-    const double u = u_of(deviations, i);
-    const Conformity one = conformity_of(value, u, summary.limits);
-    area.at(static_cast<std::size_t>(one)) += areas[i];
-    all_in = all_in && one == Conformity::In;
-    is_out = is_out || conformity_of(value, u, summary.limits, many) == Conformity::Out;
-  }
-  if (compared == 0) return;
-  summary.verdict = all_in ? Conformity::In : Conformity::Undecided;
-  if (is_out) summary.verdict = Conformity::Out;
-  if (!(summary.area_mm2 > 0.0)) return;
-  summary.in_share = area[0] / summary.area_mm2;
-  summary.out_share = area[1] / summary.area_mm2;
-  summary.undecided_share = area[2] / summary.area_mm2;
-}
-
 }  // namespace
 
 std::vector<Conformity> conformities(const Deviations& deviations, const ToleranceLimits& limits) {
@@ -56,12 +28,8 @@ std::vector<Conformity> conformities(const Deviations& deviations, const Toleran
   return decided;
 }
 
-DeviationSummary summarize(const Mesh& mesh,
-                           const Deviations& deviations,
-                           const ToleranceLimits& limits) {
-  limits.check();
+DeviationSummary summarize(const Mesh& mesh, const Deviations& deviations) {
   DeviationSummary summary;
-  summary.limits = limits;
   const std::vector<double> areas = vertex_areas(mesh);
   std::vector<float> known_u;
   double sum = 0.0;
@@ -73,8 +41,14 @@ DeviationSummary summarize(const Mesh& mesh,
     summary.area_mm2 += areas[i];
     sum += areas[i] * value;
     squares += areas[i] * value * value;
-    if (!(summary.min_mm <= value)) summary.min_mm = value;
-    if (!(summary.max_mm >= value)) summary.max_mm = value;
+    if (!(summary.min_mm <= value)) {
+      summary.min_mm = value;
+      summary.min_at_mm = mesh.vertices_mm[i].cast<double>();
+    }
+    if (!(summary.max_mm >= value)) {
+      summary.max_mm = value;
+      summary.max_at_mm = mesh.vertices_mm[i].cast<double>();
+    }
     if (!deviations.u_mm.empty() && std::isfinite(deviations.u_mm[i]))
       known_u.push_back(deviations.u_mm[i]);
   }
@@ -84,7 +58,6 @@ DeviationSummary summarize(const Mesh& mesh,
   }
   if (!known_u.empty())
     summary.median_u_mm = static_cast<double>(median_in_place(std::span<float>(known_u)));
-  decide(summary, deviations, areas);
   return summary;
 }
 

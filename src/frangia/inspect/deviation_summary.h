@@ -4,14 +4,15 @@
 #include <cstddef>
 #include <vector>
 
+#include <Eigen/Core>
+
 #include "frangia/core/missing.h"
 #include "frangia/inspect/deviation.h"
 #include "frangia/uncertainty/conformity.h"
 
 namespace frangia {
 
-/// Deviations of a mesh and the decisions about its tolerance. Shares are of the area of the
-/// compared vertices, a third of their triangles'.
+/// Deviations of the vertices of a mesh, unfiltered. `judge_surface` decides about them.
 struct DeviationSummary {
   std::array<std::size_t, kDeviationStatuses> count{};  ///< of vertices, by `DeviationStatus`
   double area_mm2 = 0.0;                                ///< of the compared vertices
@@ -19,14 +20,9 @@ struct DeviationSummary {
   double rms_mm = kMissing;                             ///< weighted by area
   double min_mm = kMissing;                             ///< smallest signed deviation
   double max_mm = kMissing;                             ///< largest signed deviation
+  Eigen::Vector3d min_at_mm = Eigen::Vector3d::Zero();  ///< where `min_mm` is
+  Eigen::Vector3d max_at_mm = Eigen::Vector3d::Zero();  ///< where `max_mm` is
   double median_u_mm = kMissing;  ///< standard uncertainty; NaN when none is known
-  double in_share = 0.0;          ///< proven to be within the limits
-  double out_share = 0.0;         ///< proven to be beyond a limit
-  double undecided_share = 0.0;   ///< neither
-  /// Of the part: out when a deviation is beyond the limits by the guard band of that many values,
-  /// in when every compared vertex is in, otherwise undecided.
-  Conformity verdict = Conformity::Undecided;
-  ToleranceLimits limits;  ///< that it was decided by
 };
 
 /// Decides about each vertex by ISO 14253-1.
@@ -40,10 +36,7 @@ struct DeviationSummary {
 /// Sums up the deviations of a mesh.
 ///
 /// @units    mm
-/// @errors   Error(Input) as ToleranceLimits::check
-[[nodiscard]] DeviationSummary summarize(const Mesh& mesh,
-                                         const Deviations& deviations,
-                                         const ToleranceLimits& limits);
+[[nodiscard]] DeviationSummary summarize(const Mesh& mesh, const Deviations& deviations);
 
 /// Share of the compared area in each of `bins` equal intervals from `low` to `high`; values beyond
 /// an end count in the last interval on that side.

@@ -1,6 +1,8 @@
 #include "frangia/report/html_page.h"
 
+#include <algorithm>
 #include <cstdint>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -10,21 +12,69 @@
 namespace frangia {
 namespace {
 
-constexpr const char* kPageStyle = R"(<style>
-body{font:14px/1.45 system-ui,sans-serif;margin:2em auto;max-width:1120px;padding:0 1em;color:#222}
-h1{font-size:24px;margin-bottom:.2em}h2{font-size:17px;margin:1.6em 0 .4em;border-bottom:2px solid #ccd}
-table{border-collapse:collapse;margin:.6em 0;font-variant-numeric:tabular-nums}
-td,th{padding:.2em .8em;border-bottom:1px solid #ddd;text-align:right;vertical-align:top}
-td:first-child,th:first-child{text-align:left}th{background:#f2f3f6}
+constexpr const char* kPageStyle = R"(
+body{font:10pt/1.4 "DejaVu Sans",system-ui,sans-serif;margin:2em auto;max-width:190mm;padding:0 1em;color:#1c2126}
+h1{font-size:17pt;margin:0 0 .3em}
+h2{font-size:12pt;margin:1.5em 0 .4em;border-bottom:1.5pt solid #c8ced6;break-after:avoid}
+p{margin:.4em 0}
+table{border-collapse:collapse;margin:.5em 0;font-variant-numeric:tabular-nums;font-size:8.5pt}
+thead{display:table-header-group}tr{break-inside:avoid}
+td,th{padding:.22em .6em;border-bottom:.5pt solid #d8dce2;text-align:right;vertical-align:top}
+td:first-child,th:first-child{text-align:left;overflow-wrap:anywhere}
+th{background:#eef0f4;font-weight:600;vertical-align:bottom}
+table.facts{width:100%;table-layout:fixed}table.facts td{text-align:left;overflow-wrap:anywhere}
+table.facts td:first-child{width:32%;color:#5a6470}
 .in{color:#0a6b2d;font-weight:600}.out{color:#b00020;font-weight:600}.undecided{color:#8a5a00;font-weight:600}
-.verdict{padding:.5em .9em;border-left:6px solid #888;background:#f4f4f6;font-size:17px}
+.verdict{padding:.45em .8em;border-left:4pt solid #888;background:#f4f4f6;break-inside:avoid}
 .good{border-color:#0a8a3d;background:#eaf6ee}.bad{border-color:#b00020;background:#fbeaec}
 .open{border-color:#d99000;background:#fdf5e4}
-.row{display:flex;flex-wrap:wrap;gap:1em}figure{margin:0;break-inside:avoid}
-figcaption{font-size:13px;color:#555}figure img{width:540px;max-width:100%;height:auto}
-code{overflow-wrap:anywhere}@media print{body{margin:0;max-width:none}h2{break-after:avoid}}
-@page{size:A4;margin:14mm}
-</style>)";
+figure{margin:.6em 0;break-inside:avoid}figcaption{font-size:8.5pt;color:#5a6470;margin-top:.2em}
+figure img,figure svg{width:100%;height:auto;display:block}
+.row figure{display:inline-block;width:48.5%;margin-right:1%;vertical-align:top}
+.brand{width:100%;margin:0}.brand td{border:0;padding:0;vertical-align:middle}
+.brand img{max-height:16mm;max-width:60mm}.brand td:last-child{text-align:right;color:#5a6470}
+.fields{width:100%;table-layout:fixed;margin:.4em 0 .7em;font-size:9pt}
+.fields td{text-align:left;overflow-wrap:anywhere;padding:.2em .4em}
+.fields .name{color:#5a6470;width:15%}.fields .fact{width:35%}
+.signal{width:100%;margin:.3em 0 .6em}.signal td{border:0;text-align:left;vertical-align:middle}
+.signal .lamps{width:13mm;padding:.5em 0 .5em .8em}.signal .lamps svg{width:10mm;height:26mm;display:block}
+.signal .word{font-size:15pt;font-weight:700}
+.results{width:100%}.results .bar{width:34mm}.results svg{width:32mm;height:4mm;display:block}
+.small{font-size:8pt;color:#5a6470}
+.labelled{position:relative;width:100%}
+.labelled img{position:absolute;left:16.0377%;top:0;width:67.9245%;height:100%}
+.labelled svg{position:absolute;left:0;top:0;width:100%;height:100%}
+.labelled .frame{width:100%}
+.sheet{break-before:page}
+code{overflow-wrap:anywhere}
+@media print{body{margin:0;max-width:none;padding:0}}
+)";
+
+/// Text as a string of CSS within an element `style`.
+std::string css_string(std::string_view text) {
+  std::string quoted = "\"";
+  for (const char c : text) {
+    const bool plain = c != '"' && c != '\\' && c != '<' && c != '>' && c != '&' &&
+                       static_cast<unsigned char>(c) >= 0x20U;
+    quoted += plain ? std::string(1, c)
+                    : fmt::format("\\{:x} ", static_cast<unsigned>(static_cast<unsigned char>(c)));
+  }
+  return quoted + "\"";
+}
+
+std::string sheet_style(const HtmlPaper& paper) {
+  constexpr const char* kMargin = "font:8pt \"DejaVu Sans\",sans-serif;color:#5a6470;";
+  return fmt::format(
+      "@page{{size:{0};margin:18mm 14mm 16mm;"
+      "@top-left{{content:{1};{3}}}"
+      "@bottom-left{{content:{2};{3}}}"
+      "@bottom-right{{content:\"page \" counter(page) \" of \" counter(pages);{3}}}}}\n"
+      "@page:first{{margin-top:12mm;@top-left{{content:none}}}}\n",
+      paper.size,
+      css_string(paper.head),
+      css_string(paper.foot),
+      kMargin);
+}
 
 std::string base64_text(const std::vector<char>& bytes) {
   constexpr std::string_view kDigits =
@@ -52,8 +102,9 @@ std::string cell_of(const std::string& text) {
 
 }  // namespace
 
-HtmlPage::HtmlPage(std::string_view title) : title_(html_escaped(title)) {
-  body_ = fmt::format("<h1>{}</h1>\n", title_);
+HtmlPage::HtmlPage(std::string_view title, HtmlPaper paper, bool show_title)
+    : title_(html_escaped(title)), paper_(std::move(paper)) {
+  if (show_title) body_ = fmt::format("<h1>{}</h1>\n", title_);
 }
 
 void HtmlPage::heading(std::string_view text) {
@@ -70,17 +121,23 @@ void HtmlPage::verdict(std::string_view kind, std::string_view text) {
 
 void HtmlPage::table(const std::vector<std::string>& columns,
                      const std::vector<std::vector<std::string>>& rows) {
-  body_ += "<table><tr>";
-  for (const std::string& column : columns)
-    body_ += fmt::format("<th>{}</th>", html_escaped(column));
-  body_ += "</tr>\n";
+  // Without names a table lists facts.
+  const bool named = std::any_of(
+      columns.begin(), columns.end(), [](const auto& column) { return !column.empty(); });
+  body_ += named ? "<table><thead><tr>" : "<table class=\"facts\">";
+  if (named) {
+    for (const std::string& column : columns)
+      body_ += fmt::format("<th>{}</th>", html_escaped(column));
+    body_ += "</tr></thead>";
+  }
+  body_ += "<tbody>\n";
   for (const auto& row : rows) {
     body_ += "<tr>";
     for (const std::string& text : row)
       body_ += cell_of(text);
     body_ += "</tr>\n";
   }
-  body_ += "</table>\n";
+  body_ += "</tbody></table>\n";
 }
 
 void HtmlPage::begin_figures() {
@@ -88,11 +145,10 @@ void HtmlPage::begin_figures() {
 }
 
 void HtmlPage::picture(const Image<Rgb>& picture, std::string_view caption) {
-  body_ += fmt::format(
-      "<figure><img alt=\"{0}\" src=\"data:image/png;base64,{1}\"><figcaption>{0}</figcaption>"
-      "</figure>\n",
-      html_escaped(caption),
-      base64_text(encode_picture(picture)));
+  body_ +=
+      fmt::format("<figure><img alt=\"{0}\" src=\"{1}\"><figcaption>{0}</figcaption></figure>\n",
+                  html_escaped(caption),
+                  data_uri("image/png", encode_picture(picture)));
 }
 
 void HtmlPage::drawing(const std::string& svg, std::string_view caption) {
@@ -104,13 +160,26 @@ void HtmlPage::end_figures() {
   body_ += "</div>\n";
 }
 
+void HtmlPage::html(const std::string& fragment) {
+  body_ += fragment;
+}
+
+void HtmlPage::new_sheet() {
+  body_ += "<div class=\"sheet\"></div>\n";
+}
+
 std::string HtmlPage::text() const {
   return fmt::format(
-      "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>{}</title>{}"
-      "</head><body>\n{}</body></html>\n",
+      "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>{}</title>"
+      "<style>{}{}</style></head><body>\n{}</body></html>\n",
       title_,
       kPageStyle,
+      sheet_style(paper_),
       body_);
+}
+
+std::string data_uri(std::string_view media_type, const std::vector<char>& bytes) {
+  return fmt::format("data:{};base64,{}", media_type, base64_text(bytes));
 }
 
 }  // namespace frangia

@@ -9,17 +9,25 @@
 
 namespace frangia {
 
-/// A page of HTML without references to other files. Texts are escaped.
+/// Size of the paper that a page is printed on, and what stands on each sheet.
+struct HtmlPaper {
+  std::string size = "A4";  ///< A4 or Letter
+  std::string head;         ///< at the top of every sheet but the first
+  std::string foot;         ///< at the bottom of every sheet, beside its number
+};
+
+/// A page of HTML without references to other files, scripts or layout grids, which a browser shows
+/// and WeasyPrint prints. Texts are escaped.
 class HtmlPage {
  public:
-  /// A page with a title and nothing else.
-  explicit HtmlPage(std::string_view title);
+  /// A page with a title; `show_title`: as its first heading, too.
+  explicit HtmlPage(std::string_view title, HtmlPaper paper = {}, bool show_title = true);
 
   void heading(std::string_view text);    ///< of a section
   void paragraph(std::string_view text);  ///< plain text
   /// A line that stands out: `kind` is "good", "bad" or "open".
   void verdict(std::string_view kind, std::string_view text);
-  /// A table; a cell that is in, out or undecided is colored.
+  /// A table; a cell that is in, out or undecided is colored. Its head is repeated on each sheet.
   ///
   /// @shape    each row has one cell for each column
   void table(const std::vector<std::string>& columns,
@@ -29,7 +37,9 @@ class HtmlPage {
   void picture(const Image<Rgb>& picture, std::string_view caption);
   /// A drawing in SVG, taken over as it is.
   void drawing(const std::string& svg, std::string_view caption);
-  void end_figures();  ///< see `begin_figures`
+  void end_figures();                      ///< see `begin_figures`
+  void html(const std::string& fragment);  ///< HTML, taken over as it is
+  void new_sheet();                        ///< what follows begins a sheet
 
   /// The finished page.
   [[nodiscard]] std::string text() const;
@@ -37,6 +47,10 @@ class HtmlPage {
  private:
   std::string body_;
   std::string title_;
+  HtmlPaper paper_;
 };
+
+/// Bytes as the data of an `img` element: "data:image/png;base64,...".
+[[nodiscard]] std::string data_uri(std::string_view media_type, const std::vector<char>& bytes);
 
 }  // namespace frangia

@@ -114,6 +114,47 @@ PlannedSection section_of(TomlReader& reader) {
   return section;
 }
 
+ExcludedBox excluded_of(TomlReader& reader) {
+  ExcludedBox box;
+  box.name = reader.text("name");
+  box.min_mm = vector_of(reader, "min_mm");
+  box.max_mm = vector_of(reader, "max_mm");
+  if (!(box.min_mm.array() < box.max_mm.array()).all())
+    reader.fail("max_mm", "must be larger than min_mm along x, y and z");
+  return box;
+}
+
+void read_surface_rule(TomlReader& top, SurfaceRule& rule) {
+  const auto share = [&](std::string_view key, double& value) {
+    if (!top.has(key)) return;
+    value = top.positive(key);
+    if (value > 1.0) top.fail(key, "must be 1 at most");
+  };
+  if (top.has("min_feature_mm")) rule.min_feature_mm = top.positive("min_feature_mm");
+  if (top.has("max_gap_mm")) rule.max_gap_mm = top.positive("max_gap_mm");
+  share("max_uncertainty_share", rule.max_uncertainty_share);
+  share("min_coverage", rule.min_coverage);
+}
+
+ReportFields report_of(TomlReader reader, const std::filesystem::path& plan, const Run& run) {
+  ReportFields fields;
+  const auto text = [&](std::string_view key, std::string& value) {
+    if (reader.has(key)) value = reader.text(key);
+  };
+  text("drawing", fields.drawing);
+  text("order", fields.order);
+  text("serial", fields.serial);
+  text("customer", fields.customer);
+  text("operator", fields.inspector);
+  text("date", fields.date);
+  text("paper", fields.paper);
+  if (fields.paper != "A4" && fields.paper != "Letter")
+    reader.fail("paper", fmt::format("is \"{}\"; it must be A4 or Letter", fields.paper));
+  if (reader.has("logo")) fields.logo = plan.parent_path() / reader.text("logo");
+  reader.warn_of_unused_keys(run);
+  return fields;
+}
+
 /// Reads the tables of a key and checks that no two have the same name.
 template <typename Item, typename Read>
 std::vector<Item> items_of(TomlReader& top,
@@ -141,6 +182,7 @@ void read_surface_keys(TomlReader& top, InspectionPlan& plan) {
     top.fail("align", fmt::format("is \"{}\"; it must be best-fit, datum or none", plan.align));
   if (top.has("start")) plan.start = static_cast<std::size_t>(top.integer("start", 1, 1000));
   plan.tolerance_mm = limits_of(top, "tolerance_mm");
+  read_surface_rule(top, plan.surface);
   if (top.has("thickness")) plan.thickness = top.boolean("thickness");
   plan.expansion_ppm_per_k = top.number_or("expansion_ppm_per_k", 0.0);
   plan.temperature_u_k = top.number_or("temperature_u_k", 0.0);
@@ -162,7 +204,9 @@ InspectionPlan read_inspection_plan(const std::filesystem::path& path, const Run
   plan.features = items_of<PlannedFeature>(top, "features", feature_of, run);
   plan.characteristics =
       items_of<PlannedCharacteristic>(top, "characteristics", characteristic_from, run);
+  plan.surface.excluded = items_of<ExcludedBox>(top, "excluded", excluded_of, run);
   plan.sections = items_of<PlannedSection>(top, "sections", section_of, run);
+  if (top.has("report")) plan.report = report_of(top.table("report"), path, run);
   const auto is_named = [&](const std::string& name) {
     return std::any_of(plan.features.begin(), plan.features.end(), [&](const auto& feature) {
       return feature.name == name;

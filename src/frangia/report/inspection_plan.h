@@ -11,6 +11,7 @@
 #include "frangia/core/run.h"
 #include "frangia/features/geometric_tolerance.h"
 #include "frangia/features/shape.h"
+#include "frangia/inspect/surface_verdict.h"
 #include "frangia/uncertainty/conformity.h"
 
 namespace frangia {
@@ -47,6 +48,18 @@ struct PlannedSection {
   bool blade = false;                                  ///< measure it as the profile of a blade
 };
 
+/// What stands at the head of a report: `[report]`. Empty texts are left out.
+struct ReportFields {
+  std::string drawing;         ///< number and revision
+  std::string order;           ///< number
+  std::string serial;          ///< of the part
+  std::string customer;        ///< name
+  std::string inspector;       ///< name of the operator
+  std::string date;            ///< of the inspection; empty: when the report is written
+  std::string paper = "A4";    ///< A4 or Letter
+  std::filesystem::path logo;  ///< PNG or JPEG, relative to the file of the plan; may be empty
+};
+
 /// How the parts of one kind are inspected: inspection.toml.
 struct InspectionPlan {
   std::string part;                             ///< name of the part
@@ -56,12 +69,14 @@ struct InspectionPlan {
   std::vector<std::string> datums;              ///< names of features, in their order; of `datum`
   std::size_t start = 0;                        ///< of poses that fit alike; 0: none
   std::optional<ToleranceLimits> tolerance_mm;  ///< of the deviations from the reference
+  SurfaceRule surface;                          ///< how they are decided; `limits` is unused
   bool thickness = false;                       ///< measure the thickness of the walls
   double expansion_ppm_per_k = 0.0;             ///< coefficient of thermal expansion, 1e-6/K
   double temperature_u_k = 0.0;                 ///< standard uncertainty of the temperature
   std::vector<PlannedFeature> features;         ///< `[[features]]`
   std::vector<PlannedCharacteristic> characteristics;  ///< `[[characteristics]]`
   std::vector<PlannedSection> sections;                ///< `[[sections]]`
+  ReportFields report;                                 ///< `[report]`
 };
 
 /// Reads inspection.toml, format "frangia-inspection". Warns of unknown keys.

@@ -7,36 +7,35 @@
 #include <vector>
 
 #include "frangia/cad/nominal_face.h"
-#include "frangia/core/image.h"
 #include "frangia/features/find_features.h"
-#include "frangia/frames/png.h"
 #include "frangia/inspect/deviation_summary.h"
+#include "frangia/inspect/surface_verdict.h"
 #include "frangia/inspect/thickness.h"
+#include "frangia/report/inspection_plan.h"
+#include "frangia/report/labelled_picture.h"
 #include "frangia/report/measured_characteristics.h"
+#include "frangia/report/report_logo.h"
 #include "frangia/report/section_result.h"
 
 namespace frangia {
 
-/// A picture and what it shows.
-struct ReportPicture {
-  std::string caption;  ///< below the picture
-  Image<Rgb> picture;   ///< with its legend
-};
-
 /// Everything that the report of one inspection shows. Parts that are empty are left out.
 struct InspectionReport {
-  std::string part;     ///< name of the part; may be empty
-  std::string mesh;     ///< name of the file of the mesh
-  std::string created;  ///< date and time
-  std::string version;  ///< of the software
+  std::string part;                ///< name of the part; may be empty
+  ReportFields fields;             ///< of the plan
+  std::optional<ReportLogo> logo;  ///< that `fields` names
+  std::string mesh;                ///< name of the file of the mesh
+  std::string created;             ///< date and time
+  std::string version;             ///< of the software
   /// Further facts, each with its name: files, checksums, rig, date of the calibration.
   std::vector<std::pair<std::string, std::string>> conditions;
   std::vector<std::pair<std::string, std::string>> alignment;  ///< as `conditions`
-  std::optional<DeviationSummary> deviation;                   ///< from the reference
+  std::optional<DeviationSummary> deviation;                   ///< from the reference, unfiltered
+  std::optional<SurfaceVerdict> surface;                       ///< with `deviation`
   std::optional<ThicknessSummary> thickness;                   ///< of the walls
-  std::vector<ReportPicture> pictures;                         ///< of deviations and thickness
-  std::vector<MeasuredCharacteristic> characteristics;         ///< that a plan asked for
-  std::vector<Feature> features;                               ///< all that were found
+  std::vector<ReportPicture> pictures;  ///< of deviations and thickness, the largest first
+  std::vector<MeasuredCharacteristic> characteristics;  ///< that a plan asked for
+  std::vector<Feature> features;                        ///< all that were found
   /// The face of the CAD reference of each feature; empty without such a reference.
   std::vector<std::optional<NominalFace>> nominals;
   std::vector<SectionResult> sections;  ///< that a plan asked for
@@ -51,7 +50,12 @@ struct InspectionReport {
 /// are in.
 [[nodiscard]] Conformity verdict_of(const InspectionReport& report);
 
-/// Returns the report as one page of HTML without references to other files.
+/// Why the verdict is what it is, the most important sentence first.
+[[nodiscard]] std::vector<std::string> reasons_of(const InspectionReport& report);
+
+/// Returns the report as one page of HTML without references to other files: first a sheet with the
+/// verdict, the first picture and the worst rows of the table; then the rest of the table,
+/// pictures, sections and features; calibration, uncertainty and checksums as an annex.
 [[nodiscard]] std::string html_of(const InspectionReport& report);
 
 /// Returns the characteristics as CSV with the header

@@ -11,7 +11,7 @@
 #include "frangia/files/read_mesh.h"
 #include "frangia/geometry/ray_scene.h"
 #include "frangia/geometry/transform_mesh.h"
-#include "frangia/inspect/deviation.h"
+#include "frangia/inspect/inspect_surface.h"
 
 namespace frangia {
 namespace {
@@ -67,8 +67,11 @@ SurfaceComparison compare_surface(const Mesh& mesh,
   DeviationOptions deviation;
   deviation.pose = alignment.pose.uncertainty;
   deviation.exact = cad.get();
-  Deviations deviations = deviations_of(aligned, scene, deviation, run);
-  found.summary = summarize(aligned, deviations, options.tolerance);
+  SurfaceInspection inspection =
+      inspect_surface(aligned, scene, {.limits = options.tolerance}, deviation, run);
+  Deviations& deviations = inspection.deviations;
+  found.summary = inspection.summary;
+  found.verdict = std::move(inspection.verdict);
   found.high_mm = kScaleOverTolerance *
                   std::max(std::abs(options.tolerance.lower), std::abs(options.tolerance.upper));
   found.low_mm = -found.high_mm;

@@ -9,6 +9,7 @@
 #include "frangia/core/run.h"
 #include "frangia/geometry/mesh.h"
 #include "frangia/inspect/deviation_summary.h"
+#include "frangia/inspect/surface_verdict.h"
 
 namespace frangia {
 
@@ -30,7 +31,8 @@ struct ComparedPose {
 /// Deviations of a surface from a reference and what they amount to.
 struct SurfaceComparison {
   std::vector<float> deviation_mm;  ///< of each vertex, positive outside; NaN: not compared
-  DeviationSummary summary;         ///< shares in and out of the tolerance
+  DeviationSummary summary;         ///< unfiltered
+  SurfaceVerdict verdict;           ///< by the patches of the reference
   std::vector<float> histogram;     ///< shares of the area, from `low_mm` to `high_mm`
   double low_mm = 0.0;              ///< of the color scale: twice the tolerance
   double high_mm = 0.0;             ///< likewise

@@ -44,7 +44,7 @@ ProjectProgress progress_of(const OpenProject& project) {
     const auto done = static_cast<std::ptrdiff_t>(project.surface->done);
     progress.steps.assign(steps.begin(), steps.begin() + done);
     if (const auto& shown = project.surface->comparison) {
-      const ToleranceLimits& limits = shown->found.summary.limits;
+      const ToleranceLimits& limits = shown->found.verdict.rule.limits;
       progress.comparison = {
           project.folder.reference(project.reference.format, project.reference.number),
           shown->best_fit,

@@ -39,9 +39,11 @@ function result(app: App, found: Comparison): TemplateResult {
       <span class="dot ${found.verdict === 'in' ? 'done' : found.verdict === 'out' ? 'bad' : 'poor'}"></span
       ><b>${t(`compare.${found.verdict}`)}</b>
     </p>
+    <p class="quiet">${found.sentence}</p>
     <dl class="figures">
       ${row('compare.inShare', percent(found.in_share), '%')} ${row('compare.outShare', percent(found.out_share), '%')}
       ${row('compare.openShare', percent(found.undecided_share), '%')}
+      ${row('compare.notMeasured', percent(found.not_measured_share), '%')}
       ${row('compare.range', `${signed(found.min_mm)} … ${signed(found.max_mm)}`, 'mm')}
       ${row('compare.mean', signed(found.mean_mm), 'mm')}
       ${row('compare.rms', found.rms_mm === null ? '·' : number(found.rms_mm, 3), 'mm')}

@@ -36,6 +36,7 @@ Json json_of_change(const StepChange& change) {
 Json json_of_comparison(const ShownComparison& shown) {
   const SurfaceComparison& found = shown.found;
   const DeviationSummary& summary = found.summary;
+  const SurfaceVerdict& verdict = found.verdict;
   Json poses = Json::array();
   for (const ComparedPose& pose : found.poses) {
     poses.push_back({{"turned_deg", deg_from_rad(pose.turned_rad)},
@@ -49,13 +50,18 @@ Json json_of_comparison(const ShownComparison& shown) {
           {"best_fit", shown.best_fit},
           {"start", shown.start + 1},
           {"poses", poses},
-          {"tolerance_mm", {summary.limits.lower, summary.limits.upper}},
+          {"tolerance_mm", {verdict.rule.limits.lower, verdict.rule.limits.upper}},
           {"scale_mm", {found.low_mm, found.high_mm}},
           {"histogram", found.histogram},
-          {"verdict", std::string(name_of(summary.verdict))},
-          {"in_share", summary.in_share},
-          {"out_share", summary.out_share},
-          {"undecided_share", summary.undecided_share},
+          {"verdict", std::string(name_of(verdict.conformity))},
+          {"sentence", sentence_of(verdict)},
+          {"in_share", verdict.share_of(PatchDecision::In)},
+          {"out_share", verdict.share_of(PatchDecision::Out)},
+          {"undecided_share",
+           verdict.share_of(PatchDecision::NearLimit) +
+               verdict.share_of(PatchDecision::NotWellMeasured)},
+          {"not_measured_share", verdict.share_of(PatchDecision::NotMeasured)},
+          {"patch_mm", verdict.rule.min_feature_mm},
           {"rms_mm", finite_or_null(summary.rms_mm)},
           {"mean_mm", finite_or_null(summary.mean_mm)},
           {"min_mm", finite_or_null(summary.min_mm)},

@@ -1,0 +1,305 @@
+#include "frangia/inspect/surface_verdict.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <numbers>
+#include <queue>
+#include <set>
+#include <span>
+#include <tuple>
+
+#include "frangia/core/error.h"
+#include "frangia/core/median.h"
+
+namespace frangia {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double k95 = 1.959964;
+constexpr std::size_t kMostPlaces = 24;
+
+/// Guard bands of "out" for noise, which is independent from patch to patch, and for the
+/// systematic part, which changes slowly over the part.
+struct OutGuard {
+  std::size_t independent = 1;
+  double together = kGuardBand;  ///< times the combined uncertainty
+  double noise = kGuardBand;     ///< times the noise, with half of the error probability
+  double systematic = kGuardBand;
+  bool split = false;  ///< the two parts are counted one by one
+
+  [[nodiscard]] double guard_mm(double noise_mm, double systematic_mm) const {
+    if (split) return noise * noise_mm + systematic * systematic_mm;
+    return together * std::hypot(noise_mm, systematic_mm);
+  }
+};
+
+/// Number of cells of 3 x 3 x 3 over the part that hold patches: regions over which a systematic
+/// error is taken to be alike.
+std::size_t regions_of(const SurfacePatches& patches) {
+  Eigen::AlignedBox3f box;
+  for (const auto& center : patches.center_mm)
+    box.extend(center);
+  const Eigen::Vector3f side = box.sizes().cwiseMax(1e-6F * box.sizes().maxCoeff());
+  std::set<std::tuple<int, int, int>> cells;
+  for (const auto& center : patches.center_mm) {
+    const Eigen::Vector3f cell = (3.0F * (center - box.min()).cwiseQuotient(side)).cwiseMin(2.5F);
+    cells.emplace(
+        static_cast<int>(cell.x()), static_cast<int>(cell.y()), static_cast<int>(cell.z()));
+  }
+  return cells.size();
+}
+
+/// Patches overlap: as many are independent as fit beside each other on the measured area.
+OutGuard out_guard_of(const SurfacePatches& patches) {
+  OutGuard guard;
+  double area = 0.0;
+  std::size_t measured = 0;
+  std::vector<double> noises;
+  std::vector<double> systematics;
+  for (std::size_t i = 0; i < patches.size(); ++i) {
+    if (!patches.is_measured(i)) continue;
+    area += patches.area_mm2[i];
+    ++measured;
+    noises.push_back(static_cast<double>(patches.noise_mm[i]));
+    systematics.push_back(static_cast<double>(patches.systematic_mm[i]));
+  }
+  if (measured == 0) return guard;
+  const double disk = 0.25 * std::numbers::pi * patches.diameter_mm * patches.diameter_mm;
+  guard.independent =
+      std::clamp<std::size_t>(static_cast<std::size_t>(std::ceil(area / disk)), 1, measured);
+  guard.together = guard_band_of_many(guard.independent);
+  guard.noise = guard_band_of_many(2 * guard.independent);
+  guard.systematic = guard_band_of_many(2 * regions_of(patches));
+  const double noise = median_in_place(std::span<double>(noises));
+  const double systematic = median_in_place(std::span<double>(systematics));
+  guard.split = guard.noise * noise + guard.systematic * systematic <
+                guard.together * std::hypot(noise, systematic);
+  return guard;
+}
+
+PatchDecision decide(const SurfacePatches& patches,
+                     std::size_t i,
+                     const SurfaceRule& rule,
+                     const OutGuard& guard) {
+  if (patches.missing[i] != 0) return PatchDecision::Out;
+  if (!patches.is_measured(i)) return PatchDecision::NotMeasured;
+  const auto value = static_cast<double>(patches.deviation_mm[i]);
+  const double u = patches.u_mm(i);
+  if (!std::isfinite(u)) return PatchDecision::NotWellMeasured;
+  const double beyond = guard.guard_mm(static_cast<double>(patches.noise_mm[i]),
+                                       static_cast<double>(patches.systematic_mm[i]));
+  if (value < rule.limits.lower - beyond || value > rule.limits.upper + beyond)
+    return PatchDecision::Out;
+  const double half = 0.5 * (rule.limits.upper - rule.limits.lower);
+  if (k95 * u > rule.max_uncertainty_share * half) return PatchDecision::NotWellMeasured;
+  return conformity_of(value, u, rule.limits) == Conformity::In ? PatchDecision::In
+                                                                : PatchDecision::NearLimit;
+}
+
+bool is_gap(PatchDecision decision) {
+  return decision == PatchDecision::NotMeasured || decision == PatchDecision::NotWellMeasured;
+}
+
+/// Finds the widest gap: twice the largest distance, over the surface, of a patch that is not
+/// decided from the nearest one that is.
+void find_gap(SurfaceVerdict& verdict,
+              const SurfacePatches& patches,
+              const std::vector<PatchDecision>& decided) {
+  using Step = std::pair<double, std::uint32_t>;
+  std::priority_queue<Step, std::vector<Step>, std::greater<>> next;
+  std::vector<double> distance(patches.size(), std::numeric_limits<double>::infinity());
+  for (std::uint32_t i = 0; i < patches.size(); ++i) {
+    if (is_gap(decided[i])) continue;
+    distance[i] = 0.0;
+    next.emplace(0.0, i);
+  }
+  while (!next.empty()) {
+    const auto [reached, i] = next.top();
+    next.pop();
+    if (reached > distance[i]) continue;
+    for (const std::uint32_t k : patches.neighbors[i]) {
+      const double there =
+          reached + static_cast<double>((patches.center_mm[k] - patches.center_mm[i]).norm());
+      if (there >= distance[k]) continue;
+      distance[k] = there;
+      next.emplace(there, k);
+    }
+  }
+  for (std::size_t i = 0; i < patches.size(); ++i) {
+    const double width = std::min(2.0 * distance[i], patches.size_mm);
+    if (width <= verdict.gap_mm) continue;
+    verdict.gap_mm = width;
+    verdict.gap_at_mm = patches.center_mm[i].cast<double>();
+  }
+}
+
+/// How bad a patch is among those of its decision.
+double badness(const SurfacePatches& patches,
+               std::size_t i,
+               PatchDecision decision,
+               const ToleranceLimits& limits) {
+  if (decision == PatchDecision::NotWellMeasured) return patches.u_mm(i);
+  if (!patches.is_measured(i)) return 0.0;
+  const auto value = static_cast<double>(patches.deviation_mm[i]);
+  return std::max(limits.lower - value, value - limits.upper);
+}
+
+/// Connected parts of the surface that were decided alike, the worst first.
+std::vector<SurfacePlace> places_of(const SurfacePatches& patches,
+                                    const std::vector<PatchDecision>& decided,
+                                    const ToleranceLimits& limits) {
+  std::vector<SurfacePlace> places;
+  std::vector<std::uint8_t> seen(patches.size(), 0);
+  for (std::uint32_t first = 0; first < patches.size(); ++first) {
+    if (seen[first] != 0 || decided[first] == PatchDecision::In) continue;
+    SurfacePlace place;
+    place.decision = decided[first];
+    std::uint32_t worst = first;
+    double most = -std::numeric_limits<double>::infinity();
+    std::vector<std::uint32_t> stack{first};
+    seen[first] = 1;
+    while (!stack.empty()) {
+      const std::uint32_t i = stack.back();
+      stack.pop_back();
+      place.area_mm2 += patches.area_mm2[i];
+      place.missing = place.missing || patches.missing[i] != 0;
+      const double bad = badness(patches, i, place.decision, limits);
+      if (bad > most) {
+        most = bad;
+        worst = i;
+      }
+      for (const std::uint32_t k : patches.neighbors[i]) {
+        if (seen[k] != 0 || decided[k] != place.decision) continue;
+        seen[k] = 1;
+        stack.push_back(k);
+      }
+    }
+    place.at_mm = patches.center_mm[worst].cast<double>();
+    place.normal = patches.normal[worst].cast<double>();
+    if (patches.is_measured(worst)) {
+      place.deviation_mm = static_cast<double>(patches.deviation_mm[worst]);
+      if (patches.uncertainty_known) place.u95_mm = k95 * patches.u_mm(worst);
+    }
+    places.push_back(place);
+  }
+  const auto excess = [&](const SurfacePlace& place) {
+    return std::isfinite(place.deviation_mm)
+               ? std::max(limits.lower - place.deviation_mm, place.deviation_mm - limits.upper)
+               : 0.0;
+  };
+  std::stable_sort(places.begin(), places.end(), [&](const auto& a, const auto& b) {
+    if (a.decision != b.decision) return a.decision < b.decision;
+    if (a.decision == PatchDecision::Out) return excess(a) > excess(b);
+    return a.area_mm2 > b.area_mm2;
+  });
+  return places;
+}
+
+Extreme extreme_of(const SurfacePatches& patches, std::size_t i) {
+  Extreme extreme;
+  extreme.deviation_mm = static_cast<double>(patches.deviation_mm[i]);
+  if (patches.uncertainty_known) extreme.u95_mm = k95 * patches.u_mm(i);
+  extreme.at_mm = patches.center_mm[i].cast<double>();
+  extreme.normal = patches.normal[i].cast<double>();
+  return extreme;
+}
+
+void conclude(SurfaceVerdict& verdict, double noise_share) {
+  const auto share = [&](PatchDecision decision) { return verdict.share_of(decision); };
+  if (share(PatchDecision::Out) > 0.0) {
+    verdict.conformity = Conformity::Out;
+    return;
+  }
+  const bool covered =
+      verdict.coverage >= verdict.rule.min_coverage && verdict.gap_mm <= verdict.rule.max_gap_mm;
+  if (covered && !(share(PatchDecision::NearLimit) > 0.0) && verdict.patches > 0) {
+    verdict.conformity = Conformity::In;
+    return;
+  }
+  double largest = share(PatchDecision::NearLimit);
+  verdict.reason = UndecidedReason::NearLimit;
+  if (covered) return;
+  const double poor = share(PatchDecision::NotWellMeasured);
+  if (share(PatchDecision::NotMeasured) >= largest) {
+    largest = share(PatchDecision::NotMeasured);
+    verdict.reason = UndecidedReason::NotMeasured;
+  }
+  if (poor > largest) {
+    verdict.reason =
+        2.0 * noise_share > poor ? UndecidedReason::Noise : UndecidedReason::Systematic;
+  }
+}
+
+}  // namespace
+
+void SurfaceRule::check() const {
+  limits.check();
+  require(std::isfinite(min_feature_mm) && min_feature_mm >= 0.0,
+          "`min_feature_mm` must be 0 or more");
+  require(max_uncertainty_share > 0.0 && max_uncertainty_share <= 1.0,
+          "`max_uncertainty_share` must be above 0, and 1 at most");
+  require(min_coverage >= 0.0 && min_coverage <= 1.0, "`min_coverage` must be from 0 to 1");
+  require(std::isfinite(max_gap_mm) && max_gap_mm >= 0.0, "`max_gap_mm` must be 0 or more");
+}
+
+double SurfaceVerdict::share_of(PatchDecision decision) const {
+  return share.at(static_cast<std::size_t>(decision));
+}
+
+SurfaceVerdict judge_surface(const SurfacePatches& patches, const SurfaceRule& rule) {
+  rule.check();
+  constexpr double kGapOverSize = 0.1;
+  SurfaceVerdict verdict;
+  verdict.rule = rule;
+  verdict.rule.min_feature_mm = patches.diameter_mm;
+  if (!(rule.max_gap_mm > 0.0)) verdict.rule.max_gap_mm = kGapOverSize * patches.size_mm;
+  verdict.area_mm2 = patches.total_area_mm2;
+  verdict.noise_factor = patches.noise_factor;
+  const OutGuard guard = out_guard_of(patches);
+  verdict.independent = guard.independent;
+  std::vector<PatchDecision> decided;
+  std::vector<double> known_u;
+  double noise_share = 0.0;
+  std::size_t lowest = patches.size();
+  std::size_t highest = patches.size();
+  for (std::size_t i = 0; i < patches.size(); ++i) {
+    decided.push_back(decide(patches, i, rule, guard));
+    const double share = patches.area_mm2[i] / patches.total_area_mm2;
+    verdict.share.at(static_cast<std::size_t>(decided.back())) += share;
+    if (decided.back() == PatchDecision::NotWellMeasured &&
+        patches.noise_mm[i] > patches.systematic_mm[i])
+      noise_share += share;
+    if (!patches.is_measured(i)) continue;
+    if (patches.uncertainty_known) known_u.push_back(patches.u_mm(i));
+    if (is_gap(decided.back())) continue;
+    ++verdict.patches;
+    const float value = patches.deviation_mm[i];
+    if (lowest == patches.size() || value < patches.deviation_mm[lowest]) lowest = i;
+    if (highest == patches.size() || value > patches.deviation_mm[highest]) highest = i;
+  }
+  verdict.coverage = 1.0 - verdict.share_of(PatchDecision::NotMeasured) -
+                     verdict.share_of(PatchDecision::NotWellMeasured);
+  if (lowest < patches.size()) verdict.lowest = extreme_of(patches, lowest);
+  if (highest < patches.size()) verdict.highest = extreme_of(patches, highest);
+  if (!known_u.empty()) verdict.median_u_mm = median_in_place(std::span<double>(known_u));
+  find_gap(verdict, patches, decided);
+  conclude(verdict, noise_share);
+  verdict.places = places_of(patches, decided, rule.limits);
+  if (verdict.places.size() > kMostPlaces) verdict.places.resize(kMostPlaces);
+  return verdict;
+}
+
+SurfaceVerdict judge_surface(const Mesh& mesh,
+                             const Deviations& deviations,
+                             const RayScene& reference,
+                             const SurfaceRule& rule,
+                             const Run& run) {
+  rule.check();
+  return judge_surface(
+      surface_patches(mesh, deviations, reference, rule.min_feature_mm, rule.excluded, run), rule);
+}
+
+}  // namespace frangia

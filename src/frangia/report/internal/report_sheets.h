@@ -1,0 +1,30 @@
+#pragma once
+
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "frangia/report/html_page.h"
+#include "frangia/report/inspection_report.h"
+
+namespace frangia::report {
+
+using Rows = std::vector<std::vector<std::string>>;  ///< of a table
+
+/// A number with that many decimals; empty for NaN.
+[[nodiscard]] inline std::string number_text(double value, int decimals) {
+  return std::isfinite(value) ? fmt::format("{:.{}f}", value, decimals) : "";
+}
+
+/// The first sheet: head, verdict, the first picture and the worst rows of results; then all rows,
+/// where the first sheet has no room for them.
+void add_cover(HtmlPage& page, const InspectionReport& report);
+/// The other pictures, the places that are out or undecided, walls, sections and features.
+void add_findings(HtmlPage& page, const InspectionReport& report);
+/// The decision in detail, the uncertainty, the alignment and the conditions.
+void add_annex(HtmlPage& page, const InspectionReport& report);
+
+}  // namespace frangia::report

@@ -1,0 +1,151 @@
+#include "frangia/report/labelled_picture.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "frangia/core/html_escaped.h"
+#include "frangia/frames/encode_picture.h"
+#include "frangia/report/html_page.h"
+
+namespace frangia {
+namespace {
+
+constexpr double kSheetWidth_mm = 182.0;  // A4 less its margins
+constexpr double kBoxInset_px = 4.0;      // of a label in its column
+
+const char* color_of_label(Conformity conformity) {
+  if (conformity == Conformity::Out) return "#b00020";
+  return conformity == Conformity::In ? "#0a6b2d" : "#8a5a00";
+}
+
+/// The first characters of a text, so that it fits its box.
+std::string shortened(const std::string& text, std::size_t most) {
+  std::size_t bytes = 0;
+  std::size_t characters = 0;
+  while (bytes < text.size() && characters < most) {
+    ++bytes;
+    while (bytes < text.size() && (static_cast<unsigned char>(text[bytes]) & 0xC0U) == 0x80U)
+      ++bytes;
+    ++characters;
+  }
+  return bytes == text.size() ? text : text.substr(0, bytes) + "…";
+}
+
+std::string drawn_label(const PictureLabel& label, const LabelBox& box, double width_px) {
+  constexpr std::size_t kTextCharacters = 17;
+  constexpr std::size_t kDetailCharacters = 21;
+  const double height = LabelLayout{}.height_px;
+  const double wide = kLabelColumn_px - 2.0 * kBoxInset_px;
+  const double left = kBoxInset_px + (box.right ? kLabelColumn_px + width_px : 0.0);
+  const double edge = box.right ? left : left + wide;
+  const double x = kLabelColumn_px + label.at_px.x();
+  const char* color = color_of_label(label.conformity);
+  return fmt::format(
+      "<path d=\"M{0:.1f} {1:.1f}L{2:.1f} {3:.1f}\" stroke=\"#fff\" stroke-width=\"3\"/>"
+      "<path d=\"M{0:.1f} {1:.1f}L{2:.1f} {3:.1f}\" stroke=\"#1c2126\" stroke-width=\"1\"/>"
+      "<circle cx=\"{2:.1f}\" cy=\"{3:.1f}\" r=\"3.5\" fill=\"{4}\" stroke=\"#fff\"/>"
+      "<rect class=\"label\" x=\"{5:.1f}\" y=\"{6:.1f}\" width=\"{7:.1f}\" height=\"{8:.1f}\" "
+      "rx=\"3\" fill=\"#fff\" stroke=\"{4}\" stroke-width=\"1.2\"/>"
+      "<text x=\"{9:.1f}\" y=\"{10:.1f}\" font-size=\"15\" font-weight=\"700\" fill=\"{4}\">{11}"
+      "</text><text x=\"{9:.1f}\" y=\"{12:.1f}\" font-size=\"12.5\" fill=\"#1c2126\">{13}</text>\n",
+      edge,
+      box.top_px + 0.5 * height,
+      x,
+      label.at_px.y(),
+      color,
+      left,
+      box.top_px,
+      wide,
+      height,
+      left + 6.0,
+      box.top_px + 16.5,
+      html_escaped(shortened(label.text, kTextCharacters)),
+      box.top_px + 32.0,
+      html_escaped(shortened(label.detail, kDetailCharacters)));
+}
+
+std::string hex_color(ColorMap map, double share) {
+  const Eigen::Vector3f color = color_of(map, static_cast<float>(share));
+  const auto part = [&](int i) { return static_cast<int>(std::lround(255.0F * color[i])); };
+  return fmt::format("#{:02x}{:02x}{:02x}", part(0), part(1), part(2));
+}
+
+std::string drawn_scale(const PictureScale& scale) {
+  constexpr double kWide = 1060.0;
+  constexpr double kFrom = 330.0;
+  constexpr double kLong = 560.0;
+  constexpr int kSteps = 56;
+  std::string svg = fmt::format(
+      "<svg viewBox=\"0 0 {:g} 40\" width=\"{:g}\" height=\"40\" font-family=\"sans-serif\" "
+      "font-size=\"14\" style=\"width:{}mm;height:6.87mm\"><text x=\"{:g}\" y=\"14\" "
+      "text-anchor=\"end\">{}</text>",
+      kWide,
+      kWide,
+      kSheetWidth_mm,
+      kFrom - 18.0,
+      html_escaped(scale.quantity));
+  for (int i = 0; i < kSteps; ++i) {
+    svg += fmt::format("<rect x=\"{:.2f}\" y=\"2\" width=\"{:.2f}\" height=\"14\" fill=\"{}\"/>",
+                       kFrom + kLong * i / kSteps,
+                       kLong / kSteps + 0.4,
+                       hex_color(scale.color_map, (i + 0.5) / kSteps));
+  }
+  std::vector<double> ticks{scale.low, scale.high};
+  if (scale.low < 0.0 && scale.high > 0.0) ticks.push_back(0.0);
+  if (scale.limits) {
+    ticks.push_back(scale.limits->lower);
+    ticks.push_back(scale.limits->upper);
+  }
+  std::set<long> used;  // places of texts, in their width
+  for (std::size_t i = ticks.size(); i-- > 0;) {
+    const double share = (ticks[i] - scale.low) / (scale.high - scale.low);
+    if (!(share >= 0.0 && share <= 1.0)) continue;
+    const double x = kFrom + share * kLong;
+    constexpr double kTextWide = 62.0;
+    const long cell = std::lround(x);
+    const bool crowded = std::any_of(used.begin(), used.end(), [&](long other) {
+      return std::abs(static_cast<double>(other) - x) < kTextWide;
+    });
+    if (crowded) continue;
+    used.insert(cell);
+    const bool limit = i >= 2 && scale.limits &&
+                       (ticks[i] == scale.limits->lower || ticks[i] == scale.limits->upper);
+    svg += fmt::format(
+        "<path d=\"M{0:.1f} 0V20\" stroke=\"#1c2126\" stroke-width=\"{1}\"/><text x=\"{0:.1f}\" "
+        "y=\"35\" text-anchor=\"middle\">{2}</text>",
+        x,
+        limit ? 2.5 : 1.0,
+        scale.low < 0.0 ? fmt::format("{:+.3g}", ticks[i]) : fmt::format("{:.3g}", ticks[i]));
+  }
+  return svg + "</svg>";
+}
+
+}  // namespace
+
+std::string labelled_picture(const ReportPicture& picture) {
+  const double wide = picture.picture.width();
+  const double high = picture.picture.height();
+  const double total = wide + 2.0 * kLabelColumn_px;
+  const double height_mm = kSheetWidth_mm * high / total;
+  std::string html = fmt::format(
+      "<figure><div class=\"labelled\" style=\"width:{0}mm;height:{1:.2f}mm\"><img alt=\"{2}\" "
+      "src=\"{3}\"><svg viewBox=\"0 0 {4:g} {5:g}\" width=\"{4:g}\" height=\"{5:g}\" "
+      "style=\"width:{0}mm;height:{1:.2f}mm\" font-family=\"sans-serif\" fill=\"none\">\n",
+      kSheetWidth_mm,
+      height_mm,
+      html_escaped(picture.caption),
+      data_uri("image/png", encode_picture(picture.picture)),
+      total,
+      high);
+  for (const LabelBox& box : place_labels(picture.labels, wide, high))
+    html += drawn_label(picture.labels[box.label], box, wide);
+  html += "</svg></div>";
+  if (picture.scale) html += drawn_scale(*picture.scale);
+  return html +
+         fmt::format("<figcaption>{}</figcaption></figure>\n", html_escaped(picture.caption));
+}
+
+}  // namespace frangia

@@ -1,0 +1,150 @@
+// The first sheet of a report.
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "frangia/core/html_escaped.h"
+#include "frangia/report/internal/report_sheets.h"
+#include "frangia/report/result_table.h"
+
+namespace frangia::report {
+namespace {
+
+/// How many rows of results the first sheet has room for.
+std::size_t rows_on_cover(const InspectionReport& report, std::size_t rows) {
+  constexpr std::size_t kBesidePicture = 8;
+  constexpr std::size_t kWithoutPicture = 20;
+  const std::size_t room = report.pictures.empty() ? kWithoutPicture : kBesidePicture;
+  const std::size_t warnings = std::min<std::size_t>(report.warnings.size(), 4);
+  return std::min(rows, room - warnings);
+}
+
+const char* word_of(Conformity verdict) {
+  if (verdict == Conformity::In) return "In tolerance";
+  return verdict == Conformity::Out ? "Out of tolerance" : "Undecided";
+}
+
+bool has_verdict(const InspectionReport& report) {
+  return report.surface || std::any_of(report.characteristics.begin(),
+                                       report.characteristics.end(),
+                                       [](const auto& row) { return row.limits.has_value(); });
+}
+
+/// A traffic light with the lamp of the verdict lit.
+std::string lamps_of(Conformity verdict) {
+  const auto lamp = [&](double y, Conformity of, const char* color) {
+    return fmt::format(
+        "<circle cx=\"20\" cy=\"{}\" r=\"13\" fill=\"{}\"/>", y, verdict == of ? color : "#4b5560");
+  };
+  return "<svg viewBox=\"0 0 40 104\" width=\"40\" height=\"104\"><rect width=\"40\" "
+         "height=\"104\" rx=\"9\" fill=\"#1c2126\"/>" +
+         lamp(20, Conformity::Out, "#f04a3c") + lamp(52, Conformity::Undecided, "#ffc233") +
+         lamp(84, Conformity::In, "#35c46a") + "</svg>";
+}
+
+void add_head(HtmlPage& page, const InspectionReport& report) {
+  const ReportFields& fields = report.fields;
+  std::string mark;
+  if (report.logo) {
+    mark = fmt::format("<img alt=\"logo\" src=\"{}\">",
+                       data_uri(report.logo->media_type, report.logo->bytes));
+  }
+  page.html(fmt::format(
+      "<table class=\"brand\"><tr><td>{}<h1>Inspection report</h1></td><td>{}</td></tr></table>\n",
+      mark,
+      html_escaped(fields.date.empty() ? report.created : fields.date)));
+  std::vector<std::pair<const char*, const std::string*>> facts;
+  const auto add = [&](const char* name, const std::string& text) {
+    if (!text.empty()) facts.emplace_back(name, &text);
+  };
+  add("part", report.part);
+  add("drawing", fields.drawing);
+  add("serial number", fields.serial);
+  add("order", fields.order);
+  add("customer", fields.customer);
+  add("operator", fields.inspector);
+  add("mesh", report.mesh);
+  std::string html = "<table class=\"fields\">";
+  for (std::size_t i = 0; i < facts.size(); i += 2) {
+    html += "<tr>";
+    for (std::size_t k = i; k < i + 2; ++k) {
+      html += k < facts.size() ? fmt::format("<td class=\"name\">{}</td><td class=\"fact\">{}</td>",
+                                             facts[k].first,
+                                             html_escaped(*facts[k].second))
+                               : std::string("<td class=\"name\"></td><td class=\"fact\"></td>");
+    }
+    html += "</tr>\n";
+  }
+  page.html(html + "</table>\n");
+}
+
+void add_verdict(HtmlPage& page, const InspectionReport& report) {
+  if (!has_verdict(report)) return;
+  const Conformity verdict = verdict_of(report);
+  // Sizes of features have an uncertainty by their points, deviations only by the mesh's sigma.
+  const bool unknown = report.deviation && !std::isfinite(report.deviation->median_u_mm);
+  const char* const counted =
+      unknown ? "but without an uncertainty: the mesh holds no sigma" : "the uncertainty counted";
+  std::string text = word_of(verdict);
+  if (verdict != Conformity::Undecided) text += fmt::format(", {}", counted);
+  const char* kind = verdict == Conformity::Out              ? "bad"
+                     : verdict == Conformity::In && !unknown ? "good"
+                                                             : "open";
+  std::string reasons;
+  for (const std::string& reason : reasons_of(report))
+    reasons += fmt::format("<div>{}</div>", html_escaped(reason));
+  page.html(
+      fmt::format("<table class=\"signal verdict {}\"><tr><td class=\"lamps\">{}</td><td><div "
+                  "class=\"word\">{}</div>{}</td></tr></table>\n",
+                  kind,
+                  lamps_of(verdict),
+                  text,
+                  reasons));
+}
+
+/// Rows of the table of results, the worst first.
+std::vector<MeasuredCharacteristic> rows_of_results(const InspectionReport& report) {
+  std::vector<MeasuredCharacteristic> rows = report.characteristics;
+  if (report.surface) rows.push_back(surface_row(*report.surface));
+  return worst_first(std::move(rows));
+}
+
+/// The table of results, where the first sheet holds a part of it.
+void add_all_results(HtmlPage& page, const InspectionReport& report) {
+  const auto rows = rows_of_results(report);
+  if (rows.size() <= rows_on_cover(report, rows.size())) return;
+  page.heading("Results, the worst first");
+  page.html(result_table(rows, rows.size()));
+}
+
+}  // namespace
+
+void add_cover(HtmlPage& page, const InspectionReport& report) {
+  constexpr std::size_t kWarnings = 3;
+  add_head(page, report);
+  add_verdict(page, report);
+  for (std::size_t i = 0; i < std::min(kWarnings, report.warnings.size()); ++i)
+    page.verdict("open", report.warnings[i]);
+  if (report.warnings.size() > kWarnings)
+    page.paragraph(
+        fmt::format("{} more warnings: see the annex.", report.warnings.size() - kWarnings));
+  if (!report.pictures.empty()) page.html(labelled_picture(report.pictures.front()));
+  const auto rows = rows_of_results(report);
+  const std::size_t shown = rows_on_cover(report, rows.size());
+  if (!rows.empty()) page.html(result_table(rows, shown));
+  if (rows.size() > shown)
+    page.paragraph(
+        fmt::format("The {} worst of {} rows; all are on the next page.", shown, rows.size()));
+  if (has_verdict(report)) {
+    page.html(
+        "<p class=\"small\">Decision rule: ISO 14253-1:2017, guard band 1.645 u, probability of "
+        "error 5 %. A "
+        "value is in when it lies inside of its limits by the guard band, and out when it lies "
+        "beyond one by as "
+        "much. The bar spans the tolerance; the dot is the value, the line its U95.</p>\n");
+  }
+  page.new_sheet();
+  add_all_results(page, report);
+}
+
+}  // namespace frangia::report

@@ -1,0 +1,287 @@
+// The decision about a surface by patches of the nominal one.
+#include "frangia/inspect/surface_verdict.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include <gtest/gtest.h>
+
+#include "frangia/core/random.h"
+#include "frangia/geometry/ray_scene.h"
+
+#include "support/test_meshes.h"
+
+namespace frangia {
+namespace {
+
+using Eigen::Vector3d;
+using Eigen::Vector3f;
+
+constexpr float kSigma = 0.005F;
+
+/// A plate of 60 x 60 mm with a vertex a millimetre, its noise and a height.
+class Plate {
+ public:
+  Plate() : nominal_(testing::level_grid(61, 61)), mesh_(nominal_) {
+    mesh_.sigma_mm.assign(mesh_.vertices_mm.size(), kSigma);
+  }
+
+  Plate& raise(const std::function<double(const Vector3f&)>& height) {
+    for (Vector3f& vertex : mesh_.vertices_mm)
+      vertex.z() += static_cast<float>(height(vertex));
+    return *this;
+  }
+
+  Plate& add_noise(std::uint64_t seed, double sigma) {
+    for (std::size_t i = 0; i < mesh_.vertices_mm.size(); ++i)
+      mesh_.vertices_mm[i].z() += static_cast<float>(sigma * normal_from(hash(seed, i)));
+    return *this;
+  }
+
+  Plate& remove(const std::function<bool(const Vector3f&)>& gone) {
+    std::erase_if(mesh_.triangles, [&](const Mesh::Triangle& triangle) {
+      return std::any_of(triangle.begin(), triangle.end(), [&](std::uint32_t v) {
+        return gone(mesh_.vertices_mm[v]);
+      });
+    });
+    return *this;
+  }
+
+  Mesh& mesh() { return mesh_; }
+
+  [[nodiscard]] SurfaceVerdict verdict(const SurfaceRule& rule) const {
+    const RayScene reference(nominal_);
+    return judge_surface(mesh_, deviations_of(mesh_, reference), reference, rule);
+  }
+
+ private:
+  Mesh nominal_;
+  Mesh mesh_;
+};
+
+double distance_from(const Vector3f& vertex, double x, double y) {
+  return std::hypot(static_cast<double>(vertex.x()) - x, static_cast<double>(vertex.y()) - y);
+}
+
+TEST(SurfaceVerdict, OfAMeshAgainstItselfIsIn) {
+  Mesh mesh = testing::sphere({0, 0, 0}, 20.0, 40);
+  mesh.sigma_mm.assign(mesh.vertices_mm.size(), 0.01F);
+  const RayScene reference(mesh);
+  const SurfaceVerdict verdict = judge_surface(
+      mesh, deviations_of(mesh, reference), reference, {.limits = {-0.0784, 0.0784}});  // 4 U
+  EXPECT_EQ(verdict.conformity, Conformity::In);
+  EXPECT_GT(verdict.coverage, 0.995);
+  EXPECT_EQ(sentence_of(verdict).find("in, over "), 0U) << sentence_of(verdict);
+  EXPECT_NEAR(verdict.area_mm2, 4.0 * 3.14159 * 400.0, 30.0);
+}
+
+TEST(SurfaceVerdict, OfACoarseTessellationAgainstItselfIsIn) {
+  const Mesh box = testing::box({0, 0, 0}, {30, 20, 10});  // 12 triangles
+  const RayScene reference(box);
+  const SurfaceVerdict verdict =
+      judge_surface(box, deviations_of(box, reference), reference, {.min_feature_mm = 1.0});
+  EXPECT_EQ(verdict.conformity, Conformity::In) << sentence_of(verdict);
+  EXPECT_GT(verdict.coverage, 0.999);
+}
+
+TEST(SurfaceVerdict, IsNotDecidedByOneVertexOfMany) {
+  Plate plate;
+  plate.add_noise(3, static_cast<double>(kSigma));
+  plate.mesh().sigma_mm[61 * 30 + 30] = 5.0F;
+  const SurfaceVerdict verdict = plate.verdict({.limits = {-0.05, 0.05}});
+  EXPECT_EQ(verdict.conformity, Conformity::In) << sentence_of(verdict);
+  EXPECT_GT(verdict.share_of(PatchDecision::NotWellMeasured), 0.0);
+  EXPECT_LT(verdict.coverage, 1.0);
+}
+
+TEST(SurfaceVerdict, AveragesNoiseAndKeepsTheSystematicPart) {
+  Plate plate;
+  plate.add_noise(5, 0.02);
+  Mesh& mesh = plate.mesh();
+  mesh.sigma_noise_mm.assign(mesh.vertices_mm.size(), 0.02F);
+  mesh.sigma_systematic_mm.assign(mesh.vertices_mm.size(), 0.005F);
+  mesh.sigma_mm.assign(mesh.vertices_mm.size(), std::hypot(0.02F, 0.005F));
+  const RayScene reference(testing::level_grid(61, 61));
+  const Deviations found = deviations_of(mesh, reference);
+  const SurfacePatches patches = surface_patches(mesh, found, reference, 8.0);
+  EXPECT_LT(patches.noise_factor, 1.5);
+  for (std::size_t i = 0; i < patches.size(); ++i) {
+    const Vector3f& at = patches.center_mm[i];
+    if (at.head<2>().minCoeff() < 5.0F || at.head<2>().maxCoeff() > 55.0F) continue;
+    // A circle of 8 mm holds 50 vertices.
+    EXPECT_NEAR(
+        patches.noise_mm[i] / std::sqrt(patches.noise_factor), 0.02 / std::sqrt(50.3), 4e-4);
+    EXPECT_NEAR(patches.systematic_mm[i], 0.005, 1e-6);
+  }
+  std::size_t within = 0;
+  for (const float deviation : patches.deviation_mm)
+    within += std::abs(deviation) < 2.5F * 0.02F / 7.0F ? 1U : 0U;
+  EXPECT_GT(within, patches.size() * 95 / 100);
+}
+
+TEST(SurfaceVerdict, CountsNoiseThatNeighborsShare) {
+  Plate plate;
+  // All vertices of squares of 3 x 3 err alike: a mean of nine is no better than one vertex.
+  plate.raise([](const Vector3f& at) {
+    const auto column = static_cast<std::uint64_t>(at.x()) / 3U;
+    const auto row = static_cast<std::uint64_t>(at.y()) / 3U;
+    return 0.01 * normal_from(hash(7U + column, row));
+  });
+  plate.mesh().sigma_mm.assign(plate.mesh().vertices_mm.size(), 0.01F);
+  const RayScene reference(testing::level_grid(61, 61));
+  const SurfacePatches patches =
+      surface_patches(plate.mesh(), deviations_of(plate.mesh(), reference), reference, 6.0);
+  EXPECT_GT(patches.noise_factor, 4.0);
+  EXPECT_LT(patches.noise_factor, 13.0);
+}
+
+TEST(SurfaceVerdict, OfADentIsOutAtItsPlace) {
+  const double u = static_cast<double>(kSigma) / std::sqrt(3.1);  // of a patch of 2 mm
+  const double depth = 0.05 + 3.0 * 1.96 * u;
+  int out = 0;
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    Plate plate;
+    plate.raise([&](const Vector3f& at) { return distance_from(at, 20, 40) < 3.1 ? -depth : 0.0; });
+    plate.add_noise(seed, static_cast<double>(kSigma));
+    const SurfaceVerdict verdict = plate.verdict({.limits = {-0.05, 0.05}});
+    if (verdict.conformity != Conformity::Out) continue;
+    ASSERT_FALSE(verdict.places.empty());
+    const SurfacePlace& place = verdict.places.front();
+    EXPECT_EQ(place.decision, PatchDecision::Out);
+    EXPECT_LT(distance_from(place.at_mm.cast<float>(), 20, 40), 3.5);
+    EXPECT_NEAR(place.deviation_mm, -depth, 0.015);
+    ++out;
+  }
+  EXPECT_GE(out, 19);
+}
+
+TEST(SurfaceVerdict, ProvesOutButNeverInWhereTheUncertaintyIsLarge) {
+  Plate noisy;
+  noisy.mesh().sigma_mm.assign(noisy.mesh().vertices_mm.size(), 0.04F);
+  const SurfaceVerdict open = noisy.verdict({.limits = {-0.1, 0.1}});
+  EXPECT_EQ(open.conformity, Conformity::Undecided);
+  EXPECT_EQ(open.reason, UndecidedReason::Noise);
+  EXPECT_EQ(open.share_of(PatchDecision::In), 0.0);
+  EXPECT_NE(sentence_of(open).find("mostly noise"), std::string::npos) << sentence_of(open);
+  Mesh& mesh = noisy.mesh();
+  mesh.sigma_noise_mm.assign(mesh.vertices_mm.size(), 0.001F);
+  const SurfaceVerdict biased = noisy.verdict({.limits = {-0.1, 0.1}});
+  EXPECT_EQ(biased.reason, UndecidedReason::Systematic);
+  EXPECT_NE(sentence_of(biased).find("this rig can decide"), std::string::npos);
+  noisy.raise([](const Vector3f&) { return 0.6; });
+  EXPECT_EQ(noisy.verdict({.limits = {-0.1, 0.1}}).conformity, Conformity::Out);
+}
+
+TEST(SurfaceVerdict, CountsTheNominalAreaThatWasNotMeasured) {
+  Plate plate;
+  plate.remove([](const Vector3f& at) { return distance_from(at, 30, 30) < 10.2; });
+  SurfaceRule rule{.limits = {-0.05, 0.05}};
+  const SurfaceVerdict open = plate.verdict(rule);
+  EXPECT_EQ(open.conformity, Conformity::Undecided);
+  EXPECT_EQ(open.reason, UndecidedReason::NotMeasured);
+  EXPECT_NEAR(open.gap_mm, 20.0, 4.0);
+  EXPECT_LT((open.gap_at_mm - Vector3d(30, 30, 0)).norm(), 3.0);
+  EXPECT_NEAR(open.share_of(PatchDecision::NotMeasured), 3.14159 * 100.0 / 3600.0, 0.04);
+  EXPECT_NE(sentence_of(open).find("exclude it in the plan"), std::string::npos);
+  rule.excluded = {{"bore", {18, 18, -1}, {42, 42, 1}}};
+  const SurfaceVerdict judged = plate.verdict(rule);
+  EXPECT_EQ(judged.conformity, Conformity::In) << sentence_of(judged);
+  EXPECT_NEAR(judged.area_mm2, 3600.0 - 24.0 * 24.0, 30.0);
+  rule.excluded.clear();
+  rule.max_gap_mm = 30.0;
+  rule.min_coverage = 0.8;
+  EXPECT_EQ(plate.verdict(rule).conformity, Conformity::In);
+  rule.min_coverage = 0.97;
+  EXPECT_EQ(plate.verdict(rule).conformity, Conformity::Undecided);
+}
+
+/// Nominal: a box of 40 x 40 x 10 mm with a round boss. Measured: its top without the boss, and
+/// nothing else.
+TEST(SurfaceVerdict, OfAMissingBossIsOutThere) {
+  Mesh nominal = testing::level_grid(41, 41);
+  for (Vector3f& vertex : nominal.vertices_mm)
+    vertex.z() = distance_from(vertex, 12, 25) < 6.5 ? 15.0F : 10.0F;
+  const auto top = static_cast<std::uint32_t>(nominal.vertices_mm.size());
+  for (std::uint32_t i = 0; i < top; ++i)
+    nominal.vertices_mm.emplace_back(nominal.vertices_mm[i].x(), nominal.vertices_mm[i].y(), 0.0F);
+  const auto upper = nominal.triangles;
+  for (const auto& [a, b, c] : upper)
+    nominal.triangles.push_back({a + top, c + top, b + top});
+  Mesh measured = testing::level_grid(41, 41);
+  for (Vector3f& vertex : measured.vertices_mm)
+    vertex.z() = 10.0F;
+  measured.sigma_mm.assign(measured.vertices_mm.size(), kSigma);
+  const RayScene reference(nominal);
+  const SurfaceVerdict verdict = judge_surface(measured,
+                                               deviations_of(measured, reference),
+                                               reference,
+                                               {.limits = {-0.1, 0.1}, .min_feature_mm = 2.0});
+  EXPECT_EQ(verdict.conformity, Conformity::Out);
+  ASSERT_FALSE(verdict.places.empty());
+  EXPECT_LT(distance_from(verdict.places.front().at_mm.cast<float>(), 12, 25), 9.0);
+  const auto missing = std::find_if(verdict.places.begin(),
+                                    verdict.places.end(),
+                                    [](const SurfacePlace& place) { return place.missing; });
+  ASSERT_NE(missing, verdict.places.end());
+  EXPECT_GT(missing->area_mm2, 50.0);  // the cap of the boss has 133 mm2
+}
+
+TEST(SurfaceVerdict, SharesOfASurfaceWithABase) {
+  // The base of a box was not measured: below it there is no measured surface that faces down.
+  Mesh box = testing::box({0, 0, 0}, {30, 30, 10});
+  const RayScene reference(box);
+  std::erase_if(box.triangles, [&](const Mesh::Triangle& triangle) {
+    return std::all_of(triangle.begin(), triangle.end(), [&](std::uint32_t v) {
+      return box.vertices_mm[v].z() < 0.1F;
+    });
+  });
+  Deviations found = deviations_of(box, reference);
+  const SurfaceVerdict verdict = judge_surface(box, found, reference, {.min_feature_mm = 1.0});
+  EXPECT_EQ(verdict.share_of(PatchDecision::Out), 0.0);
+  EXPECT_EQ(verdict.conformity, Conformity::Undecided);
+  EXPECT_EQ(verdict.reason, UndecidedReason::NotMeasured);
+}
+
+/// A good part is called out no more often than in one of twenty cases, however many patches it
+/// has, and also where all of them err alike.
+TEST(SurfaceVerdict, DoesNotCallAGoodPartBad) {
+  const RayScene reference(testing::level_grid(61, 61));
+  Plate plate;
+  Mesh& mesh = plate.mesh();
+  mesh.sigma_noise_mm.assign(mesh.vertices_mm.size(), 0.02F);
+  for (const double common : {0.0, 0.02}) {
+    mesh.sigma_mm.assign(mesh.vertices_mm.size(), static_cast<float>(std::hypot(0.02, common)));
+    for (Vector3f& vertex : mesh.vertices_mm)
+      vertex.z() = 0.0F;
+    Deviations found = deviations_of(mesh, reference);
+    int bad = 0;
+    constexpr int kTrials = 200;
+    for (std::uint64_t seed = 0; seed < kTrials; ++seed) {
+      const double alike = common * normal_from(hash(seed, 1U << 30U));
+      for (std::size_t i = 0; i < mesh.vertices_mm.size(); ++i) {
+        // The whole part lies at its limit.
+        if (found.status[i] != DeviationStatus::Compared) continue;
+        found.deviation_mm[i] = static_cast<float>(0.1 + alike + 0.02 * normal_from(hash(seed, i)));
+        mesh.vertices_mm[i].z() = found.deviation_mm[i];
+      }
+      const SurfaceVerdict verdict = judge_surface(mesh, found, reference, {.limits = {-0.1, 0.1}});
+      bad += verdict.conformity == Conformity::Out ? 1 : 0;
+    }
+    EXPECT_LE(bad, kTrials / 20 + 8) << common;  // 5 % and 2.6 standard deviations
+    if (common == 0.0) {
+      EXPECT_GE(bad, 1);
+    }
+  }
+}
+
+TEST(SurfaceVerdict, SharesNeverRoundToNothingOrAll) {
+  EXPECT_EQ(share_text(0.9999999), "99.9 %");
+  EXPECT_EQ(share_text(1e-9), "0.1 %");
+  EXPECT_EQ(share_text(0.9734), "97.3 %");
+  EXPECT_EQ(share_text(0.0), "0 %");
+  EXPECT_EQ(share_text(1.0), "100 %");
+}
+
+}  // namespace
+}  // namespace frangia

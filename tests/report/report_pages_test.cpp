@@ -1,0 +1,190 @@
+// The sheets of a report: labels, the table of results, the head.
+#include <fstream>
+#include <regex>
+
+#include <gtest/gtest.h>
+
+#include "frangia/core/random.h"
+#include "frangia/report/inspection_report.h"
+#include "frangia/report/result_table.h"
+
+#include "support/error_of.h"
+#include "support/temporary_folder.h"
+
+namespace frangia {
+namespace {
+
+using testing::error_of;
+
+/// A rectangle of a drawing.
+struct Box {
+  double x, y, width, height;
+};
+
+bool overlap(const Box& a, const Box& b) {
+  return a.x < b.x + b.width && b.x < a.x + a.width && a.y < b.y + b.height && b.y < a.y + a.height;
+}
+
+std::vector<Box> labels_of(const std::string& drawing) {
+  static const std::regex kLabel(
+      R"re(<rect class="label" x="([-0-9.]+)" y="([-0-9.]+)" width="([0-9.]+)" height="([0-9.]+)")re");
+  std::vector<Box> boxes;
+  for (std::sregex_iterator i(drawing.begin(), drawing.end(), kLabel), end; i != end; ++i) {
+    const std::smatch& found = *i;
+    boxes.push_back(
+        {std::stod(found[1]), std::stod(found[2]), std::stod(found[3]), std::stod(found[4])});
+  }
+  return boxes;
+}
+
+ReportPicture random_picture(std::uint64_t seed) {
+  ReportPicture picture;
+  picture.caption = "picture";
+  picture.picture = Image<Rgb>(kReportPictureWidth_px, kReportPictureHeight_px, Rgb{1, 2, 3});
+  const auto uniform = [&](std::uint64_t i) { return uniform_from(hash(seed, i)); };
+  const auto count = static_cast<std::uint64_t>(30.0 * uniform(0));
+  // Half of the pictures have all places in one corner.
+  const double spread = seed % 2 == 0 ? 1.0 : 0.1;
+  for (std::uint64_t i = 0; i < count; ++i) {
+    picture.labels.push_back(
+        {"+0.1234 ± 0.0123",
+         std::string(static_cast<std::size_t>(40.0 * uniform(3 * i + 1)), 'W'),
+         Conformity::Out,
+         {spread * 720.0 * uniform(3 * i + 2), 440.0 * (1.0 - spread * uniform(3 * i + 3))}});
+  }
+  return picture;
+}
+
+TEST(ReportPages, LabelsDoNotOverlapInRandomReports) {
+  std::size_t labels = 0;
+  for (std::uint64_t seed = 1; seed <= 50; ++seed) {
+    const ReportPicture picture = random_picture(seed);
+    const std::vector<Box> boxes = labels_of(labelled_picture(picture));
+    EXPECT_EQ(boxes.size(), std::min<std::size_t>(picture.labels.size(), 12)) << seed;
+    labels += boxes.size();
+    for (std::size_t i = 0; i < boxes.size(); ++i) {
+      // Within the drawing, and beside the picture.
+      EXPECT_GE(boxes[i].y, 0.0);
+      EXPECT_LE(boxes[i].y + boxes[i].height, 440.0 + 0.1);
+      EXPECT_TRUE(boxes[i].x + boxes[i].width <= kLabelColumn_px ||
+                  boxes[i].x >= kLabelColumn_px + 720.0);
+      EXPECT_LE(boxes[i].x + boxes[i].width, 720.0 + 2.0 * kLabelColumn_px);
+      for (std::size_t k = 0; k < i; ++k)
+        EXPECT_FALSE(overlap(boxes[i], boxes[k])) << seed;
+    }
+  }
+  EXPECT_GT(labels, 300U);
+}
+
+TEST(ReportPages, ALabelStandsAtTheHeightOfItsPlaceWhereThereIsRoom) {
+  std::vector<PictureLabel> labels(2);
+  labels[0].at_px = {100.0, 300.0};
+  labels[1].at_px = {600.0, 100.0};
+  const auto boxes = place_labels(labels, 720.0, 440.0);
+  ASSERT_EQ(boxes.size(), 2U);
+  EXPECT_FALSE(boxes[0].right);
+  EXPECT_NEAR(boxes[0].top_px, 300.0 - 19.0, 1e-9);
+  EXPECT_TRUE(boxes[1].right);
+  EXPECT_NEAR(boxes[1].top_px, 100.0 - 19.0, 1e-9);
+}
+
+MeasuredCharacteristic result(const std::string& name, double value, double u95 = 0.004) {
+  MeasuredCharacteristic row;
+  row.name = name;
+  row.nominal = 10.0;
+  row.limits = ToleranceLimits{9.9, 10.1};
+  row.value = value;
+  row.u95 = u95;
+  row.conformity = conformity_of(value, u95 / 1.96, *row.limits);
+  return row;
+}
+
+TEST(ReportPages, ShowTheWorstRowsFirst) {
+  const auto rows = worst_first({result("good", 10.01),
+                                 result("fair", 9.93),
+                                 result("out", 10.2),
+                                 result("open", 10.099),
+                                 result("worse", 9.7)});
+  std::string order;
+  for (const auto& row : rows)
+    order += row.name + " ";
+  EXPECT_EQ(order, "worse out open fair good ");
+  EXPECT_NEAR(tolerance_used(rows[3]), 0.7, 1e-9);
+  MeasuredCharacteristic form;
+  form.limits = ToleranceLimits{-std::numeric_limits<double>::infinity(), 0.02};
+  form.value = 0.005;
+  EXPECT_NEAR(tolerance_used(form), 0.25, 1e-9);
+  InspectionReport report;
+  for (int i = 0; i < 30; ++i)
+    report.characteristics.push_back(result("d" + std::to_string(i), 10.0 + 0.001 * i));
+  report.characteristics.push_back(result("worst", 10.5));
+  report.pictures.push_back(random_picture(4));
+  const std::string page = html_of(report);
+  const auto sheet = page.find("class=\"sheet\"");
+  EXPECT_LT(page.find("<td>worst</td>"), sheet);
+  EXPECT_LT(page.find("<td>d29</td>"), sheet);
+  EXPECT_GT(page.find("<td>d0</td>"), sheet);
+  EXPECT_NE(page.find("The 8 worst of 31 rows"), std::string::npos);
+}
+
+TEST(ReportPages, DrawTheToleranceThatAValueUses) {
+  // The limits stand at 32 and 128 of 160.
+  EXPECT_NE(tolerance_bar(result("", 10.0)).find("cx=\"80.00\""), std::string::npos);
+  EXPECT_NE(tolerance_bar(result("", 10.1)).find("cx=\"128.00\""), std::string::npos);
+  EXPECT_NE(tolerance_bar(result("", 10.0, 0.05)).find("M56.00 10H104.00"), std::string::npos);
+  const std::string beyond = tolerance_bar(result("", 12.0));
+  EXPECT_EQ(beyond.find("circle"), std::string::npos);
+  EXPECT_NE(beyond.find("M159 10L149 4"), std::string::npos) << beyond;
+  MeasuredCharacteristic lost = result("", 0.0);
+  lost.value = kMissing;
+  EXPECT_EQ(tolerance_bar(lost), "");
+}
+
+TEST(ReportPages, BeginWithPartVerdictAndReason) {
+  InspectionReport report;
+  report.part = "flange";
+  report.fields = {.drawing = "D-17 rev B",
+                   .order = "4711",
+                   .serial = "SN <9>",
+                   .customer = "Müller & Co",
+                   .inspector = "A. Smith",
+                   .date = "2026-11-26",
+                   .paper = "Letter",
+                   .logo = {}};
+  report.logo = ReportLogo{"image/png", {'a', 'b', 'c'}};
+  report.surface.emplace();
+  report.surface->conformity = Conformity::In;
+  report.surface->coverage = 0.973;
+  report.deviation.emplace();
+  report.deviation->median_u_mm = 0.01;
+  const std::string page = html_of(report);
+  const std::string cover = page.substr(0, page.find("class=\"sheet\""));
+  for (const char* text : {"flange",
+                           "D-17 rev B",
+                           "4711",
+                           "SN &lt;9&gt;",
+                           "Müller &amp; Co",
+                           "A. Smith",
+                           "2026-11-26",
+                           "data:image/png;base64,YWJj",
+                           "In tolerance",
+                           "surface: in, over 97.3 % of the nominal area"})
+    EXPECT_NE(cover.find(text), std::string::npos) << text;
+  EXPECT_NE(page.find("@page{size:Letter"), std::string::npos);
+  EXPECT_NE(page.find("SN \\3c 9\\3e "), std::string::npos);  // at the head of each sheet
+  EXPECT_EQ(page.find("<script"), std::string::npos);
+  EXPECT_EQ(page.find("display:grid"), std::string::npos);
+}
+
+TEST(ReportLogo, MustBeAPicture) {
+  const testing::TemporaryFolder folder;
+  const auto path = folder.path() / "logo.txt";
+  std::ofstream(path) << "our company";
+  EXPECT_NE(error_of([&] {
+              static_cast<void>(read_logo(path));
+            }).find("logo.txt: the logo of a report must be a PNG or JPEG picture"),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace frangia
