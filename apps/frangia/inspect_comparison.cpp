@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "frangia/core/angles.h"
+#include "frangia/core/error.h"
 #include "frangia/core/lowercase_extension.h"
 #include "frangia/core/percent_text.h"
 #include "frangia/dataset/scan_folder.h"
@@ -92,6 +93,13 @@ Comparison compare_with(const InspectArguments& arguments,
   Comparison comparison;
   comparison.deviations = deviations_of(mesh, reference.scene, options, run);
   comparison.summary = summarize(mesh, comparison.deviations, arguments.alignment.band());
+  if (!(comparison.summary.area_mm2 > 0.0)) {
+    throw Error(ErrorKind::Numeric,
+                fmt::format("no part of the mesh can be compared with the reference; vertices left "
+                            "out: {}; `align` best-fit finds the pose, and `units` states the unit "
+                            "of the reference",
+                            left_out_text(comparison.summary)));
+  }
   return comparison;
 }
 

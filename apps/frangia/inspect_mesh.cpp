@@ -77,9 +77,12 @@ InspectedPart inspect_mesh(const InspectArguments& arguments,
   if (!arguments.picture.empty()) check_shown(arguments, part.mesh);
   if (arguments.features || !plan.features.empty()) add_shared_errors(arguments, part, run);
   if (reference) add_reference(answer, *reference);
-  if (!arguments.alignment.align.empty()) {
+  const std::string& how = arguments.alignment.align;
+  if (reference && (how.empty() || how == "none"))
+    refuse_unit_of_pose(part.mesh, reference->scene, Eigen::Isometry3d::Identity(), {}, run);
+  if (!how.empty()) {
     DatumFit fit;
-    if (arguments.alignment.align == "datum") {
+    if (how == "datum") {
       fit = align_by_datums(arguments, plan, part.mesh, *reference, run);
     } else {
       fit.alignment = align(part.mesh, reference->scene, arguments.alignment, run);

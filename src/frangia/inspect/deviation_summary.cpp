@@ -35,10 +35,9 @@ void decide(DeviationSummary& summary,
     all_in = all_in && one == Conformity::In;
     is_out = is_out || conformity_of(value, u, summary.limits, many) == Conformity::Out;
   }
-  if (compared == 0) return;
+  if (compared == 0 || !(summary.area_mm2 > 0.0)) return;
   summary.verdict = all_in ? Conformity::In : Conformity::Undecided;
   if (is_out) summary.verdict = Conformity::Out;
-  if (!(summary.area_mm2 > 0.0)) return;
   summary.in_share = area[0] / summary.area_mm2;
   summary.out_share = area[1] / summary.area_mm2;
   summary.undecided_share = area[2] / summary.area_mm2;

@@ -24,7 +24,7 @@ struct DeviationSummary {
   double out_share = 0.0;         ///< proven to be beyond a limit
   double undecided_share = 0.0;   ///< neither
   /// Of the part: out when a deviation is beyond the limits by the guard band of that many values,
-  /// in when every compared vertex is in, otherwise undecided.
+  /// in when every compared vertex is in, otherwise undecided; undecided where no area is compared.
   Conformity verdict = Conformity::Undecided;
   ToleranceLimits limits;  ///< that it was decided by
 };
