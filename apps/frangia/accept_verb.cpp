@@ -140,7 +140,7 @@ ArrangementResult measure_arrangement(const AcceptancePlan& plan,
 
 void accept(const AcceptArguments& arguments, Terminal& terminal) {
   const Run run = terminal.run();
-  const AcceptancePlan plan = read_acceptance_plan(arguments.plan, run);
+  const AcceptancePlan plan = read_acceptance_plan(arguments.plan);
   Rig rig;
   CertificateFacts facts;
   if (plan.source != AcceptanceSource::Scans) {

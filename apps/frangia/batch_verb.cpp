@@ -208,7 +208,7 @@ void print_rows(const std::vector<BatchRow>& rows, const fs::path& out, Terminal
 
 void batch_verb(const BatchArguments& arguments, const CLI::App& program, Terminal& terminal) {
   const Run run = terminal.run();
-  const BatchPlan plan = read_batch_plan(arguments.plan, run);
+  const BatchPlan plan = read_batch_plan(arguments.plan);
   make_folder(arguments.out);
   const int threads = threads_of(program, arguments.slurm ? 1 : arguments.jobs);
   if (arguments.slurm) {

@@ -10,6 +10,8 @@
 #include <nlohmann/json.hpp>
 
 #include "frangia/calibrate/write_board_pdf.h"
+#include "frangia/core/error.h"
+#include "frangia/core/lowercase_extension.h"
 
 #include "option_values.h"
 #include "print_text.h"
@@ -25,6 +27,7 @@ struct BoardArguments {
   double square_mm = 0.0;
   double marker_mm = 0.0;
   std::string dictionary = "DICT_5X5_100";
+  int first_id = 0;
   bool legacy_layout = false;
 };
 
@@ -34,6 +37,9 @@ BoardKind board_kind(const std::string& name) {
 }
 
 void calibrate_board_verb(const BoardArguments& arguments, Terminal& terminal) {
+  require(lowercase_extension(arguments.output) == ".pdf",
+          "a board is written as .pdf, which prints at true scale; give a file name that ends with "
+          ".pdf");
   const std::map<std::string, PaperSize> papers = {
       {"a4", {297.0, 210.0}}, {"a3", {420.0, 297.0}}, {"letter", {279.4, 215.9}}};
   const bool circles = arguments.kind == "circles";
@@ -45,6 +51,7 @@ void calibrate_board_verb(const BoardArguments& arguments, Terminal& terminal) {
                                        .square_mm = arguments.square_mm,
                                        .marker_mm = arguments.marker_mm,
                                        .dictionary = arguments.dictionary,
+                                       .first_id = arguments.first_id,
                                        .legacy_layout = arguments.legacy_layout},
                                       papers.at(arguments.paper));
   if (terminal.json) {
@@ -70,6 +77,7 @@ void calibrate_board_verb(const BoardArguments& arguments, Terminal& terminal) {
     if (charuco)
       print_text(
           "marker_mm = {:g}\ndictionary = \"{}\"\n", marker_side_mm(board), board.dictionary);
+    if (charuco && board.first_id != 0) print_text("first_id = {}\n", board.first_id);
     if (charuco && board.legacy_layout) print_text("legacy_layout = true\n");
   }
   terminal.print_written(arguments.output.string());
@@ -102,6 +110,9 @@ void add_calibrate_board_verb(CLI::App& calibrate, Terminal& terminal) {
       ->transform(length_above_zero());
   verb->add_option(
           "--dictionary", arguments->dictionary, "of the ChArUco markers, as OpenCV names it")
+      ->capture_default_str();
+  verb->add_option("--first-id", arguments->first_id, "id of the first ChArUco marker")
+      ->check(from_to(0, 249))
       ->capture_default_str();
   verb->add_flag("--legacy-layout",
                  arguments->legacy_layout,

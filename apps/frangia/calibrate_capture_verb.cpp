@@ -210,6 +210,10 @@ void add_calibrate_capture_verb(CLI::App& calibrate, Terminal& terminal) {
       ->transform(length_above_zero());
   verb->add_option("--dictionary", arguments->board.dictionary, "of the ChArUco markers")
       ->capture_default_str();
+  verb->add_option(
+          "--first-id", arguments->board.first_id, "id of the first ChArUco marker of the board")
+      ->check(from_to(0, 249))
+      ->capture_default_str();
   verb->add_flag("--legacy-layout",
                  arguments->board.legacy_layout,
                  "ChArUco squares as OpenCV before version 4.6 laid them out");

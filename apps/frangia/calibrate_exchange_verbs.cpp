@@ -22,6 +22,7 @@
 #include "check_can_write.h"
 #include "option_values.h"
 #include "print_text.h"
+#include "usage.h"
 
 namespace frangia {
 namespace {
@@ -34,11 +35,22 @@ struct ImportArguments {
   std::vector<int> projector_size;
   std::string unit;
   std::string second_camera;
+  std::vector<std::string> names;
 };
 
 std::optional<std::array<int, 2>> size_of(const std::vector<int>& sides) {
   if (sides.empty()) return std::nullopt;
   return std::array<int, 2>{sides[0], sides[1]};
+}
+
+/// "K1=mtx" as a name of OpenCV and the name in the file.
+CalibrationNames names_of(const std::vector<std::string>& texts) {
+  CalibrationNames names;
+  for (const std::string& text : texts) {
+    const std::size_t equals = std::min(text.find('='), text.size());
+    names[text.substr(0, equals)] = equals < text.size() ? text.substr(equals + 1) : "";
+  }
+  return names;
 }
 
 void import_calibration(const ImportArguments& arguments, Terminal& terminal) {
@@ -51,7 +63,8 @@ void import_calibration(const ImportArguments& arguments, Terminal& terminal) {
   if (!arguments.unit.empty()) options.mm_per_unit = parse_length_mm("1" + arguments.unit);
   if (!arguments.base.empty())
     options.base = read_rig(arguments.base, run, RigContent::StartValues);
-  const ForeignCalibration calibration = read_calibration_files(arguments.files, run);
+  const ForeignCalibration calibration =
+      read_calibration_files(arguments.files, run, names_of(arguments.names));
   const Rig rig = rig_from_calibration(calibration, options, run);
   write_rig(arguments.output, rig, Durability::Synced, arguments.base);
   terminal.finish();
@@ -123,6 +136,13 @@ void add_import_subcommand(CLI::App& calibrate, Terminal& terminal) {
                        : std::string("use letters, digits, - and _ only");
           },
           "NAME"));
+  verb->add_option("--map",
+                   arguments->names,
+                   "names that the files give to K1 and D1 of the camera, K2 and D2 of the "
+                   "projector, R and T, such as K1=mtx; repeat for several")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+      ->type_name("NAME=NAME");
   verb->add_option("--unit", arguments->unit, "unit of the calibration: mm, cm, m or in")
       ->check(one_of({"mm", "cm", "m", "in"}));
   verb->callback([arguments, &terminal] { import_calibration(*arguments, terminal); });
@@ -146,7 +166,7 @@ void export_calibration(const ExportArguments& arguments, Terminal& terminal) {
       arguments.layout.empty() ? by_ending : layouts.at(arguments.layout);
   const bool storage = layout != CalibrationLayout::Matlab && layout != CalibrationLayout::Colmap;
   const bool fits = storage ? by_ending == CalibrationLayout::OpenCv : by_ending == layout;
-  require(
+  require_usage(
       fits,
       "the ending of the output does not fit `layout`; leave `layout` out or change the ending");
   const Run run = terminal.run();

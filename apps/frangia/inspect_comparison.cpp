@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "frangia/core/angles.h"
+#include "frangia/core/error.h"
 #include "frangia/core/lowercase_extension.h"
 #include "frangia/dataset/scan_folder.h"
 #include "frangia/files/deviation_csv.h"
@@ -132,7 +133,15 @@ SurfaceInspection compare_with(const InspectArguments& arguments,
   options.exact = reference.cad.get();
   SurfaceRule rule = arguments.surface;
   rule.limits = arguments.alignment.band();
-  return inspect_surface(mesh, reference.scene, rule, options, run);
+  SurfaceInspection found = inspect_surface(mesh, reference.scene, rule, options, run);
+  if (!(found.summary.area_mm2 > 0.0)) {
+    throw Error(ErrorKind::Numeric,
+                fmt::format("no part of the mesh can be compared with the reference; vertices left "
+                            "out: {}; `align` best-fit finds the pose, and `units` states the unit "
+                            "of the reference",
+                            left_out_text(found.summary)));
+  }
+  return found;
 }
 
 void add_deviations(InspectAnswer& answer, const SurfaceInspection& comparison) {

@@ -20,6 +20,10 @@
 namespace frangia {
 namespace {
 
+constexpr const char* kDefaultTolerance =
+    "the tolerance is the default, because none is stated: set `tolerance`, or tolerance_mm of a "
+    "plan\n";
+
 /// Finds what moves all features alike: the calibration of the rig and the temperature. The mesh
 /// still has the frame of its scan.
 void add_shared_errors(const InspectArguments& arguments, InspectedPart& part, const Run& run) {
@@ -73,9 +77,12 @@ InspectedPart inspect_mesh(const InspectArguments& arguments,
   if (!arguments.picture.empty()) check_shown(arguments, part.mesh);
   if (arguments.features || !plan.features.empty()) add_shared_errors(arguments, part, run);
   if (reference) add_reference(answer, *reference);
-  if (!arguments.alignment.align.empty()) {
+  const std::string& how = arguments.alignment.align;
+  if (reference && (how.empty() || how == "none"))
+    refuse_unit_of_pose(part.mesh, reference->scene, Eigen::Isometry3d::Identity(), {}, run);
+  if (!how.empty()) {
     DatumFit fit;
-    if (arguments.alignment.align == "datum") {
+    if (how == "datum") {
       fit = align_by_datums(arguments, plan, part.mesh, *reference, run);
     } else {
       fit.alignment = align(part.mesh, reference->scene, arguments.alignment, run);
@@ -92,6 +99,8 @@ InspectedPart inspect_mesh(const InspectArguments& arguments,
     part.comparison = compare_with(arguments, part.mesh, *reference, part.alignment, run);
     add_statistics(answer, arguments, part.mesh, *reference, run);
     add_deviations(answer, *part.comparison);
+    answer.json["deviation"]["tolerance_is_default"] = arguments.alignment.tolerance_mm.empty();
+    if (arguments.alignment.tolerance_mm.empty()) answer.text += kDefaultTolerance;
   }
   if (arguments.thickness) {
     part.walls = measure_walls(part.mesh, run);

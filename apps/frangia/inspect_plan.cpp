@@ -28,9 +28,9 @@ PlannedSection section_named(const std::string& text, bool blade) {
 
 }  // namespace
 
-InspectionPlan plan_of(const InspectArguments& arguments, const Run& run) {
+InspectionPlan plan_of(const InspectArguments& arguments) {
   InspectionPlan plan;
-  if (!arguments.plan.empty()) plan = read_inspection_plan(arguments.plan, run);
+  if (!arguments.plan.empty()) plan = read_inspection_plan(arguments.plan);
   for (const std::string& text : arguments.sections)
     plan.sections.push_back(section_named(text, arguments.blade));
   return plan;

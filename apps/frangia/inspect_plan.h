@@ -9,7 +9,7 @@ namespace frangia {
 /// Reads the plan that the arguments name, and adds the sections that they name.
 ///
 /// @errors   Error(Input) as read_inspection_plan
-[[nodiscard]] InspectionPlan plan_of(const InspectArguments& arguments, const Run& run);
+[[nodiscard]] InspectionPlan plan_of(const InspectArguments& arguments);
 
 /// Takes over from a plan what the arguments do not state.
 ///

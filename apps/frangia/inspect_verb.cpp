@@ -63,7 +63,7 @@ std::vector<std::string> write_files(const InspectArguments& arguments,
 
 void inspect(InspectArguments arguments, Terminal& terminal) {
   const Run run = terminal.run();
-  const InspectionPlan plan = plan_of(arguments, run);
+  const InspectionPlan plan = plan_of(arguments);
   apply_plan(plan, arguments);
   if (arguments.show == "deviation" && arguments.reference.empty() && arguments.thickness)
     arguments.show = "thickness";

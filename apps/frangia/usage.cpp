@@ -1,40 +1,20 @@
 #include "usage.h"
 
 #include <algorithm>
-#include <cstddef>
-#include <numeric>
 #include <vector>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "frangia/core/nearest_name.h"
+
 namespace frangia {
 namespace {
 
-/// Number of letters to insert, delete or replace to turn one word into the other (Levenshtein
-/// 1966).
-std::size_t edit_distance(const std::string& word, const std::string& name) {
-  std::vector<std::size_t> row(name.size() + 1);
-  std::iota(row.begin(), row.end(), std::size_t{0});
-  for (const char letter : word) {
-    std::size_t diagonal = row[0]++;
-    for (std::size_t j = 0; j < name.size(); ++j) {
-      const std::size_t changed = diagonal + (letter == name[j] ? 0 : 1);
-      diagonal = row[j + 1];
-      row[j + 1] = std::min({changed, row[j] + 1, diagonal + 1});
-    }
-  }
-  return row.back();
-}
-
 /// ", perhaps NAME was meant" for the nearest name, if it is near enough.
 std::string suggestion(const std::string& word, const std::vector<std::string>& names) {
-  const auto nearest = std::min_element(
-      names.begin(), names.end(), [&](const std::string& one, const std::string& other) {
-        return edit_distance(word, one) < edit_distance(word, other);
-      });
-  const bool near = nearest != names.end() && 3 * edit_distance(word, *nearest) <= word.size() + 1;
-  return near ? fmt::format(", perhaps {} was meant", *nearest) : "";
+  const auto nearest = nearest_name(word, names);
+  return nearest ? fmt::format(", perhaps {} was meant", *nearest) : "";
 }
 
 /// The program, the verb that was called, and its subverb if it has one.

@@ -145,6 +145,9 @@ TEST(AcceptancePlan, NamesTheKeyThatIsWrong) {
                   "diameters_mm = [40.0, 40.0]\nspacing_mm = 30\nu95_mm = 0.001\n");
             }).find("overlap"),
             std::string::npos);
+  EXPECT_NE(error("source = \"simulation\"\nrig = \"digital\"\n", "[limits]\nlenght_mm = 1\n")
+                .find("limits.lenght_mm is unknown here; perhaps length_mm was meant"),
+            std::string::npos);
   EXPECT_EQ(plan_of_text(std::string("source = \"simulation\"\nrig = \"digital\"\n") + kArtifact)
                 .arrangements.size(),
             7U);

@@ -151,5 +151,53 @@ TEST(AlignBestFit, RefusesAnotherPartAndAnotherUnit) {
             std::string::npos);
 }
 
+Mesh scaled(Mesh mesh, float factor) {
+  for (auto& vertex : mesh.vertices_mm)
+    vertex *= factor;
+  return mesh;
+}
+
+/// The bracket above a height: a scan of a part of it.
+Mesh upper_part(float above_mm) {
+  Mesh part = make_bracket();
+  std::erase_if(part.triangles, [&](const Mesh::Triangle& triangle) {
+    return part.vertices_mm[triangle[0]].z() < above_mm;
+  });
+  return part;
+}
+
+std::string refusal_of(const Mesh& mesh, const Mesh& reference) {
+  return testing::error_of(
+      [&] { static_cast<void>(align_best_fit(mesh, RayScene(reference), quick())); });
+}
+
+TEST(AlignBestFit, NamesTheFactorByWhichAPartOfThePartFits) {
+  const Mesh part = transform_mesh(upper_part(20.0F), far_pose(6));
+  const std::string centimetres = refusal_of(part, scaled(make_bracket(), 0.1F));
+  EXPECT_NE(centimetres.find("10 times as large"), std::string::npos) << centimetres;
+  EXPECT_NE(centimetres.find("its unit may be cm"), std::string::npos) << centimetres;
+}
+
+TEST(AlignBestFit, NamesTheFactorByWhichASmallMeshFits) {
+  // A mesh in inches lies near a large face of the reference by the reference's tolerance.
+  const std::string inches =
+      refusal_of(transform_mesh(scaled(make_bracket(), 1.0F / 25.4F), far_pose(7)), make_bracket());
+  EXPECT_NE(inches.find("0.0393701 times as large"), std::string::npos) << inches;
+  EXPECT_NE(inches.find("the mesh may be in in"), std::string::npos) << inches;
+}
+
+TEST(RefuseUnitOfPose, ComparesTheOverlapsAndNotTheBoxes) {
+  const RayScene reference(make_bracket());
+  const Isometry3d here = Isometry3d::Identity();
+  EXPECT_NO_THROW(refuse_unit_of_pose(make_bracket(), reference, here));
+  EXPECT_NO_THROW(refuse_unit_of_pose(upper_part(40.0F), reference, here));
+  // 25.4 times as small, but nowhere on the reference by any unit.
+  EXPECT_NO_THROW(refuse_unit_of_pose(testing::sphere({900, 0, 0}, 2.0, 16), reference, here));
+  EXPECT_NE(testing::error_of([&] {
+              refuse_unit_of_pose(scaled(make_bracket(), 1000.0F), reference, here);
+            }).find("1000 times as large"),
+            std::string::npos);
+}
+
 }  // namespace
 }  // namespace frangia

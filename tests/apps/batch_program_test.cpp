@@ -401,6 +401,10 @@ TEST_F(BatchProgram, NamesWhatIsWrongWithAPlan) {
   fs::create_directories(out("empty"));
   EXPECT_NE(batch(out("empty"), out("none")).output.find("holds no scan"), std::string::npos);
   EXPECT_EQ(batch(scans(), out("none"), "--task 7").exit_code, 3);
+  std::ofstream(plan)
+      << "format = \"frangia-batch\"\nversion = 1\nformats = [\"ply\"]\nscans = \".\"\n"
+         "inspekt = [\"--features\"]\n";
+  EXPECT_NE(batch(plan, out("none")).output.find("perhaps inspect was meant"), std::string::npos);
 }
 
 TEST_F(BatchProgram, SaysThatSlurmIsMissing) {

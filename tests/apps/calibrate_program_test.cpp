@@ -95,6 +95,9 @@ TEST(CalibrateProgram, WritesACharucoBoardWithItsKeys) {
   EXPECT_NE(answer.output.find("dictionary = \"DICT_5X5_100\""), std::string::npos)
       << answer.output;
   EXPECT_EQ(text_of(file).substr(0, 5), "%PDF-");
+  const Answer picture = run_program("calibrate board -o " + (folder.path() / "b.png").string());
+  EXPECT_EQ(picture.exit_code, 3);
+  EXPECT_NE(picture.output.find("ends with .pdf"), std::string::npos) << picture.output;
 }
 
 TEST(CalibrateProgram, FindsTheAxisOfASimulatedTurntable) {

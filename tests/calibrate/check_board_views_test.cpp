@@ -3,6 +3,7 @@
 #include <cmath>
 #include <functional>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "support/board_poses.h"
@@ -281,6 +282,37 @@ TEST(CheckBoardViews, RecognizesAMirroredCharucoBoard) {
               pose.mirrored_markers = 40;
             }).find("mirrored"),
             std::string::npos);
+}
+
+TEST(CheckBoardViews, NamesTheCharucoBoardThatIsSeenInstead) {
+  const auto sentence = [](const OtherCharuco& other) {
+    Board board = kBoard;
+    board.kind = BoardKind::Charuco;
+    std::vector<PoseCapture> poses = captures(8);
+    for (PoseCapture& pose : poses) {
+      pose.view.points.clear();
+      pose.other_board = other;
+    }
+    poses[3].other_board->last_id = other.last_id + 2;
+    return testing::error_of([&] { check_board_views(poses, board, known_rig()); });
+  };
+  const std::string ids =
+      sentence({.dictionary = "DICT_5X5_50", .markers = 20, .first_id = 18, .last_id = 47});
+  EXPECT_NE(ids.find("8 views show markers of DICT_5X5, ids 18 to 49"), std::string::npos) << ids;
+  const std::string dictionary =
+      sentence({.dictionary = "DICT_6X6_50", .markers = 20, .first_id = 0, .last_id = 20});
+  EXPECT_NE(dictionary.find("set dictionary = \"DICT_6X6_50\""), std::string::npos) << dictionary;
+  const std::string inverted =
+      sentence({.dictionary = "DICT_5X5_50", .markers = 20, .last_id = 20, .inverted = true});
+  EXPECT_NE(inverted.find("without inversion"), std::string::npos) << inverted;
+  const std::string layout = sentence({.dictionary = "DICT_5X5_50",
+                                       .markers = 20,
+                                       .last_id = 20,
+                                       .columns = kBoard.rows,
+                                       .rows = kBoard.columns});
+  EXPECT_NE(layout.find(fmt::format("corners = [{}, {}]", kBoard.rows, kBoard.columns)),
+            std::string::npos)
+      << layout;
 }
 
 TEST(CheckBoardViews, RecognizesParallelPoses) {

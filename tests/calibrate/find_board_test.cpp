@@ -1,6 +1,8 @@
 #include "frangia/calibrate/find_board.h"
 
 #include <cmath>
+#include <optional>
+#include <utility>
 
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
@@ -204,6 +206,68 @@ TEST(FindCharuco, TellsAMirroredBoardWhoseMarkersResembleOthersMirrored) {
   EXPECT_TRUE(sight.points.empty());
   EXPECT_GT(sight.mirrored_markers, 25);
   EXPECT_EQ(find_charuco(image, board).mirrored_markers, 0);
+}
+
+/// What an image of one board shows where another one is expected.
+std::optional<OtherCharuco> other_of(const Board& shown, const Board& expected) {
+  const CharucoSight sight = find_charuco(picture_of(oblique(), charuco(shown)), expected);
+  EXPECT_TRUE(!sight.other || sight.points.empty());
+  return sight.other;
+}
+
+TEST(FindCharuco, FindsABoardThatBeginsWithAnotherMarker) {
+  Board board = kCharuco;
+  board.first_id = 18;
+  EXPECT_EQ(find_board(picture_of(oblique(), charuco(board)), board).size(), 70U);
+  const auto other = other_of(board, kCharuco);
+  ASSERT_TRUE(other);
+  EXPECT_EQ(other->dictionary, "DICT_5X5_100");
+  EXPECT_EQ(other->first_id, 18);
+  EXPECT_EQ(other->last_id, 18 + 43);
+  EXPECT_EQ(other->columns, 10);
+  EXPECT_EQ(other->layout_first_id, 18);
+  EXPECT_FALSE(other_of(kCharuco, kCharuco));
+}
+
+TEST(FindCharuco, NamesAnotherDictionary) {
+  Board board = kCharuco;
+  board.dictionary = "DICT_6X6_250";
+  const auto other = other_of(board, kCharuco);
+  ASSERT_TRUE(other);
+  EXPECT_EQ(other->dictionary, "DICT_6X6_50");
+  EXPECT_FALSE(other->inverted);
+  EXPECT_FALSE(other->mirrored);
+  EXPECT_EQ(other->columns, 0) << "the layout is the expected one";
+}
+
+TEST(FindCharuco, NamesExchangedWidthAndHeight) {
+  Board exchanged = kCharuco;
+  std::swap(exchanged.columns, exchanged.rows);
+  const auto other = other_of(kCharuco, exchanged);
+  ASSERT_TRUE(other);
+  EXPECT_EQ(other->columns, 10);
+  EXPECT_EQ(other->rows, 7);
+}
+
+TEST(FindCharuco, NamesTheOlderLayout) {
+  Board older = kCharuco;
+  older.legacy_layout = true;
+  const auto other = other_of(older, kCharuco);
+  ASSERT_TRUE(other);
+  EXPECT_TRUE(other->legacy_layout);
+  EXPECT_EQ(other->columns, 10);
+}
+
+TEST(FindCharuco, TellsAnInvertedPrint) {
+  Image<float> image = picture_of(oblique(), charuco(kCharuco));
+  for (float& counts : image.pixels())
+    counts = 220.0F - counts;
+  const CharucoSight sight = find_charuco(image, kCharuco);
+  ASSERT_TRUE(sight.other);
+  EXPECT_TRUE(sight.other->inverted);
+  EXPECT_EQ(sight.other->first_id, 0);
+  EXPECT_EQ(sight.other->last_id, 43);
+  EXPECT_TRUE(sight.points.empty());
 }
 
 TEST(FindBoard, FindsNothingWhereTheBoardHasOtherCornersAndTheyAreCounted) {

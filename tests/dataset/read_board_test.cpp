@@ -37,6 +37,7 @@ TEST(ReadBoard, ReadsBackEveryKind) {
         .square_mm = 20.0,
         .marker_mm = 15.0,
         .dictionary = "DICT_6X6_250",
+        .first_id = 18,
         .legacy_layout = true}}) {
     scan.board = board;
     write_scan(scan);
@@ -50,6 +51,7 @@ TEST(ReadBoard, ReadsBackEveryKind) {
     EXPECT_EQ(circle_diameter_mm(*back), circle_diameter_mm(board));
     if (board.kind == BoardKind::Charuco) {
       EXPECT_EQ(back->dictionary, board.dictionary);
+      EXPECT_EQ(back->first_id, 18);
       EXPECT_TRUE(back->legacy_layout);
     }
   }

@@ -39,6 +39,11 @@ TEST_F(ForeignMeshes, EveryUnitOfADxfIsConverted) {
     EXPECT_NEAR(side_of(unit) / mm, 1.0, 1e-5) << unit;
   EXPECT_EQ(side_of(99), 1.0);
   EXPECT_TRUE(said("$INSUNITS 99 is no unit")) << said();
+  EXPECT_FALSE(said("imperial")) << said();
+  const std::string imperial = group(0, "SECTION") + group(2, "HEADER") + group(9, "$MEASUREMENT") +
+                               group(70, "0") + group(0, "ENDSEC");
+  EXPECT_EQ(read("a.dxf", drawing(face, imperial)).vertices_mm[1].x(), 1.0F);
+  EXPECT_TRUE(said("an imperial drawing ($MEASUREMENT 0) without a unit")) << said();
 }
 
 TEST_F(ForeignMeshes, WhatADrawingDoesNotShowIsLeftOutAndCounted) {

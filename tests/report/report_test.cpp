@@ -10,6 +10,7 @@
 #include "frangia/report/inspection_plan.h"
 #include "frangia/report/inspection_report.h"
 
+#include "support/error_of.h"
 #include "support/temporary_folder.h"
 
 namespace frangia {
@@ -17,10 +18,10 @@ namespace {
 
 constexpr const char* kHead = "format = \"frangia-inspection\"\nversion = 1\n";
 
-InspectionPlan plan_from(const std::string& text, const frangia::Run& run = {}) {
+InspectionPlan plan_from(const std::string& text) {
   const testing::TemporaryFolder folder;
   std::ofstream(folder.path() / "inspection.toml") << kHead << text;
-  return read_inspection_plan(folder.path() / "inspection.toml", run);
+  return read_inspection_plan(folder.path() / "inspection.toml");
 }
 
 constexpr const char* kTwoBalls = R"(
@@ -149,6 +150,24 @@ TEST(InspectionPlan, NamesTheKeyThatIsWrong) {
          "refers to \"A\"");
   expect("[[sections]]\nname = \"s\"\npoint_mm = [0, 0, 1]\nnormal = [0, 0, 0]\n",
          "sections[0].normal must not be zero");
+}
+
+TEST(InspectionPlan, RefusesAnUnknownKeyAndNamesTheNearest) {
+  const auto message = [](const std::string& text) {
+    return testing::error_of([&] { static_cast<void>(plan_from(text)); });
+  };
+  const auto expect = [&](const std::string& text, const std::string& part) {
+    EXPECT_NE(message(text).find(part), std::string::npos) << message(text);
+  };
+  const std::string ball = "[[features]]\nname = \"A\"\nkind = \"sphere\"\nnear_mm = [0, 0, 0]\n";
+  expect("tolerence_mm = [-0.01, 0.01]\n",
+         "inspection.toml: tolerence_mm is unknown here; perhaps tolerance_mm was meant");
+  expect(ball + "diametr_mm = 40\n",
+         "features[0].diametr_mm is unknown here; perhaps diameter_mm was meant");
+  expect("[[section]]\nname = \"s\"\n", "section is unknown here; perhaps sections was meant");
+  expect(ball + "colour = \"red\"\n", "features[0].colour is unknown here; leave it out. The keys");
+  // A key that is stated is not what another one was meant to be.
+  expect("part = \"shaft\"\nparts = \"shaft\"\n", "parts is unknown here; leave it out");
 }
 
 MeasuredCharacteristic row_of(double value) {

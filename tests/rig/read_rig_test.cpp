@@ -161,6 +161,15 @@ TEST(ReadRig, WarnsAboutUnknownKeysByName) {
   EXPECT_NE(warnings[0].find("camera.colour"), std::string::npos);
 }
 
+TEST(ReadRig, RefusesAKeyThatIsNearlyOneWithADefault) {
+  const TemporaryFolder folder;
+  const auto path = save(folder, with("white_level", "white_levle"));
+  EXPECT_NE(testing::error_of([&] {
+              static_cast<void>(read_rig(path));
+            }).find("camera.white_levle is unknown here; perhaps white_level was meant"),
+            std::string::npos);
+}
+
 struct Fault {
   std::string from;
   std::string to;

@@ -45,7 +45,7 @@ BatchScan read_scan_of(TomlReader& reader, const fs::path& base) {
   return scan;
 }
 
-BatchPlan read_plan_file(const fs::path& path, const Run& run) {
+BatchPlan read_plan_file(const fs::path& path) {
   const toml::table table = parse_toml(path, "frangia-batch");
   TomlReader reader(path, "", table);
   reader.ignore("format");
@@ -61,7 +61,7 @@ BatchPlan read_plan_file(const fs::path& path, const Run& run) {
   }
   for (TomlReader& one : reader.tables("scan")) {
     plan.scans.push_back(read_scan_of(one, base));
-    one.warn_of_unused_keys(run);
+    one.refuse_unused_keys();
   }
   const auto reconstruct = texts_or_none(reader, "reconstruct");
   const auto inspect = texts_or_none(reader, "inspect");
@@ -73,18 +73,18 @@ BatchPlan read_plan_file(const fs::path& path, const Run& run) {
     if (!scan.edit.empty() && !fs::exists(scan.edit))
       reader.fail("edit", "names no file: " + scan.edit.string());
   }
-  reader.warn_of_unused_keys(run);
+  reader.refuse_unused_keys();
   return plan;
 }
 
 }  // namespace
 
-BatchPlan read_batch_plan(const fs::path& path, const Run& run) {
+BatchPlan read_batch_plan(const fs::path& path) {
   BatchPlan plan;
   if (fs::is_directory(path)) {
     plan.scans = scans_in(path);
   } else {
-    plan = read_plan_file(path, run);
+    plan = read_plan_file(path);
   }
   if (plan.scans.empty()) {
     throw Error(ErrorKind::Input,

@@ -4,8 +4,6 @@
 #include <string>
 #include <vector>
 
-#include "frangia/core/run.h"
-
 namespace frangia {
 
 /// One scan of a batch and what is done with it.
@@ -41,7 +39,7 @@ struct BatchPlan {
 /// Paths are relative to the plan; in `reconstruct` and `inspect`, to the place of the command.
 ///
 /// @errors   Error(Input) that names the file and the key: a missing folder, two scans of one name,
-///           no scan at all
-[[nodiscard]] BatchPlan read_batch_plan(const std::filesystem::path& path, const Run& run = {});
+///           no scan at all, an unknown key
+[[nodiscard]] BatchPlan read_batch_plan(const std::filesystem::path& path);
 
 }  // namespace frangia

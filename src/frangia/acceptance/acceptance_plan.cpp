@@ -24,7 +24,7 @@ double not_negative(TomlReader& reader, std::string_view key, double fallback) {
   return value;
 }
 
-ReferenceArtifact artifact_of(TomlReader reader, const Run& run) {
+ReferenceArtifact artifact_of(TomlReader reader) {
   ReferenceArtifact artifact;
   artifact.diameters_mm = reader.numbers("diameters_mm");
   if (artifact.diameters_mm.empty() || artifact.diameters_mm.size() > 2)
@@ -45,11 +45,11 @@ ReferenceArtifact artifact_of(TomlReader reader, const Run& run) {
   artifact.form_mm = not_negative(reader, "form_mm", 0.0);
   artifact.expansion_ppm_per_k = not_negative(reader, "expansion_ppm_per_k", 0.0);
   if (reader.has("certificate")) artifact.certificate = reader.text("certificate");
-  reader.warn_of_unused_keys(run);
+  reader.refuse_unused_keys();
   return artifact;
 }
 
-AcceptanceLimits limits_from(TomlReader reader, bool bar, const Run& run) {
+AcceptanceLimits limits_from(TomlReader reader, bool bar) {
   AcceptanceLimits limits;
   const auto read = [&](std::string_view key, std::optional<double>& limit) {
     if (reader.has(key)) limit = reader.positive(key);
@@ -61,13 +61,11 @@ AcceptanceLimits limits_from(TomlReader reader, bool bar, const Run& run) {
   }
   read("sphere_spacing_mm", limits.sphere_spacing_mm);
   read("length_mm", limits.length_mm);
-  reader.warn_of_unused_keys(run);
+  reader.refuse_unused_keys();
   return limits;
 }
 
-std::vector<Arrangement> arrangements_of(TomlReader& top,
-                                         const std::filesystem::path& folder,
-                                         const Run& run) {
+std::vector<Arrangement> arrangements_of(TomlReader& top, const std::filesystem::path& folder) {
   std::vector<Arrangement> arrangements;
   for (TomlReader& reader : top.tables("arrangements")) {
     Arrangement arrangement;
@@ -78,7 +76,7 @@ std::vector<Arrangement> arrangements_of(TomlReader& top,
       if (other.scan == arrangement.scan)
         reader.fail("scan", "is that of another arrangement, too; each needs a scan of its own");
     }
-    reader.warn_of_unused_keys(run);
+    reader.refuse_unused_keys();
     arrangements.push_back(arrangement);
   }
   return arrangements;
@@ -114,16 +112,16 @@ std::vector<Arrangement> usual_arrangements(const ReferenceArtifact& artifact) {
           at("rising at 35 degrees along a diagonal of the volume", {1, 1, 1}, {0, 0, 0})};
 }
 
-AcceptancePlan read_acceptance_plan(const std::filesystem::path& path, const Run& run) {
+AcceptancePlan read_acceptance_plan(const std::filesystem::path& path) {
   const toml::table table = parse_toml(path, "frangia-acceptance");
   TomlReader top(path, "", table);
   top.ignore("format");
   top.ignore("version");
   AcceptancePlan plan;
   plan.source = source_of(top);
-  plan.artifact = artifact_of(top.table("artifact"), run);
+  plan.artifact = artifact_of(top.table("artifact"));
   const bool bar = plan.artifact.diameters_mm.size() == 2;
-  if (top.has("limits")) plan.limits = limits_from(top.table("limits"), bar, run);
+  if (top.has("limits")) plan.limits = limits_from(top.table("limits"), bar);
   if (top.has("conditions")) read_conditions(top.table("conditions"), plan);
   if (top.has("volume_mm")) {
     const std::vector<double> sides = top.numbers("volume_mm", 3);
@@ -131,7 +129,7 @@ AcceptancePlan read_acceptance_plan(const std::filesystem::path& path, const Run
     if (!(plan.volume_mm->minCoeff() > 0.0)) top.fail("volume_mm", "must be above 0");
   }
   if (plan.source == AcceptanceSource::Scans) {
-    plan.arrangements = arrangements_of(top, path.parent_path(), run);
+    plan.arrangements = arrangements_of(top, path.parent_path());
     if (plan.arrangements.empty())
       top.fail("arrangements", "must name the scans: [[arrangements]] with name and scan");
   } else {
@@ -143,7 +141,7 @@ AcceptancePlan read_acceptance_plan(const std::filesystem::path& path, const Run
     if (top.has("views")) plan.views = top.integer("views", 2, 3600);
     plan.arrangements = usual_arrangements(plan.artifact);
   }
-  top.warn_of_unused_keys(run);
+  top.refuse_unused_keys();
   return plan;
 }
 

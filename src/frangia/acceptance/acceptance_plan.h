@@ -9,8 +9,6 @@
 
 #include <Eigen/Core>
 
-#include "frangia/core/run.h"
-
 namespace frangia {
 
 /// The ball bar, or the single ball, of an acceptance test as its calibration certificate states
@@ -65,11 +63,10 @@ struct AcceptancePlan {
 /// upright, and along diagonals of the volume. For a single ball: its middle and two edges.
 [[nodiscard]] std::vector<Arrangement> usual_arrangements(const ReferenceArtifact& artifact);
 
-/// Reads acceptance.toml, format "frangia-acceptance". Warns of unknown keys.
+/// Reads acceptance.toml, format "frangia-acceptance".
 ///
 /// @units    mm, degrees Celsius
-/// @errors   Error(Input) that names the file and the key
-[[nodiscard]] AcceptancePlan read_acceptance_plan(const std::filesystem::path& path,
-                                                  const Run& run = {});
+/// @errors   Error(Input) that names the file and the key, also one that is unknown
+[[nodiscard]] AcceptancePlan read_acceptance_plan(const std::filesystem::path& path);
 
 }  // namespace frangia

@@ -98,7 +98,8 @@ Alignment align_best_fit(const Mesh& mesh,
           ? rate_pose(problem.samples, reference, alignment.pose.reference_from_mesh, wide, run)
                 .overlap
           : overlap;
-  refuse_alignment(mesh, reference, options, plausible, wide, run);
+  refuse_alignment(
+      mesh, reference, options, alignment.pose.reference_from_mesh, plausible, wide, run);
   const std::span<const MeasuredSample> some(problem.samples.data(),
                                              std::min<std::size_t>(problem.samples.size(), 6000));
   const double within = std::clamp(

@@ -58,7 +58,8 @@ struct Alignment {
 ///
 /// @units    mm
 /// @errors   Error(Input) when less than `least_overlap` of the mesh lies on the reference, saying
-///           whether its mirror image or another unit would fit; Error(Numeric) that lists the
+///           whether its mirror image would fit, and when another unit clearly fits better;
+///           Error(Numeric) that lists the
 ///           poses when several fit alike and no `start` is chosen; Error(Cancelled)
 /// @source   Besl & McKay 1992; Chen & Medioni 1991; rotations: Alexa 2022
 [[nodiscard]] Alignment align_best_fit(const Mesh& mesh,
@@ -74,5 +75,15 @@ struct Alignment {
                                         const Eigen::Isometry3d& reference_from_mesh,
                                         const BestFitOptions& options = {},
                                         const Run& run = {});
+
+/// Refuses a mesh that clearly lies on the reference in a given pose only after both have the same
+/// unit: when one of them is scaled by 10, 25.4, 304.8 or 1000.
+///
+/// @errors   Error(Input) that states the factor and the overlaps with and without it
+void refuse_unit_of_pose(const Mesh& mesh,
+                         const RayScene& reference,
+                         const Eigen::Isometry3d& reference_from_mesh,
+                         const BestFitOptions& options = {},
+                         const Run& run = {});
 
 }  // namespace frangia

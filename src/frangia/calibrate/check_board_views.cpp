@@ -10,6 +10,7 @@
 #include <Eigen/QR>
 #include <fmt/format.h>
 
+#include "frangia/calibrate/internal/describe_other_board.h"
 #include "frangia/calibrate/internal/pose_faults.h"
 #include "frangia/calibrate/internal/start_values.h"
 #include "frangia/core/angles.h"
@@ -209,6 +210,7 @@ void check_range(std::span<const PoseCapture> poses, const CameraModel& projecto
       names_of(poses, [](const PoseCapture& pose) { return pose.view.points.empty(); });
   if (!unseen.empty()) {
     check_markers(poses);
+    if (const std::string other = describe_other_board(poses, board); !other.empty()) fail(other);
     check_counts(poses, board);
   }
   check_light(poses, options);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "frangia/calibrate/board_view.h"
+#include "frangia/calibrate/find_charuco.h"
 #include "frangia/calibrate/measure_sharpness.h"
 #include "frangia/rig/board.h"
 #include "frangia/rig/rig.h"
@@ -23,15 +24,16 @@ struct PoseCapture {
   /// Inner corners of the checkerboard that the image shows, if the expected one is not found.
   std::optional<std::array<int, 2>> counted;
   int mirrored_markers = 0;  ///< of a ChArUco board that only the mirrored image shows
-  double blur_px = 0.0;      ///< of the edges at the corners, as `measure_blur_px`
-  ImageSharpness image;      ///< of the whole image
-  double motion_px = 0.0;    ///< of the board between patterns, as `measure_motion_px`
-  std::string moved_in;      ///< the pattern in which the board is farthest away
-  double likeness = 1.0;     ///< of the pattern that is least like the others: `measure_likeness`
-  std::string least_like;    ///< that pattern
-  double misfit = 0.0;       ///< of the worst pattern, as `measure_fringe_misfit`
-  BoardPicture picture;      ///< of the board, if it was asked for
-  std::string misfit_in;     ///< the pattern with that misfit
+  std::optional<OtherCharuco> other_board;  ///< ChArUco board that the image shows instead
+  double blur_px = 0.0;                     ///< of the edges at the corners, as `measure_blur_px`
+  ImageSharpness image;                     ///< of the whole image
+  double motion_px = 0.0;  ///< of the board between patterns, as `measure_motion_px`
+  std::string moved_in;    ///< the pattern in which the board is farthest away
+  double likeness = 1.0;   ///< of the pattern that is least like the others: `measure_likeness`
+  std::string least_like;  ///< that pattern
+  double misfit = 0.0;     ///< of the worst pattern, as `measure_fringe_misfit`
+  BoardPicture picture;    ///< of the board, if it was asked for
+  std::string misfit_in;   ///< the pattern with that misfit
 };
 
 /// Limits of the checks before a calibration is solved.

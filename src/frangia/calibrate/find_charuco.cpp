@@ -9,6 +9,7 @@
 
 #include "frangia/calibrate/internal/opencv_image.h"
 #include "frangia/calibrate/internal/read_markers.h"
+#include "frangia/calibrate/internal/recognize_charuco.h"
 #include "frangia/calibrate/internal/refine_corner.h"
 
 namespace frangia {
@@ -134,7 +135,15 @@ CharucoSight find_charuco(const Image<float>& counts, const Board& board) {
       sight.mirrored_markers = static_cast<int>(mirrored);
       return sight;
     }
-    if (markers.empty()) return sight;
+  }
+  // A board with other ids, or of the older layout, has most of its markers where this board has
+  // others, by a shift along its rows: only where rows end they are misplaced.
+  constexpr double kPlaced = 0.95;
+  const bool misplaced = markers.size() >= 6 && static_cast<double>(count_placed(markers, board)) <
+                                                    kPlaced * static_cast<double>(markers.size());
+  if (markers.size() < half_of_board || misplaced) {
+    sight.other = recognize_charuco(display_bytes(linear), board);
+    if (sight.other || markers.empty()) return sight;
   }
   cv::Mat smooth;
   cv::GaussianBlur(linear, smooth, {}, 1.0);

@@ -197,9 +197,12 @@ Board write_board_pdf(const std::filesystem::path& path,
                          circles ? "spacing_mm" : "square_mm",
                          board.square_mm,
                          board.kind == BoardKind::Charuco
-                             ? fmt::format("   marker_mm = {:g}   dictionary = \"{}\"",
+                             ? fmt::format("   marker_mm = {:g}   dictionary = \"{}\"{}",
                                            marker_side_mm(board),
-                                           board.dictionary)
+                                           board.dictionary,
+                                           board.first_id == 0
+                                               ? ""
+                                               : fmt::format("   first_id = {}", board.first_id))
                              : ""));
   save(document.get(), path);
   return board;

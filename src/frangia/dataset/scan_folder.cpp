@@ -27,7 +27,7 @@ struct RenamedKey {
   std::string_view now;
 };
 
-/// Unknown keys are warned of and ignored, but a scan whose setups are ignored is merged wrongly.
+/// A scan whose setups are ignored is merged wrongly.
 void refuse_renamed(const TomlReader& reader, std::initializer_list<RenamedKey> keys) {
   for (const RenamedKey& key : keys) {
     if (reader.has(key.before))

@@ -77,6 +77,7 @@ void put_board(TomlWriter& writer, const Board& board) {
   if (board.kind != BoardKind::Charuco) return;
   writer.put("marker_mm", marker_side_mm(board));
   writer.put("dictionary", board.dictionary);
+  if (board.first_id != 0) writer.put("first_id", board.first_id);
   if (board.legacy_layout) writer.put("legacy_layout", true);
 }
 

@@ -29,6 +29,8 @@ struct ForeignCalibration {
   std::optional<Eigen::Matrix3d> rotation;
   std::optional<Eigen::Vector3d> translation;  ///< in the unit of the file
   double mm_per_unit = 1.0;                    ///< of `translation`, where the file states its unit
+  /// Values of unknown names that could be part of a calibration, such as "intrinsics (3 x 3)".
+  std::vector<std::string> unknown;
 };
 
 }  // namespace frangia

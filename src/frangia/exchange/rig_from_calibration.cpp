@@ -6,7 +6,9 @@
 
 #include <Eigen/Geometry>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include "frangia/core/angles.h"
 #include "frangia/core/error.h"
 
 namespace frangia {
@@ -16,8 +18,72 @@ namespace {
   throw Error(ErrorKind::Input, sentence);
 }
 
+/// The sentence about what is missing, with the names that could be it.
+[[noreturn]] void fail_missing(const ForeignCalibration& calibration, std::string sentence) {
+  if (!calibration.unknown.empty()) {
+    sentence += fmt::format(". The files also hold {}: say which one is what by `map`",
+                            fmt::join(calibration.unknown, ", "));
+  }
+  fail_import(sentence);
+}
+
 /// Files carry six digits and more.
 constexpr double kRotationTolerance = 1e-4;
+
+/// Pixels are squares, or those of a projector that are twice as wide as high, or half.
+void warn_of_focal_lengths(const CameraModel& model, const char* device, const Run& run) {
+  constexpr double kUnequal = 0.05;   // share by which focal lengths of real devices do not differ
+  constexpr double kNarrowest = 0.1;  // rad; a field of 6 degrees
+  const double ratio = model.focal_px.x() / model.focal_px.y();
+  const auto is_near = [&](double value) { return std::abs(ratio / value - 1.0) < kUnequal; };
+  if (!is_near(1.0) && !is_near(2.0) && !is_near(0.5)) {
+    run.warn(
+        fmt::format("the focal lengths of the {}, {:.0f} and {:.0f} px, differ by {:.0f} %, "
+                    "which no device has; calibrate it again",
+                    device,
+                    model.focal_px.x(),
+                    model.focal_px.y(),
+                    100.0 * std::abs(ratio - 1.0)));
+  }
+  const double field =
+      std::max(model.width_px / model.focal_px.x(), model.height_px / model.focal_px.y());
+  if (field < kNarrowest) {
+    run.warn(
+        fmt::format("the focal length of the {}, {:.0f} px, gives a field of {:.1f} degrees "
+                    "only; check it and the size, or calibrate again",
+                    device,
+                    model.focal_px.maxCoeff(),
+                    deg_from_rad(field)));
+  }
+}
+
+void warn_of_distortion(const CameraModel& model, const char* device, const Run& run) {
+  constexpr double kLargest = 0.4;  // of the distance from the axis; webcams have 0.3
+  double largest = 0.0;
+  for (const double x : {0.0, static_cast<double>(model.width_px)}) {
+    for (const double y : {0.0, static_cast<double>(model.height_px)}) {
+      const Eigen::Vector2d pixel(x, y);
+      const Eigen::Vector2d straight = model.ray(pixel);
+      if (straight.hasNaN()) {
+        run.warn(
+            fmt::format("the distortion of the {} folds back at a corner of the image, where no "
+                        "point is measured",
+                        device));
+        return;
+      }
+      const Eigen::Vector2d distorted =
+          (pixel - model.principal_point_px).cwiseQuotient(model.focal_px);
+      largest = std::max(largest, (distorted - straight).norm() / straight.norm());
+    }
+  }
+  if (largest > kLargest) {
+    run.warn(
+        fmt::format("the distortion of the {} displaces a corner of its image by {:.0f} %, "
+                    "more than a lens has; calibrate it again",
+                    device,
+                    100.0 * largest));
+  }
+}
 
 CameraModel imported_model_of(const ForeignLens& lens,
                               const std::optional<std::array<int, 2>>& given_size,
@@ -59,6 +125,7 @@ CameraModel imported_model_of(const ForeignLens& lens,
       fail_import(fmt::format("a distortion coefficient of the {} is not a number", device));
     model.distortion.at(i) = lens.distortion[i];
   }
+  warn_of_focal_lengths(model, device, run);
   const Eigen::Vector2d corner(model.width_px, model.height_px);
   const Eigen::Vector2d center = model.principal_point_px.cwiseQuotient(corner);
   // A projector's principal point may lie beyond its lower edge, since it projects upwards.
@@ -72,13 +139,54 @@ CameraModel imported_model_of(const ForeignLens& lens,
                     model.width_px,
                     model.height_px));
   }
-  if (model.ray({0.0, 0.0}).hasNaN() || model.ray(corner).hasNaN()) {
-    run.warn(
-        fmt::format("the distortion of the {} folds back at a corner of the image, where no "
-                    "point is measured",
-                    device));
-  }
+  warn_of_distortion(model, device, run);
   return model;
+}
+
+/// Whether a point of the camera's field, 0.3 to 100 baselines away, is seen by the other device.
+/// Points are on a grid of 9 x 9 pixels and 24 distances.
+bool sees_a_common_point(const CameraModel& camera,
+                         const CameraModel& other,
+                         const Eigen::Matrix3d& rotation,
+                         const Eigen::Vector3d& position_mm) {
+  constexpr int kPixels = 9;
+  constexpr int kDistances = 24;
+  constexpr double kStep = 1.288;  // 0.3 baselines times its power of 23 are 100 baselines
+  for (int i = 0; i < kPixels * kPixels; ++i) {
+    const Eigen::Vector2d pixel(camera.width_px * (i % kPixels) / (kPixels - 1.0),
+                                camera.height_px * (i / kPixels) / (kPixels - 1.0));
+    const Eigen::Vector3d ray = camera.ray(pixel).homogeneous();
+    if (ray.hasNaN()) continue;
+    double distance_mm = 0.3 * position_mm.norm();
+    for (int k = 0; k < kDistances; ++k, distance_mm *= kStep) {
+      const Eigen::Vector3d point = rotation * (distance_mm * ray - position_mm);
+      if (!(point.z() > 0.0)) continue;
+      const Eigen::Vector2d at = other.project(point);
+      if (at.minCoeff() >= 0.0 && at.x() <= other.width_px && at.y() <= other.height_px)
+        return true;
+    }
+  }
+  return false;
+}
+
+void warn_without_common_point(const CameraModel& camera,
+                               const CameraModel& other,
+                               const Eigen::Matrix3d& rotation,
+                               const Eigen::Vector3d& position_mm,
+                               const char* device,
+                               const Run& run) {
+  if (sees_a_common_point(camera, other, rotation, position_mm)) return;
+  const bool inverse_fits =
+      sees_a_common_point(camera, other, rotation.transpose(), rotation * position_mm * -1.0);
+  const double turn_deg = deg_from_rad(std::acos(std::clamp(rotation(2, 2), -1.0, 1.0)));
+  run.warn(
+      fmt::format("the camera and the {} see no common point: their axes are {:.0f} degrees "
+                  "apart{}; calibrate again",
+                  device,
+                  turn_deg,
+                  inverse_fits ? ", and R and T fit only as those from the other device to the "
+                                 "camera"
+                               : ""));
 }
 
 /// Pose of the second device in the frame of the first.
@@ -115,7 +223,8 @@ void set_second_camera(const ForeignCalibration& calibration,
                        const Run& run,
                        Rig& rig) {
   if (!calibration.projector.matrix || !calibration.rotation || !calibration.translation) {
-    fail_import(
+    fail_missing(
+        calibration,
         "the calibration does not state the matrix of a second camera with R and T; name the file "
         "that holds them as well");
   }
@@ -127,6 +236,12 @@ void set_second_camera(const ForeignCalibration& calibration,
   const ImportedPose pose = imported_pose(calibration, options, run);
   posed.position_mm = pose.position_mm;
   posed.rotation = pose.rotation;
+  warn_without_common_point(rig.camera.model,
+                            posed.camera.model,
+                            posed.rotation,
+                            posed.position_mm,
+                            "second camera",
+                            run);
   rig.more_cameras = {posed};
   if (options.base) return;
   if (!options.projector_size_px) {
@@ -150,7 +265,8 @@ Rig rig_from_calibration(const ForeignCalibration& calibration,
                          const Run& run) {
   Rig rig = options.base.value_or(Rig{});
   if (!calibration.camera.matrix && !options.base) {
-    fail_import(
+    fail_missing(
+        calibration,
         "the calibration has no camera; name the file that holds its matrix as well, or set "
         "`base` to a rig.toml");
   }
@@ -166,7 +282,8 @@ Rig rig_from_calibration(const ForeignCalibration& calibration,
     rig.projector.model =
         imported_model_of(calibration.projector, options.projector_size_px, "projector", run);
   } else if (!options.base) {
-    fail_import(
+    fail_missing(
+        calibration,
         "the calibration has a camera, but no projector; set `base` to a rig.toml that describes "
         "the projector");
   }
@@ -174,8 +291,13 @@ Rig rig_from_calibration(const ForeignCalibration& calibration,
     const ImportedPose pose = imported_pose(calibration, options, run);
     rig.projector.rotation = pose.rotation;
     rig.projector.position_mm = pose.position_mm;
+    if (const auto* model = std::get_if<PinholeModel>(&rig.projector.model)) {
+      warn_without_common_point(
+          rig.camera.model, *model, pose.rotation, pose.position_mm, "projector", run);
+    }
   } else if (!options.base) {
-    fail_import(
+    fail_missing(
+        calibration,
         "the calibration does not state R and T from camera to projector; name the file that holds "
         "them as well, or set `base` to a rig.toml");
   }

@@ -22,7 +22,9 @@ struct ImportRigOptions {
   std::optional<Rig> base;  ///< supplies what the calibration does not state, such as the table
 };
 
-/// Makes a rig of a calibration of another program.
+/// Makes a rig of a calibration of another program. `run` is warned of values that no device has:
+/// focal lengths that differ along x and y, a field of a few degrees, distortion that displaces the
+/// corners by two fifths, and devices that see no common point.
 ///
 /// @errors   Error(Input) that names what is missing or impossible: a matrix with skew, a rotation
 ///          that is none, no image size, no projector, a baseline of 0

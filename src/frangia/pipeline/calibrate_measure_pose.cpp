@@ -130,6 +130,7 @@ bool find_points(const Image<float>& image,
   if (board.kind == BoardKind::Charuco) {
     CharucoSight sight = find_charuco(image, board);
     pose.mirrored_markers = std::max(pose.mirrored_markers, sight.mirrored_markers);
+    if (sight.other) pose.other_board = sight.other;
     if (sight.points.size() >= options.min_points) pose.view.points = std::move(sight.points);
   } else {
     pose.view.points = find_board(image, board);

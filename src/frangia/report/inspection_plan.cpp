@@ -136,7 +136,7 @@ void read_surface_rule(TomlReader& top, SurfaceRule& rule) {
   share("min_coverage", rule.min_coverage);
 }
 
-ReportFields report_of(TomlReader reader, const std::filesystem::path& plan, const Run& run) {
+ReportFields report_of(TomlReader reader, const std::filesystem::path& plan) {
   ReportFields fields;
   const auto text = [&](std::string_view key, std::string& value) {
     if (reader.has(key)) value = reader.text(key);
@@ -151,23 +151,20 @@ ReportFields report_of(TomlReader reader, const std::filesystem::path& plan, con
   if (fields.paper != "A4" && fields.paper != "Letter")
     reader.fail("paper", fmt::format("is \"{}\"; it must be A4 or Letter", fields.paper));
   if (reader.has("logo")) fields.logo = plan.parent_path() / reader.text("logo");
-  reader.warn_of_unused_keys(run);
+  reader.refuse_unused_keys();
   return fields;
 }
 
 /// Reads the tables of a key and checks that no two have the same name.
 template <typename Item, typename Read>
-std::vector<Item> items_of(TomlReader& top,
-                           std::string_view key,
-                           const Read& read,
-                           const Run& run) {
+std::vector<Item> items_of(TomlReader& top, std::string_view key, const Read& read) {
   std::vector<Item> items;
   std::set<std::string> names;
   for (TomlReader& reader : top.tables(key)) {
     items.push_back(read(reader));
     if (!names.insert(items.back().name).second)
       reader.fail("name", fmt::format("\"{}\" is not unique", items.back().name));
-    reader.warn_of_unused_keys(run);
+    reader.refuse_unused_keys();
   }
   return items;
 }
@@ -192,7 +189,7 @@ void read_surface_keys(TomlReader& top, InspectionPlan& plan) {
 
 }  // namespace
 
-InspectionPlan read_inspection_plan(const std::filesystem::path& path, const Run& run) {
+InspectionPlan read_inspection_plan(const std::filesystem::path& path) {
   const toml::table table = parse_toml(path, "frangia-inspection");
   TomlReader top(path, "", table);
   top.ignore("format");
@@ -201,12 +198,12 @@ InspectionPlan read_inspection_plan(const std::filesystem::path& path, const Run
   read_surface_keys(top, plan);
   if (!plan.reference.empty() && plan.reference.is_relative())
     plan.reference = path.parent_path() / plan.reference;
-  plan.features = items_of<PlannedFeature>(top, "features", feature_of, run);
+  plan.features = items_of<PlannedFeature>(top, "features", feature_of);
   plan.characteristics =
-      items_of<PlannedCharacteristic>(top, "characteristics", characteristic_from, run);
-  plan.surface.excluded = items_of<ExcludedBox>(top, "excluded", excluded_of, run);
-  plan.sections = items_of<PlannedSection>(top, "sections", section_of, run);
-  if (top.has("report")) plan.report = report_of(top.table("report"), path, run);
+      items_of<PlannedCharacteristic>(top, "characteristics", characteristic_from);
+  plan.surface.excluded = items_of<ExcludedBox>(top, "excluded", excluded_of);
+  plan.sections = items_of<PlannedSection>(top, "sections", section_of);
+  if (top.has("report")) plan.report = report_of(top.table("report"), path);
   const auto is_named = [&](const std::string& name) {
     return std::any_of(plan.features.begin(), plan.features.end(), [&](const auto& feature) {
       return feature.name == name;
@@ -228,7 +225,7 @@ InspectionPlan read_inspection_plan(const std::filesystem::path& path, const Run
               "\"{}\" refers to \"{}\", which is no name of [[features]]", planned.name, name));
     }
   }
-  top.warn_of_unused_keys(run);
+  top.refuse_unused_keys();
   return plan;
 }
 

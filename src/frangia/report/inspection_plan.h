@@ -8,7 +8,6 @@
 
 #include <Eigen/Core>
 
-#include "frangia/core/run.h"
 #include "frangia/features/geometric_tolerance.h"
 #include "frangia/features/shape.h"
 #include "frangia/inspect/surface_verdict.h"
@@ -79,11 +78,10 @@ struct InspectionPlan {
   ReportFields report;                                 ///< `[report]`
 };
 
-/// Reads inspection.toml, format "frangia-inspection". Warns of unknown keys.
+/// Reads inspection.toml, format "frangia-inspection".
 ///
 /// @units    mm and degrees, as the keys state
-/// @errors   Error(Input) that names the file and the key
-[[nodiscard]] InspectionPlan read_inspection_plan(const std::filesystem::path& path,
-                                                  const Run& run = {});
+/// @errors   Error(Input) that names the file and the key, also one that is unknown
+[[nodiscard]] InspectionPlan read_inspection_plan(const std::filesystem::path& path);
 
 }  // namespace frangia

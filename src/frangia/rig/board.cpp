@@ -41,12 +41,15 @@ void check_markers(const Board& board) {
                     board.dictionary));
   }
   const std::size_t markers = marker_squares(board).size();
-  if (markers > static_cast<std::size_t>(dictionary->markers)) {
-    fail_board(
-        fmt::format("board.dictionary is \"{}\", but the board has {} markers; choose a larger "
-                    "dictionary",
-                    board.dictionary,
-                    markers));
+  if (board.first_id < 0) fail_board("board.first_id must not be negative");
+  if (markers + static_cast<std::size_t>(board.first_id) >
+      static_cast<std::size_t>(dictionary->markers)) {
+    fail_board(fmt::format(
+        "board.dictionary is \"{}\", but the board has {} markers from id {} on; choose "
+        "a larger dictionary",
+        board.dictionary,
+        markers,
+        board.first_id));
   }
   const double side_mm = marker_side_mm(board);
   if (!(side_mm > 0.0 && side_mm < board.square_mm)) {
@@ -110,7 +113,7 @@ bool is_printed_black(const Board& board, const Eigen::Vector2d& point_mm) {
   const Eigen::Vector2d at = ((grid - square).array() - 0.5) / side + 0.5;
   if (at.minCoeff() < 0.0 || at.maxCoeff() >= 1.0) return false;
   // Black and white squares alternate, so that half of those before this one hold markers.
-  const int marker = (row * (board.columns + 1) + column) / 2;
+  const int marker = board.first_id + (row * (board.columns + 1) + column) / 2;
   return is_black_in_marker(find_aruco_dictionary(board.dictionary).value(), marker, at);
 }
 

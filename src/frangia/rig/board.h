@@ -23,6 +23,7 @@ struct Board {
   double diameter_mm = 0.0;                  ///< of circles; 0: 0.6 of their distance, as printed
   double marker_mm = 0.0;                    ///< side of a marker; 0: 0.7 of a square, as printed
   std::string dictionary = "DICT_5X5_100";   ///< of the markers; see `find_aruco_dictionary`
+  int first_id = 0;                          ///< of the first marker in the dictionary
   /// Layout of OpenCV before 4.6: a board with an even number of rows of squares starts with a
   /// white square.
   bool legacy_layout = false;
@@ -47,7 +48,8 @@ struct Board {
 /// @units    mm
 [[nodiscard]] double marker_side_mm(const Board& board);
 
-/// The squares that hold the markers of a ChArUco board, in the order of the markers.
+/// The squares that hold the markers of a ChArUco board, in the order of the markers: the first
+/// one holds the marker `first_id`.
 ///
 /// @shape    column and row of each square; (0, 0) is the square before the first point
 [[nodiscard]] std::vector<Eigen::Vector2i> marker_squares(const Board& board);

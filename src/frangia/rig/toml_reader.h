@@ -1,18 +1,23 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <iterator>
 #include <limits>
+#include <optional>
 #include <set>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <toml++/toml.h>
 
 #include "frangia/core/check_nesting.h"
 #include "frangia/core/error.h"
+#include "frangia/core/nearest_name.h"
 #include "frangia/core/read_text_file.h"
 #include "frangia/core/run.h"
 
@@ -31,7 +36,10 @@ class TomlReader {
     throw Error(ErrorKind::Input, fmt::format("{}: {} {}", file_.string(), name(key), what));
   }
   /// Whether the table contains the key.
-  [[nodiscard]] bool has(std::string_view key) const { return table_->contains(key); }
+  [[nodiscard]] bool has(std::string_view key) const {
+    known_.insert(std::string(key));
+    return table_->contains(key);
+  }
 
   /// Finite number; the key is required.
   [[nodiscard]] double number(std::string_view key) { return finite(key, node(key)); }
@@ -141,14 +149,26 @@ class TomlReader {
     return names;
   }
   /// Accepts a key without reading it, so that no warning follows.
-  void ignore(std::string_view key) { used_.insert(std::string(key)); }
+  void ignore(std::string_view key) {
+    used_.insert(std::string(key));
+    known_.insert(std::string(key));
+  }
 
-  /// Warns about each key that was not read.
+  /// Refuses each key that was not read. For tables in which a default replaces a missing key.
+  ///
+  /// @errors   Error(Input) that names the key and the nearest known one, or all
+  void refuse_unused_keys() const {
+    for (const std::string& key : unused_keys())
+      fail(key, fmt::format("is unknown here{}", meant(key).value_or(known())));
+  }
+  /// Warns about each key that was not read. One that is a known key but for a few letters is
+  /// refused, because the default would replace what it states.
+  ///
+  /// @errors   Error(Input) that names the key and the known one
   void warn_of_unused_keys(const Run& run) const {
-    for (const auto& [key, value] : *table_) {
-      if (!used_.contains(std::string(key.str()))) {
-        run.warn(fmt::format("{}: {} is unknown and ignored", file_.string(), name(key.str())));
-      }
+    for (const std::string& key : unused_keys()) {
+      if (const auto known_key = meant(key)) fail(key, "is unknown here" + *known_key);
+      run.warn(fmt::format("{}: {} is unknown and ignored", file_.string(), name(key)));
     }
   }
 
@@ -156,8 +176,28 @@ class TomlReader {
   [[nodiscard]] std::string name(std::string_view key) const {
     return table_name_.empty() ? std::string(key) : fmt::format("{}.{}", table_name_, key);
   }
+  [[nodiscard]] std::vector<std::string> unused_keys() const {
+    std::vector<std::string> names = keys();
+    std::erase_if(names, [&](const std::string& key) { return used_.contains(key); });
+    return names;
+  }
+  /// The advice for a key that is nearly one that this table may have and has not.
+  [[nodiscard]] std::optional<std::string> meant(const std::string& key) const {
+    std::vector<std::string> missing;
+    std::copy_if(known_.begin(), known_.end(), std::back_inserter(missing), [&](const auto& one) {
+      return !table_->contains(one);
+    });
+    const auto nearest = nearest_name(key, missing);
+    if (!nearest) return std::nullopt;
+    return fmt::format("; perhaps {} was meant: rename it, or leave it out", *nearest);
+  }
+  /// The advice with all keys that were asked for.
+  [[nodiscard]] std::string known() const {
+    return fmt::format("; leave it out. The keys are {}", fmt::join(known_, ", "));
+  }
   [[nodiscard]] const toml::node& node(std::string_view key) {
     used_.insert(std::string(key));
+    known_.insert(std::string(key));
     const toml::node* found = table_->get(key);
     if (found == nullptr) fail(key, "is missing");
     return *found;
@@ -173,6 +213,7 @@ class TomlReader {
   std::string table_name_;
   const toml::table* table_;
   std::set<std::string> used_;
+  mutable std::set<std::string> known_;  ///< all that were asked for, in the table or not
 };
 
 /// Parses TOML. `file` is named in messages.

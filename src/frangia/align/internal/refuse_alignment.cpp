@@ -1,7 +1,7 @@
 #include "frangia/align/internal/refuse_alignment.h"
 
+#include <algorithm>
 #include <array>
-#include <cmath>
 #include <string>
 #include <utility>
 
@@ -22,37 +22,97 @@ Mesh mirrored_in_x(Mesh mesh) {
   return mesh;
 }
 
-/// How much of the mesh the best pose of a search brings near the reference.
-double overlap_found(const Mesh& mesh,
-                     const RayScene& reference,
-                     const BestFitOptions& options,
-                     double tolerance_mm,
-                     const Run& run) {
+Mesh scaled_by(Mesh mesh, double factor) {
+  for (auto& vertex : mesh.vertices_mm)
+    vertex *= static_cast<float>(factor);
+  for (float& sigma : mesh.sigma_mm)
+    sigma *= static_cast<float>(factor);
+  return mesh;
+}
+
+/// The best pose of a search, and how much of the mesh it brings near the reference.
+AlignmentPose best_pose_of(const Mesh& mesh,
+                           const RayScene& reference,
+                           const BestFitOptions& options,
+                           double tolerance_mm,
+                           const Run& run) {
   FitProblem problem{reference,
                      measured_samples(mesh, kComparedSamples, options.seed),
                      measured_samples(reference.mesh(), kComparedSamples, options.seed),
                      size_of(reference.mesh()),
                      tolerance_mm};
   const auto candidates = candidates_of(problem, options, run);
-  if (candidates.empty()) return 0.0;
-  return rate_pose(problem.samples, reference, candidates.front().fit.pose, tolerance_mm, run)
-      .overlap;
+  if (candidates.empty()) return {};
+  return rate_pose(problem.samples, reference, candidates.front().fit.pose, tolerance_mm, run);
 }
 
-/// The unit of the reference that would give both surfaces the same size; empty when none does.
-std::string unit_that_fits(double mesh_size, double reference_size) {
-  constexpr std::array<std::pair<const char*, double>, 5> kUnits{
-      {{"in", 25.4}, {"m", 1000.0}, {"cm", 10.0}, {"ft", 304.8}, {"um", 0.001}}};
-  const double ratio = mesh_size / reference_size;
-  for (const auto& [unit, factor] : kUnits)
-    if (std::abs(std::log(ratio / factor)) < std::log(1.25)) return unit;
-  return {};
+/// A length that people and programs take for another one, in mm.
+struct LengthUnit {
+  const char* name;
+  double mm;
+};
+constexpr std::array<LengthUnit, 4> kUnits{{{"cm", 10.0}, {"in", 25.4}, {"ft", 304.8}, {"m", 1e3}}};
+
+/// How a mesh lies on a reference whose size is multiplied by a factor.
+struct ScaledPose {
+  std::string unit;     ///< whose length the factor or its inverse is
+  double factor = 1.0;  ///< of the reference
+  double tolerance_mm = 0.0;
+  AlignmentPose pose;
+};
+
+/// The deviation that counts as overlap, of the smaller surface: a part that is a thousand times
+/// too small lies near any face by the tolerance of a large reference.
+double scaled_tolerance_mm(const Mesh& mesh, double factor, const RayScene& reference) {
+  constexpr double kShareOfSize = 0.002;
+  return kShareOfSize * std::min(size_of(mesh) / factor, size_of(reference.mesh()));
+}
+
+/// The unit by which most of the mesh lies on the reference. `pose_of(scaled, tolerance_mm)` rates
+/// a scaled mesh. Units by which the mesh is much smaller or larger than the reference are left
+/// out: an accidental overlap proves nothing.
+template <typename PoseOf>
+ScaledPose best_unit(const Mesh& mesh, const RayScene& reference, const PoseOf& pose_of) {
+  constexpr double kLeastSize = 0.15;  // of the reference; a scan of a part of it
+  constexpr double kMostSize = 1.8;    // boxes of a turned part differ
+  const double ratio = size_of(mesh) / size_of(reference.mesh());
+  ScaledPose best;
+  for (const LengthUnit& unit : kUnits) {
+    for (const double factor : {unit.mm, 1.0 / unit.mm}) {
+      if (!(ratio / factor > kLeastSize && ratio / factor < kMostSize)) continue;
+      const double tolerance_mm = scaled_tolerance_mm(mesh, factor, reference);
+      const AlignmentPose pose = pose_of(scaled_by(mesh, 1.0 / factor), tolerance_mm);
+      if (pose.overlap > best.pose.overlap) best = {unit.name, factor, tolerance_mm, pose};
+    }
+  }
+  return best;
+}
+
+/// Refuses a mesh that clearly lies on the reference by another unit only.
+void refuse_unit(const ScaledPose& scaled, const AlignmentPose& as_it_is) {
+  constexpr double kLeastOverlap = 0.5;
+  constexpr double kLeastGain = 0.2;
+  if (scaled.pose.overlap < std::max(kLeastOverlap, as_it_is.overlap + kLeastGain)) return;
+  const bool larger = scaled.factor > 1.0;
+  throw Error(
+      ErrorKind::Input,
+      fmt::format(
+          "the mesh lies on the reference only when the reference is {:.6g} times as large: "
+          "{:.0f} % within {:.3g} mm then, RMS {:.3g} mm, and {:.0f} % as it is; {} by "
+          "`units`",
+          scaled.factor,
+          100.0 * scaled.pose.overlap,
+          scaled.factor * scaled.tolerance_mm,
+          scaled.factor * scaled.pose.rms_mm,
+          100.0 * as_it_is.overlap,
+          larger ? fmt::format("its unit may be {}; state it", scaled.unit)
+                 : fmt::format("the mesh may be in {}: write it in mm, or state {:.6g}mm",
+                               scaled.unit,
+                               scaled.factor)));
 }
 
 /// Says why a mesh does not lie on a reference.
-[[noreturn]] void throw_refusal(const Mesh& mesh,
-                                const RayScene& reference,
-                                const BestFitOptions& options,
+[[noreturn]] void throw_refusal(const BestFitOptions& options,
                                 double overlap,
                                 double tolerance_mm,
                                 bool mirror_fits) {
@@ -62,15 +122,6 @@ std::string unit_that_fits(double mesh_size, double reference_size) {
                             "itself lies on it; mirror one of them, or give the part of the other "
                             "hand as `reference`",
                             100.0 * overlap));
-  }
-  const std::string unit = unit_that_fits(size_of(mesh), size_of(reference.mesh()));
-  if (!unit.empty()) {
-    throw Error(ErrorKind::Input,
-                fmt::format("the mesh is {:.4g} mm large and the reference {:.4g} mm, so its unit "
-                            "may be {}; state it by `units`",
-                            size_of(mesh),
-                            size_of(reference.mesh()),
-                            unit));
   }
   throw Error(ErrorKind::Input,
               fmt::format("only {:.0f} % of the mesh lies within {:.3g} mm of the reference in the "
@@ -86,15 +137,46 @@ std::string unit_that_fits(double mesh_size, double reference_size) {
 void refuse_alignment(const Mesh& mesh,
                       const RayScene& reference,
                       const BestFitOptions& options,
+                      const Eigen::Isometry3d& found,
                       double overlap,
                       double tolerance_mm,
                       const Run& run) {
+  const AlignmentPose own = rate_pose(measured_samples(mesh, kComparedSamples, options.seed),
+                                      reference,
+                                      found,
+                                      scaled_tolerance_mm(mesh, 1.0, reference),
+                                      run);
+  if (own.overlap < kPlausible) {
+    refuse_unit(best_unit(mesh,
+                          reference,
+                          [&](const Mesh& scaled, double within_mm) {
+                            return best_pose_of(scaled, reference, options, within_mm, run);
+                          }),
+                own);
+  }
   if (overlap >= kPlausible) return;
-  const double mirrored = overlap_found(mirrored_in_x(mesh), reference, options, tolerance_mm, run);
+  const double mirrored =
+      best_pose_of(mirrored_in_x(mesh), reference, options, tolerance_mm, run).overlap;
   constexpr double kMirrorGain = 0.08;
   const bool mirror_fits = mirrored > overlap + kMirrorGain && mirrored > 0.5;
   if (mirror_fits || overlap < options.least_overlap)
-    throw_refusal(mesh, reference, options, overlap, tolerance_mm, mirror_fits);
+    throw_refusal(options, overlap, tolerance_mm, mirror_fits);
+}
+
+void refuse_unit_of_pose(const Mesh& mesh,
+                         const RayScene& reference,
+                         const Eigen::Isometry3d& reference_from_mesh,
+                         const BestFitOptions& options,
+                         const Run& run) {
+  const auto pose_of = [&](const Mesh& scaled, double tolerance_mm) {
+    return rate_pose(measured_samples(scaled, kComparedSamples, options.seed),
+                     reference,
+                     reference_from_mesh,
+                     tolerance_mm,
+                     run);
+  };
+  const AlignmentPose own = pose_of(mesh, scaled_tolerance_mm(mesh, 1.0, reference));
+  if (own.overlap < kPlausible) refuse_unit(best_unit(mesh, reference, pose_of), own);
 }
 
 }  // namespace frangia

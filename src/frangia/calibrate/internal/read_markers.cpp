@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <utility>
 
 #include <opencv2/imgproc.hpp>
 
@@ -102,9 +103,10 @@ struct Match {
 /// The markers of one board in all directions.
 class MarkerTable {
  public:
-  MarkerTable(const ArucoDictionary& dictionary, int markers) {
+  /// `first` is the id of the first of some markers, which gets the id 0.
+  MarkerTable(const ArucoDictionary& dictionary, int first, int markers) {
     for (int id = 0; id < markers; ++id) {
-      std::uint64_t bits = aruco_bits(dictionary, id);
+      std::uint64_t bits = aruco_bits(dictionary, first + id);
       for (int quarters = 0; quarters < 4; ++quarters) {
         codes_.push_back({bits, {id, quarters}});
         bits = turned(bits, dictionary.cells);
@@ -133,15 +135,16 @@ class MarkerTable {
   int correct_ = 0;
 };
 
-}  // namespace
-
-std::vector<SeenMarker> read_markers(const cv::Mat& bytes, const Board& board, bool mirrored) {
-  const ArucoDictionary dictionary = find_aruco_dictionary(board.dictionary).value();
-  const MarkerTable table(dictionary, static_cast<int>(marker_squares(board).size()));
+/// The markers of a table in some quadrangles of an image.
+std::vector<SeenMarker> markers_in(const cv::Mat& bytes,
+                                   const std::vector<Quad>& quads,
+                                   const MarkerTable& table,
+                                   int cells,
+                                   bool mirrored) {
   std::map<int, SeenMarker> seen;
-  for (Quad quad : dark_quads(bytes)) {
+  for (Quad quad : quads) {
     if (mirrored) std::reverse(quad.begin(), quad.end());
-    const auto bits = cells_of(bytes, quad, dictionary.cells);
+    const auto bits = cells_of(bytes, quad, cells);
     if (!bits) continue;
     const auto match = table.find(*bits);
     if (!match) continue;
@@ -153,6 +156,35 @@ std::vector<SeenMarker> read_markers(const cv::Mat& bytes, const Board& board, b
   for (const auto& [id, marker] : seen)
     markers.push_back(marker);
   return markers;
+}
+
+}  // namespace
+
+std::vector<SeenMarker> read_markers(const cv::Mat& bytes, const Board& board, bool mirrored) {
+  const ArucoDictionary dictionary = find_aruco_dictionary(board.dictionary).value();
+  const MarkerTable table(
+      dictionary, board.first_id, static_cast<int>(marker_squares(board).size()));
+  return markers_in(bytes, dark_quads(bytes), table, dictionary.cells, mirrored);
+}
+
+AnyMarkers read_any_markers(const cv::Mat& bytes) {
+  constexpr int kAll = 250;  // of the largest dictionaries, whose first ones are the smaller ones
+  AnyMarkers most;
+  cv::Mat inverse;
+  cv::bitwise_not(bytes, inverse);
+  for (const bool inverted : {false, true}) {
+    const cv::Mat& image = inverted ? inverse : bytes;
+    const std::vector<Quad> quads = dark_quads(image);
+    for (const int cells : {4, 5, 6, 7}) {
+      const MarkerTable table({cells, kAll}, 0, kAll);
+      for (const bool mirrored : {false, true}) {
+        auto markers = markers_in(image, quads, table, cells, mirrored);
+        if (markers.size() > most.markers.size())
+          most = {cells, inverted, mirrored, std::move(markers)};
+      }
+    }
+  }
+  return most;
 }
 
 }  // namespace frangia

@@ -15,7 +15,8 @@ struct SeenMarker {
   std::array<cv::Point2f, 4> corners;  ///< clockwise from the top left of the printed marker
 };
 
-/// Reads the markers of a ChArUco board. `mirrored` reads the markers of the mirrored board.
+/// Reads the markers of a ChArUco board; their ids count from its first one. `mirrored` reads the
+/// markers of the mirrored board.
 ///
 /// @shape    8-bit image
 /// @source   Garrido-Jurado et al. 2014: quadrangles of an adaptive threshold, rectified, compared
@@ -23,5 +24,19 @@ struct SeenMarker {
 [[nodiscard]] std::vector<SeenMarker> read_markers(const cv::Mat& bytes,
                                                    const Board& board,
                                                    bool mirrored = false);
+
+/// The markers of one size of cells that most of an image shows.
+struct AnyMarkers {
+  int cells = 0;
+  bool inverted = false;            ///< white where they should be black
+  bool mirrored = false;            ///< as in a mirror
+  std::vector<SeenMarker> markers;  ///< with their ids in the dictionary of 250 markers
+};
+
+/// Reads the markers of all dictionaries, also inverted and mirrored ones, and returns the kind of
+/// which most are seen.
+///
+/// @shape    8-bit image
+[[nodiscard]] AnyMarkers read_any_markers(const cv::Mat& bytes);
 
 }  // namespace frangia

@@ -63,6 +63,7 @@ BoardOrArtifact read_board(TomlReader reader, const Run& run) {
     board.square_mm = reader.positive("square_mm");
     if (reader.has("marker_mm")) board.marker_mm = reader.positive("marker_mm");
     board.dictionary = reader.text("dictionary");
+    if (reader.has("first_id")) board.first_id = reader.integer("first_id", 0, 249);
     if (reader.has("legacy_layout")) board.legacy_layout = reader.boolean("legacy_layout");
   } else {
     reader.fail(

@@ -1,17 +1,82 @@
 #include "frangia/exchange/internal/interpret_values.h"
 
+#include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <initializer_list>
 #include <optional>
 #include <string>
-#include <string_view>
+#include <vector>
 
 #include <Eigen/Geometry>
+#include <fmt/format.h>
+
+#include "frangia/core/error.h"
 
 namespace frangia {
 namespace {
 
 using Names = std::initializer_list<const char*>;
+
+// Those that `CalibrationNames` state come first; then the names that programs write.
+constexpr Names kCameraMatrix{"=K1",
+                              "Kc",
+                              "cam_K",
+                              "cam_int",
+                              "M1",
+                              "K1",
+                              "cameraMatrix1",
+                              "camera_matrix",
+                              "cameraMatrix",
+                              "mtx",
+                              "Camera.Matrix",
+                              "K"};
+constexpr Names kCameraDistortion{"=D1",
+                                  "kc",
+                                  "cam_kc",
+                                  "cam_dist",
+                                  "D1",
+                                  "d1",
+                                  "distCoeffs1",
+                                  "distortion_coefficients",
+                                  "distCoeffs",
+                                  "dist_coeffs",
+                                  "dist",
+                                  "Camera.Distortion",
+                                  "D"};
+constexpr Names kCameraSize{"cam_size", "image_size", "imageSize", "Camera.Size"};
+constexpr Names kCameraWidth{"frameWidth", "image_width", "width"};
+constexpr Names kCameraHeight{"frameHeight", "image_height", "height"};
+constexpr Names kProjectorMatrix{"=K2",
+                                 "Kp",
+                                 "proj_K",
+                                 "pro_K",
+                                 "proj_int",
+                                 "M4",
+                                 "M2",
+                                 "K2",
+                                 "cameraMatrix2",
+                                 "projector_matrix",
+                                 "projMatrix",
+                                 "Projector.Matrix"};
+constexpr Names kProjectorDistortion{"=D2",
+                                     "kp",
+                                     "proj_kc",
+                                     "pro_kc",
+                                     "proj_dist",
+                                     "D4",
+                                     "D2",
+                                     "d2",
+                                     "distCoeffs2",
+                                     "projector_distortion",
+                                     "projDist",
+                                     "Projector.Distortion"};
+constexpr Names kProjectorSize{"proj_size", "pro_size", "Projector.Size"};
+constexpr Names kProjectorWidth{"screenResX", "projector_width", "proj_width"};
+constexpr Names kProjectorHeight{"screenResY", "projector_height", "proj_height"};
+// Rlp is from the left camera to the projector, Rlr from the left camera to the right one.
+constexpr Names kRotation{"=R", "Rp", "Rlp", "R", "rotation", "Rotation", "Rlr"};
+constexpr Names kTranslation{"=T", "Tp", "Tlp", "T", "t", "translation", "Translation", "Tlr"};
 
 /// The first of some names that the file holds; null without one.
 const Eigen::MatrixXd* find_value(const NamedValues& values, Names names) {
@@ -22,8 +87,14 @@ const Eigen::MatrixXd* find_value(const NamedValues& values, Names names) {
   return nullptr;
 }
 
+/// A matrix, or a list of its nine elements by rows.
 std::optional<Eigen::Matrix3d> matrix3_of(const Eigen::MatrixXd* matrix) {
-  if (matrix == nullptr || matrix->rows() != 3 || matrix->cols() != 3) return std::nullopt;
+  if (matrix == nullptr) return std::nullopt;
+  if (matrix->rows() == 1 && matrix->cols() == 9) {
+    const Eigen::MatrixXd rows = rows_of_list(*matrix, 3, 3);
+    return Eigen::Matrix3d(rows);
+  }
+  if (matrix->rows() != 3 || matrix->cols() != 3) return std::nullopt;
   return Eigen::Matrix3d(*matrix);
 }
 
@@ -64,6 +135,58 @@ std::optional<std::array<int, 2>> named_size_of(const NamedValues& values,
   const int height = side_of(find_value(values, heights));
   if (width == 0 || height == 0) return std::nullopt;
   return std::array<int, 2>{width, height};
+}
+
+/// The size of an image by one value, width and height, or by two values.
+std::optional<std::array<int, 2>> size_of_values(const NamedValues& values,
+                                                 Names sizes,
+                                                 Names widths,
+                                                 Names heights) {
+  const Eigen::MatrixXd* size = find_value(values, sizes);
+  if (size == nullptr || size->size() != 2) return named_size_of(values, widths, heights);
+  const Eigen::MatrixXd width = Eigen::MatrixXd::Constant(1, 1, size->reshaped()[0]);
+  const Eigen::MatrixXd height = Eigen::MatrixXd::Constant(1, 1, size->reshaped()[1]);
+  if (side_of(&width) == 0 || side_of(&height) == 0) return std::nullopt;
+  return std::array<int, 2>{side_of(&width), side_of(&height)};
+}
+
+/// Whether programs use a name, also one of ROS that states nothing more.
+bool is_known(const std::string& name) {
+  if (name == "rectification_matrix" || name == "projection_matrix") return true;
+  for (const Names& names : {kCameraMatrix,
+                             kCameraDistortion,
+                             kCameraSize,
+                             kProjectorMatrix,
+                             kProjectorDistortion,
+                             kProjectorSize,
+                             kRotation,
+                             kTranslation}) {
+    if (std::find(names.begin(), names.end(), name) != names.end()) return true;
+  }
+  return false;
+}
+
+/// Values that have the size of a matrix, of distortion coefficients or of a translation, under
+/// names that no program is known to use.
+std::vector<std::string> unknown_names(const NamedValues& values) {
+  constexpr std::size_t kMostNames = 12;
+  std::vector<std::string> unknown;
+  for (const auto& [name, matrix] : values.matrices) {
+    if (is_known(name) || matrix.size() < 2 || matrix.size() > 16) continue;
+    if (unknown.size() == kMostNames) break;
+    unknown.push_back(fmt::format("{} ({} x {})", name, matrix.rows(), matrix.cols()));
+  }
+  return unknown;
+}
+
+/// A text in lower case, without underscores, hyphens and blanks.
+std::string plain_text(const std::string& text) {
+  std::string plain;
+  for (const char letter : text) {
+    const auto code = static_cast<unsigned char>(letter);
+    if (std::isalnum(code) != 0) plain += static_cast<char>(std::tolower(code));
+  }
+  return plain;
 }
 
 /// MATLAB's names from the part that states what a value is, without outer structures.
@@ -141,57 +264,57 @@ ForeignLens toolbox_camera_of(const NamedValues& values, const std::string& side
 
 }  // namespace
 
+void check_lens_models(const NamedValues& values) {
+  const auto refuse = [](const std::string& name, const std::string& model) {
+    throw Error(ErrorKind::Input,
+                fmt::format("{} is {}, a lens model that no rig can hold: calibrate with OpenCV's "
+                            "model of k1 k2 p1 p2 k3 (plumb_bob, radtan)",
+                            name,
+                            model));
+  };
+  for (const auto& [name, text] : values.texts) {
+    const std::string key = plain_text(name.substr(name.rfind('.') + 1));
+    const std::string model = plain_text(text);
+    const auto holds = [&](const char* part) { return model.find(part) != std::string::npos; };
+    if (!key.ends_with("model") && key != "type" && key != "projection") continue;
+    // Kalibr's and OpenCV's short names are whole words.
+    const bool other = holds("fisheye") || holds("equi") || holds("kannala") || holds("sphere") ||
+                       holds("omni") || holds("unified") || holds("ftheta") || model == "kb4" ||
+                       model == "ds" || model == "eucm" || model == "ucm" || model == "mei" ||
+                       model == "fov";
+    if (other) refuse(name, text);
+  }
+  for (const auto& [name, matrix] : values.matrices) {
+    const std::string key = plain_text(name.substr(name.rfind('.') + 1));
+    const bool set = matrix.size() == 1 && matrix(0, 0) != 0.0;
+    if (set && (key == "fisheye" || key == "fisheyemodel")) refuse(name, "set");
+    if (key == "mappingcoefficients") refuse(name, "stated");  // MATLAB's fisheyeIntrinsics
+  }
+}
+
 ForeignCalibration interpret_opencv_values(const NamedValues& values) {
+  check_lens_models(values);
   ForeignCalibration found;
   found.program = find_value(values, {"Kc"}) != nullptr      ? "SLStudio"
                   : find_value(values, {"cam_K", "cam_int"}) ? "scan3d-capture"
                                                              : "OpenCV";
-  found.camera.matrix = matrix3_of(find_value(values,
-                                              {"Kc",
-                                               "cam_K",
-                                               "cam_int",
-                                               "M1",
-                                               "K1",
-                                               "cameraMatrix1",
-                                               "camera_matrix",
-                                               "cameraMatrix",
-                                               "K"}));
-  found.camera.distortion = numbers_of(find_value(values,
-                                                  {"kc",
-                                                   "cam_kc",
-                                                   "cam_dist",
-                                                   "D1",
-                                                   "d1",
-                                                   "distCoeffs1",
-                                                   "distortion_coefficients",
-                                                   "distCoeffs",
-                                                   "dist_coeffs",
-                                                   "D"}));
-  found.camera.size_px = named_size_of(
-      values, {"frameWidth", "image_width", "width"}, {"frameHeight", "image_height", "height"});
-  found.projector.matrix = matrix3_of(find_value(
-      values,
-      {"Kp", "proj_K", "proj_int", "M2", "K2", "cameraMatrix2", "projector_matrix", "projMatrix"}));
-  found.projector.distortion = numbers_of(find_value(values,
-                                                     {"kp",
-                                                      "proj_kc",
-                                                      "proj_dist",
-                                                      "D2",
-                                                      "d2",
-                                                      "distCoeffs2",
-                                                      "projector_distortion",
-                                                      "projDist"}));
-  found.projector.size_px = named_size_of(values,
-                                          {"screenResX", "projector_width", "proj_width"},
-                                          {"screenResY", "projector_height", "proj_height"});
-  found.rotation = rotation_of(find_value(values, {"Rp", "R", "rotation"}));
-  found.translation = vector3_of(find_value(values, {"Tp", "T", "t", "translation"}));
+  found.camera.matrix = matrix3_of(find_value(values, kCameraMatrix));
+  found.camera.distortion = numbers_of(find_value(values, kCameraDistortion));
+  found.camera.size_px = size_of_values(values, kCameraSize, kCameraWidth, kCameraHeight);
+  found.projector.matrix = matrix3_of(find_value(values, kProjectorMatrix));
+  found.projector.distortion = numbers_of(find_value(values, kProjectorDistortion));
+  found.projector.size_px =
+      size_of_values(values, kProjectorSize, kProjectorWidth, kProjectorHeight);
+  found.rotation = rotation_of(find_value(values, kRotation));
+  found.translation = vector3_of(find_value(values, kTranslation));
   // scan3d-capture writes metres into its JSON, and millimetres into its YAML.
   if (find_value(values, {"cam_int"}) != nullptr) found.mm_per_unit = 1000.0;
+  found.unknown = unknown_names(values);
   return found;
 }
 
 ForeignCalibration interpret_matlab_values(const NamedValues& all) {
+  check_lens_models(all);
   const NamedValues values = without_outer_names(all);
   ForeignCalibration found;
   if (find_value(values, {"fc_left"}) != nullptr) {

@@ -51,8 +51,73 @@ void check_lines(std::string_view text, const std::filesystem::path& file) {
   }
 }
 
+/// The lists of numbers that PyYAML writes in lines of their own, "- - 1.0" for the first number of
+/// a row, as lists in brackets: FileStorage refuses them. Tabs become blanks.
+std::string with_bracketed_lists(std::string_view text) {
+  std::string result;
+  std::string list;  // of the lines before, without its last bracket
+  bool in_rows = false;
+  const auto end_list = [&] {
+    if (list.empty()) return;
+    const std::size_t key_end = result.find_last_not_of(" \n");
+    result.resize(key_end == std::string::npos ? 0 : key_end + 1);
+    result += " " + list + (in_rows ? "]]\n" : "]\n");
+    list.clear();
+    in_rows = false;
+  };
+  for (std::size_t start = 0; start < text.size();) {
+    const std::size_t end = std::min(text.find('\n', start), text.size());
+    std::string line(text.substr(start, end - start));
+    start = end + 1;
+    std::size_t content = line.find_first_not_of(" \t");
+    for (std::size_t i = 0; i < std::min(content, line.size()); ++i)
+      if (line[i] == '\t') line[i] = ' ';
+    content = std::min(content, line.size());
+    std::string_view item = std::string_view(line).substr(content);
+    while (!item.empty() && (item.back() == ' ' || item.back() == '\r'))
+      item.remove_suffix(1);
+    const bool begins_row = item.starts_with("- - ");
+    const std::string_view number = begins_row               ? item.substr(4)
+                                    : item.starts_with("- ") ? item.substr(2)
+                                                             : std::string_view();
+    constexpr std::string_view kNumber = "0123456789+-.eEnNaAiIfF";
+    if (number.empty() || number.find_first_not_of(kNumber) != std::string_view::npos) {
+      end_list();
+      result += line + "\n";
+      continue;
+    }
+    if (list.empty()) {
+      in_rows = begins_row;
+      list = begins_row ? "[[" : "[";
+    } else {
+      list += begins_row && in_rows ? "], [" : ", ";
+    }
+    list += number;
+  }
+  end_list();
+  return result;
+}
+
+Eigen::MatrixXd storage_matrix_of(const cv::FileNode& node);
+
+Eigen::MatrixXd storage_rows_of(const cv::FileNode& node) {
+  const std::size_t columns = (*node.begin()).size();
+  if (columns == 0 || columns * node.size() > kMaxValueNumbers) return {};
+  Eigen::MatrixXd matrix(static_cast<Eigen::Index>(node.size()),
+                         static_cast<Eigen::Index>(columns));
+  Eigen::Index row = 0;
+  for (const cv::FileNode& item : node) {
+    if (!item.isSeq() || item.size() != columns) return {};
+    const Eigen::MatrixXd list = storage_matrix_of(item);
+    if (list.rows() != 1 || list.cols() != matrix.cols()) return {};
+    matrix.row(row++) = list;
+  }
+  return matrix;
+}
+
 Eigen::MatrixXd storage_list_of(const cv::FileNode& node) {
   if (node.size() > kMaxValueNumbers) return {};
+  if (node.size() > 0 && (*node.begin()).isSeq()) return storage_rows_of(node);
   Eigen::MatrixXd list(1, static_cast<Eigen::Index>(node.size()));
   Eigen::Index column = 0;
   for (const cv::FileNode& item : node) {
@@ -75,20 +140,46 @@ Eigen::MatrixXd storage_matrix_of(const cv::FileNode& node) {
       storage_list_of(node["data"]), static_cast<int>(rows), static_cast<int>(cols));
 }
 
+/// Adds the values below a node. Names of inner structures are joined by dots.
+void collect_nodes(const cv::FileNode& node,
+                   const std::string& prefix,
+                   const std::filesystem::path& file,
+                   NamedValues& values) {
+  for (const cv::FileNode& inner : node) {
+    const std::string name = prefix + inner.name();
+    if (name.size() > kMaxNameBytes) continue;
+    check_count(values, file);
+    Eigen::MatrixXd matrix = storage_matrix_of(inner);
+    if (matrix.size() > 0) {
+      values.matrices.emplace(name, std::move(matrix));
+    } else if (inner.isString()) {
+      values.texts.emplace(name, inner.string());
+    } else if (inner.isMap()) {
+      collect_nodes(inner, name + ".", file, values);
+    }
+  }
+}
+
+/// What OpenCV says in "OpenCV(4.6.0) persistence_yml.cpp:12: error: (-212:Parsing error) a(3):
+/// Tabs are prohibited in function 'skipSpaces'".
+std::string plain_fault(const std::string& what) {
+  const std::size_t begin = what.find("error) ");
+  if (begin == std::string::npos) return what;
+  const std::string fault = what.substr(begin + 7);
+  return fault.substr(0, fault.find(" in function"));
+}
+
 /// FileStorage reads YAML only, see read_opencv_xml.cpp.
 NamedValues read_opencv_yaml(std::string text, const std::filesystem::path& file) {
   check_json_nesting(text, file);
   check_lines(text, file);
+  text = with_bracketed_lists(text);
   // FileStorage asks for the directive; ROS does not write it.
   if (text.rfind("%YAML", 0) != 0) text.insert(0, "%YAML:1.0\n---\n");
   NamedValues values;
   const cv::FileStorage storage(
       text, cv::FileStorage::READ | cv::FileStorage::MEMORY | cv::FileStorage::FORMAT_YAML);
-  for (const cv::FileNode& node : storage.root()) {
-    Eigen::MatrixXd matrix = storage_matrix_of(node);
-    if (matrix.size() > 0) values.matrices.emplace(node.name(), std::move(matrix));
-    if (node.isString()) values.texts.emplace(node.name(), node.string());
-  }
+  collect_nodes(storage.root(), "", file, values);
   return values;
 }
 
@@ -107,9 +198,9 @@ NamedValues read_opencv_values(const std::filesystem::path& file) {
   } catch (const std::exception& fault) {
     throw Error(ErrorKind::Input,
                 fmt::format("{}: OpenCV cannot read it ({}); give a .yml or .xml that OpenCV's "
-                            "FileStorage wrote",
+                            "FileStorage wrote, or lists of numbers",
                             file.string(),
-                            fault.what()));
+                            plain_fault(fault.what())));
   }
 }
 

@@ -16,8 +16,9 @@
 namespace frangia {
 namespace {
 
-constexpr std::size_t kMaxXmlDepth = 64;      // a calibration has four levels
-constexpr std::size_t kMaxXmlNumbers = 1000;  // of a matrix that is kept
+constexpr std::size_t kMaxXmlDepth = 64;       // a calibration has four levels
+constexpr std::size_t kMaxXmlValues = 10'000;  // a calibration has twenty
+constexpr std::size_t kMaxXmlNumbers = 1000;   // of a matrix that is kept
 constexpr std::string_view kBlank = " \t\r\n";
 
 /// The numbers of a text; nothing when it holds something else.
@@ -59,12 +60,7 @@ Eigen::Index whole_number_of(std::string_view text) {
 class StorageElements {
  public:
   void begin(std::string_view name) {
-    if (path_.empty() && name != "opencv_storage") {
-      throw Error(ErrorKind::Input,
-                  fmt::format("its XML begins with <{}>; give a .yml or .xml that OpenCV's "
-                              "FileStorage wrote",
-                              name));
-    }
+    if (path_.empty()) is_storage_ = name == "opencv_storage";
     if (path_.size() == kMaxXmlDepth) {
       throw Error(ErrorKind::Input,
                   fmt::format("its elements are nested more than {} deep; it is no calibration",
@@ -73,11 +69,22 @@ class StorageElements {
     path_.emplace_back(name);
     text_.clear();
     if (path_.size() == 2) fields_.clear();
+    if (!is_storage_ && values.matrices.size() + values.texts.size() > kMaxXmlValues) {
+      throw Error(ErrorKind::Input,
+                  fmt::format("it holds more than {} values; it is no calibration", kMaxXmlValues));
+    }
   }
 
   void text(std::string_view piece) { text_ += piece; }
 
   void end() {
+    if (!is_storage_) {
+      fields_.clear();
+      add_value(name_of_element());
+      path_.pop_back();
+      text_.clear();
+      return;
+    }
     if (path_.size() == 3) fields_.emplace(path_.back(), std::move(text_));
     if (path_.size() == 2) add_value(path_.back());
     path_.pop_back();
@@ -87,6 +94,15 @@ class StorageElements {
   NamedValues values;
 
  private:
+  /// "Camera.Matrix" of <Calibration><Camera><Matrix>.
+  [[nodiscard]] std::string name_of_element() const {
+    const bool outer = path_.front() == "Camera" || path_.front() == "Projector";
+    std::string name;
+    for (std::size_t i = outer || path_.size() == 1 ? 0 : 1; i < path_.size(); ++i)
+      name += (name.empty() ? "" : ".") + path_[i];
+    return name.size() > kMaxNameBytes ? name.substr(0, kMaxNameBytes) : name;
+  }
+
   void add_value(const std::string& name) {
     if (!fields_.empty()) {
       const auto list = numbers_of(fields_["data"]);
@@ -101,6 +117,7 @@ class StorageElements {
     }
   }
 
+  bool is_storage_ = true;                     ///< whether FileStorage wrote it
   std::vector<std::string> path_;              ///< names of the open elements
   std::string text_;                           ///< since the last tag
   std::map<std::string, std::string> fields_;  ///< texts of the elements inside of a value

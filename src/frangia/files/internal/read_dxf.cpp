@@ -78,6 +78,9 @@ class DxfReader {
       } else if (groups_.is(9, "$INSUNITS") && section_ == "HEADER") {
         more = groups_.next();
         if (more && groups_.code() == 70) take_unit(groups_.integer());
+      } else if (groups_.is(9, "$MEASUREMENT") && section_ == "HEADER") {
+        more = groups_.next();
+        imperial_ = more && groups_.code() == 70 && groups_.integer() == 0;
       } else if (groups_.is(0, "LAYER") && section_ == "TABLES") {
         more = read_layer();
       } else {
@@ -98,6 +101,12 @@ class DxfReader {
                            path.string(),
                            *unknown_unit_));
     }
+    if (imperial_ && no_unit_) {
+      run.warn(
+          fmt::format("{}: it is an imperial drawing ($MEASUREMENT 0) without a unit "
+                      "($INSUNITS); mm are assumed",
+                      path.string()));
+    }
     if (entities_.cages() > 0) {
       run.warn(
           fmt::format("{}: {} MESH {} subdivided by the program that shows it; the cage is "
@@ -115,6 +124,7 @@ class DxfReader {
   void take_unit(std::int64_t unit) {
     const std::optional<double> mm = mm_of(unit);
     mm_per_unit_ = mm.value_or(1.0);
+    no_unit_ = unit == 0;
     if (!mm) unknown_unit_ = unit;
   }
 
@@ -139,6 +149,8 @@ class DxfReader {
   std::string section_;
   double mm_per_unit_ = 1.0;
   std::optional<std::int64_t> unknown_unit_;
+  bool no_unit_ = true;    ///< of $INSUNITS
+  bool imperial_ = false;  ///< by $MEASUREMENT
 };
 
 }  // namespace
