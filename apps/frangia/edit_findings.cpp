@@ -1,6 +1,7 @@
 #include "edit_findings.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <string>
 #include <vector>
@@ -8,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "fixed_text.h"
+#include "json_number.h"
 #include "print_text.h"
 
 namespace frangia {
@@ -89,7 +91,7 @@ nlohmann::ordered_json findings_json(const MeshFindings& found) {
   json["displaced"] = found.marks[1];
   json["synthesized"] = found.marks[2];
   json["area_mm2"] = found.area_mm2;
-  json["volume_mm3"] = found.volume_mm3;
+  json["volume_mm3"] = number_or_null(found.volume_mm3);
   if (!found.box_mm.isEmpty()) {
     const Eigen::Vector3d& low = found.box_mm.min();
     const Eigen::Vector3d& high = found.box_mm.max();
@@ -117,8 +119,14 @@ void print_findings(const MeshFindings& found) {
   }
   print_line("area mm2", fmt::format("{:.3f}", found.area_mm2));
   print_line("volume mm3",
-             found.closed ? fixed_text(found.volume_mm3, 3) : "none: the mesh is not closed");
-  print_line("non-manifold edges", fmt::format("{}", found.non_manifold_edges));
+             std::isfinite(found.volume_mm3) ? fixed_text(found.volume_mm3, 3)
+                                             : "none: the mesh is not closed");
+  print_line("non-manifold edges",
+             found.non_manifold_edges == 0
+                 ? "0"
+                 : fmt::format("{}; --orient and --make-manifold repair them, and show the holes "
+                               "at them",
+                               found.non_manifold_edges));
   print_line("degenerate", fmt::format("{}", found.degenerate_triangles));
   print_line("intersecting pairs",
              found.self_intersections ? fmt::format("{}", *found.self_intersections)

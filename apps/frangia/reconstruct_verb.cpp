@@ -94,6 +94,11 @@ void add_surface_options(CLI::App& verb, ReconstructArguments& arguments) {
                   arguments.options.fusion.voxel_mm,
                   "sampling distance of the surface, mm; chosen from the data by default")
       ->transform(length_above_zero());
+  verb.add_flag(
+      "--keep-islands",
+      arguments.options.finish.keep_islands,
+      "keep components of a few voxels, or smaller than their sigma, which are removed by "
+      "default");
   verb.add_flag("--watertight",
                 arguments.options.finish.watertight,
                 "close all holes; their triangles are marked as synthesized (mark 2 in a PLY, a "

@@ -217,6 +217,7 @@ void bind_pipeline(py::module_& module) {
          double voxel_mm,
          bool register_views,
          bool indirect_light,
+         bool keep_islands,
          bool watertight,
          double clip_below_mm,
          const py::object& progress) {
@@ -232,6 +233,7 @@ void bind_pipeline(py::module_& module) {
         options.fusion.voxel_mm = voxel_mm;
         options.register_views = register_views;
         options.indirect_light = indirect_light;
+        options.finish.keep_islands = keep_islands;
         options.finish.watertight = watertight;
         options.clip_below_mm = clip_below_mm;
         return result_of(progress, [&](const Run& run) { return reconstruct(scan, options, run); });
@@ -249,6 +251,7 @@ void bind_pipeline(py::module_& module) {
       py::arg("voxel_mm") = 0.0,
       py::arg("register_views") = true,
       py::arg("indirect_light") = true,
+      py::arg("keep_islands") = false,
       py::arg("watertight") = false,
       py::arg("clip_below_mm") = -std::numeric_limits<double>::infinity(),
       py::arg("progress") = py::none(),

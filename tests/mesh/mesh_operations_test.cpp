@@ -1,6 +1,10 @@
 // Operations on shapes with known areas, volumes and curvature.
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
+#include <map>
+#include <string>
 
 #include <gtest/gtest.h>
 
@@ -12,12 +16,16 @@
 #include "frangia/geometry/hausdorff_distance.h"
 #include "frangia/geometry/transform_mesh.h"
 #include "frangia/geometry/vertex_data.h"
+#include "frangia/mesh/decimate.h"
+#include "frangia/mesh/fill_holes.h"
 #include "frangia/mesh/make_manifold.h"
+#include "frangia/mesh/mesh_findings.h"
 #include "frangia/mesh/offset_mesh.h"
 #include "frangia/mesh/orient.h"
 #include "frangia/mesh/stitch.h"
 
 #include "ball_meshes.h"
+#include "support/error_of.h"
 
 namespace frangia {
 namespace {
@@ -25,6 +33,7 @@ namespace {
 using Eigen::Vector3d;
 using testing::ball;
 using testing::box;
+using testing::finer;
 using testing::kBallRadius;
 using testing::open_edges;
 using testing::sphere;
@@ -96,6 +105,82 @@ TEST(MakeManifold, SplitsTwoBoxesAtASharedEdgeAndRemovesDuplicates) {
   EXPECT_EQ(count_non_manifold_edges(split), 0U);
   EXPECT_EQ(open_edges(split), 0U);
   EXPECT_NEAR(volume_mm3(split), 2.0, 1e-6);
+}
+
+/// Two boxes of 30 mm that share an edge, with `rounds` subdivisions.
+Mesh boxes_at_an_edge(int rounds) {
+  Mesh mesh = box({0, 0, 0}, {30, 30, 30});
+  Mesh other = box({30, 30, 0}, {60, 60, 30});
+  for (int round = 0; round < rounds; ++round) {
+    mesh = finer(mesh);
+    other = finer(other);
+  }
+  append_mesh(mesh, other);
+  // Vertices at one place become one: those of the edge.
+  std::map<std::array<float, 3>, std::uint32_t> at;
+  for (auto& triangle : mesh.triangles) {
+    for (std::uint32_t& vertex : triangle) {
+      const Eigen::Vector3f& p = mesh.vertices_mm[vertex];
+      vertex = at.emplace(std::array{p.x(), p.y(), p.z()}, vertex).first->second;
+    }
+  }
+  return mesh;
+}
+
+class Warnings {
+ public:
+  [[nodiscard]] frangia::Run run() {
+    frangia::Run run;
+    run.on_warning = [this](const std::string& text) { text_ += text + "\n"; };
+    return run;
+  }
+  [[nodiscard]] const std::string& text() const { return text_; }
+
+ private:
+  std::string text_;
+};
+
+TEST(NonManifoldEdges, AreSplitBeforeADecimation) {
+  const Mesh mesh = boxes_at_an_edge(4);
+  ASSERT_EQ(count_non_manifold_edges(mesh), 16U);
+  Warnings warnings;
+  const Mesh few = decimate(mesh, {.triangles = 24}, warnings.run());
+  EXPECT_LE(few.triangles.size(), 24U);
+  EXPECT_EQ(count_non_manifold_edges(few), 0U);
+  EXPECT_NEAR(volume_mm3(few), 54'000.0, 1.0);
+  EXPECT_NE(warnings.text().find("16 non-manifold edges"), std::string::npos) << warnings.text();
+}
+
+TEST(NonManifoldEdges, HideNoHole) {
+  Mesh mesh = boxes_at_an_edge(2);
+  std::erase_if(mesh.triangles, [&](const Mesh::Triangle& t) {  // open at the top
+    return std::all_of(
+        t.begin(), t.end(), [&](std::uint32_t v) { return mesh.vertices_mm[v].z() == 30.0F; });
+  });
+  EXPECT_TRUE(std::isnan(mesh_findings(mesh).volume_mm3));
+  Warnings warnings;
+  const Mesh filled = fill_holes(mesh, {.kind = HoleFill::Flat}, warnings.run());
+  EXPECT_EQ(open_edges(filled), 0U);
+  EXPECT_NEAR(volume_mm3(filled), 54'000.0, 1.0);
+  EXPECT_NE(warnings.text().find("hole filling split them first"), std::string::npos);
+}
+
+TEST(NonManifoldEdges, LeaveTheVolumeOfClosedBodies) {
+  const MeshFindings found = mesh_findings(boxes_at_an_edge(0));
+  EXPECT_EQ(found.non_manifold_edges, 1U);
+  EXPECT_FALSE(found.closed);
+  EXPECT_NEAR(found.volume_mm3, 54'000.0, 1e-6);
+}
+
+TEST(NonManifoldEdges, OfOppositeOrientationAreRefused) {
+  Mesh mesh = box({0, 0, 0}, {10, 20, 30});
+  std::swap(mesh.triangles[3][0], mesh.triangles[3][1]);
+  EXPECT_TRUE(std::isnan(mesh_findings(mesh).volume_mm3));
+  EXPECT_NE(testing::error_of([&] { (void)decimate(mesh, {.triangles = 6}); }).find("`orient`"),
+            std::string::npos);
+  EXPECT_NE(testing::error_of([&] { (void)fill_holes(mesh); }).find("3 edges join two"),
+            std::string::npos);
+  EXPECT_NEAR(mesh_findings(orient(mesh)).volume_mm3, 6000.0, 1e-6);
 }
 
 TEST(Orient, MakesABallConsistentAndOutward) {

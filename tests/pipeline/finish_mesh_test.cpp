@@ -11,6 +11,7 @@
 #include "frangia/geometry/boundary_loops.h"
 #include "frangia/geometry/clean_mesh.h"
 #include "frangia/geometry/ray_scene.h"
+#include "frangia/geometry/vertex_data.h"
 #include "frangia/mesh/make_manifold.h"
 #include "frangia/simulate/parts.h"
 
@@ -73,6 +74,40 @@ TEST(FinishMesh, StaysWithinTheTolerance) {
   for (const auto& vertex : fewer.vertices_mm)
     farthest = std::max(farthest, before.nearest(vertex.cast<double>())->distance_mm);
   EXPECT_LE(farthest, 0.05);
+}
+
+/// A square of `cells` x `cells` cells of 1 mm at a height.
+Mesh sheet(std::uint32_t cells, float z_mm, float sigma_mm) {
+  Mesh mesh;
+  for (std::uint32_t y = 0; y <= cells; ++y)
+    for (std::uint32_t x = 0; x <= cells; ++x)
+      mesh.vertices_mm.emplace_back(static_cast<float>(x), static_cast<float>(y), z_mm);
+  mesh.sigma_mm.assign(mesh.vertices_mm.size(), sigma_mm);
+  for (std::uint32_t y = 0; y < cells; ++y) {
+    for (std::uint32_t x = 0; x < cells; ++x) {
+      const std::uint32_t a = y * (cells + 1) + x;
+      mesh.triangles.push_back({a, a + 1, a + cells + 2});
+      mesh.triangles.push_back({a, a + cells + 2, a + cells + 1});
+    }
+  }
+  return mesh;
+}
+
+TEST(FinishMesh, RemovesIslandsOfAFewVoxelsOrOfTheirSigmaAndCountsThem) {
+  Mesh mesh = sheet(80, 0.0F, 0.02F);
+  append_mesh(mesh, sheet(8, 5.0F, 0.02F));    // 11 mm
+  append_mesh(mesh, sheet(20, 10.0F, 15.0F));  // 28 mm, less than 2 x 15 mm
+  append_mesh(mesh, sheet(20, 15.0F, 0.02F));
+  std::string notes;
+  frangia::Run run;
+  run.on_note = [&](const std::string& text) { notes += text; };
+  const Mesh finished = finish_mesh(mesh, {}, run);
+  EXPECT_EQ(finished.triangles.size(), 2U * (80U * 80U + 20U * 20U));
+  EXPECT_NE(notes.find("2 of 4 components removed"), std::string::npos) << notes;
+  EXPECT_NE(notes.find("928 triangles"), std::string::npos) << notes;
+  EXPECT_EQ(finish_mesh(mesh, {.keep_islands = true}).triangles.size(), mesh.triangles.size());
+  // Alone, an island is all that was measured.
+  EXPECT_EQ(finish_mesh(sheet(8, 0.0F, 0.02F), {}).triangles.size(), 128U);
 }
 
 TEST(LimitTriangles, KeepsTheCountAndNotesTheDistance) {

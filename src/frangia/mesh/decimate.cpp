@@ -19,6 +19,7 @@
 #include "frangia/mesh/internal/collapse_topology.h"
 #include "frangia/mesh/internal/distance_guard.h"
 #include "frangia/mesh/internal/lazy_priority_queue.h"
+#include "frangia/mesh/internal/with_manifold_edges.h"
 
 namespace frangia {
 namespace {
@@ -37,19 +38,37 @@ struct Candidate {
   }
 };
 
+/// A collapse of b into a.
+struct CollapseStep {
+  std::uint32_t a = 0, b = 0;
+  Eigen::Vector3f target_mm = Eigen::Vector3f::Zero();
+};
+
 class Decimation {
  public:
-  Decimation(Mesh& mesh, const HalfEdges& edges, double tolerance_mm)
+  /// Vertices that `kept` marks stay where they are; empty: none.
+  Decimation(Mesh& mesh,
+             const HalfEdges& edges,
+             double tolerance_mm,
+             const std::vector<std::uint8_t>& kept)
       : mesh_(mesh),
+        kept_(kept),
         max_mean_square_(tolerance_mm * tolerance_mm),
         tie_weight_(tie_weight_of(mesh)),
         cost_(mesh, edges),
         topology_(mesh, edges),
         versions_(mesh.vertices_mm.size()) {}
 
-  void run(const HalfEdges& edges, std::size_t target, DistanceGuard* guard, const Run& run) {
+  /// Collapses edges until `target` triangles are left or no edge may collapse. Those of `earlier`,
+  /// of a decimation that differs in the vertices that stay, come first: they are not chosen again.
+  void run(const HalfEdges& edges,
+           const std::vector<CollapseStep>& earlier,
+           std::size_t target,
+           DistanceGuard* guard,
+           const Run& run) {
     constexpr std::size_t kCollapsesPerCheck = 1024;  // about 10 ms with a guard
-    LazyPriorityQueue<Candidate> queue(candidates_of(edges, run));
+    LazyPriorityQueue<Candidate> queue(earlier.empty() ? candidates_of(edges, run)
+                                                       : repeat(earlier, guard, run));
     const auto outdated = [this](const Candidate& candidate) {
       return candidate.version != versions_[candidate.a] + versions_[candidate.b] ||
              topology_.is_removed(candidate.a) || topology_.is_removed(candidate.b);
@@ -69,8 +88,12 @@ class Decimation {
                    static_cast<double>(begin - target));
       }
     }
-    keep_triangles(mesh_, topology_.alive());
   }
+
+  /// The collapses, in their order.
+  [[nodiscard]] const std::vector<CollapseStep>& steps() const { return steps_; }
+  /// Which triangles of the mesh are left.
+  [[nodiscard]] const std::vector<std::uint8_t>& alive() const { return topology_.alive(); }
 
  private:
   [[nodiscard]] Vector3d position(std::uint32_t v) const {
@@ -109,6 +132,7 @@ class Decimation {
   [[nodiscard]] std::optional<Candidate> candidate_of(std::uint32_t a, std::uint32_t b) const {
     if (a > b) std::swap(a, b);
     if (a == b || topology_.is_fixed(a) || topology_.is_fixed(b)) return std::nullopt;
+    if (!kept_.empty() && (kept_[a] != 0 || kept_[b] != 0)) return std::nullopt;
     const CollapseTarget target = cost_.target(a, b);
     if (target.mean_square > max_mean_square_) return std::nullopt;
     // Of edges that are equally flat, short ones come first.
@@ -119,15 +143,48 @@ class Decimation {
   /// Collapses an edge if that is allowed; `neighbors_` are then those of a.
   bool try_collapse(std::uint32_t a, std::uint32_t b, DistanceGuard* guard) {
     // Rounded to the precision of the mesh, so that the checks see the final position.
-    const Vector3d target_mm = cost_.target(a, b).position.cast<float>().cast<double>();
+    CollapseTarget target = cost_.target(a, b);
+    const Vector3d target_mm = target.position.cast<float>().cast<double>();
+    target.position = target_mm;
     if (!topology_.can_collapse(a, b)) return false;
     if (!keeps_orientation(a, b, target_mm) || !keeps_orientation(b, a, target_mm)) return false;
     if (guard != nullptr) {
-      if (!guard->allows(topology_, mesh_, a, b, target_mm)) return false;
+      if (!guard->allows(topology_, mesh_, a, b, target)) return false;
       guard->accept();
     }
     collapse(a, b, target_mm);
     return true;
+  }
+
+  /// Performs the steps of an earlier decimation, except those at vertices that stay now and those
+  /// that depend on them. Returns the edges at the vertices of these: no other may collapse.
+  std::vector<Candidate> repeat(const std::vector<CollapseStep>& earlier,
+                                DistanceGuard* guard,
+                                const Run& run) {
+    constexpr std::size_t kStepsPerCheck = 16'384;
+    std::vector<std::uint8_t> differs(kept_);
+    for (std::size_t i = 0; i < earlier.size(); ++i) {
+      if (i % kStepsPerCheck == 0) run.check();
+      const auto& [a, b, target_mm] = earlier[i];
+      const Vector3d target = target_mm.cast<double>();
+      const bool same = differs[a] == 0 && differs[b] == 0 && topology_.can_collapse(a, b) &&
+                        keeps_orientation(a, b, target) && keeps_orientation(b, a, target) &&
+                        guard->allows(topology_, mesh_, a, b, {target});
+      if (!same) {
+        differs[a] = differs[b] = 1;
+        continue;
+      }
+      guard->accept();
+      collapse(a, b, target);
+    }
+    std::vector<Candidate> candidates;
+    for (std::uint32_t v = 0; v < differs.size(); ++v) {
+      if (differs[v] == 0 || topology_.is_removed(v)) continue;
+      topology_.neighbors(v, neighbors_);
+      for (const std::uint32_t other : neighbors_)
+        if (const auto candidate = candidate_of(v, other)) candidates.push_back(*candidate);
+    }
+    return candidates;
   }
 
   /// Whether no remaining triangle at v flips or becomes a sliver.
@@ -171,36 +228,76 @@ class Decimation {
       mesh_.vertex_marks[a] = std::max(mesh_.vertex_marks[a], mesh_.vertex_marks[b]);
     }
     versions_[a] += 1 + versions_[b];
+    steps_.push_back({a, b, mesh_.vertices_mm[a]});
     topology_.neighbors(a, neighbors_);
   }
 
   Mesh& mesh_;
+  const std::vector<std::uint8_t>& kept_;
   double max_mean_square_;
   double tie_weight_;
   CollapseCost cost_;
   CollapseTopology topology_;
   std::vector<std::uint32_t> versions_;
+  std::vector<CollapseStep> steps_;
   std::vector<std::uint32_t> neighbors_;
 };
 
 Mesh decimate_to_count(Mesh mesh, std::size_t triangles, const Run& run) {
   const HalfEdges edges(mesh);
   run.check();
-  Decimation(mesh, edges, std::numeric_limits<double>::infinity())
-      .run(edges, triangles, nullptr, run);
+  const std::vector<std::uint8_t> none;
+  Decimation decimation(mesh, edges, std::numeric_limits<double>::infinity(), none);
+  decimation.run(edges, {}, triangles, nullptr, run);
+  keep_triangles(mesh, std::vector<std::uint8_t>(decimation.alive()));
   return mesh;
 }
 
+/// `kept` with more vertices and those that share a triangle with them.
+std::vector<std::uint8_t> kept_with(std::vector<std::uint8_t> kept,
+                                    const Mesh& mesh,
+                                    const std::vector<std::uint32_t>& vertices) {
+  std::vector<std::uint8_t> marked(mesh.vertices_mm.size());
+  for (const std::uint32_t vertex : vertices)
+    marked[vertex] = kept[vertex] = 1;
+  for (const auto& [a, b, c] : mesh.triangles)
+    if ((marked[a] | marked[b] | marked[c]) != 0) kept[a] = kept[b] = kept[c] = 1;
+  return kept;
+}
+
 Mesh decimate_within(Mesh mesh, const DecimateOptions& options, const Run& run) {
-  // Share of the tolerance that is checked at points: the rest is for the surface between them.
-  constexpr double kCheckedShare = 0.8;
+  // Shares of the tolerance: of the vertices during the collapses, and of the points by which the
+  // result is verified. The rest is for the surface between them.
+  constexpr double kGuardedShare = 0.75;
+  constexpr double kVerifiedShare = 0.85;
+  constexpr int kPasses = 40;  // few suffice for scans
+  constexpr int kSparing = 4;  // passes after which the surroundings stay, too
   const HalfEdges edges(mesh);
   run.check();
-  const RayScene original(mesh, run);
+  const RayScene original(std::move(mesh), run);
   run.check();
-  DistanceGuard guard(original, edges, kCheckedShare * options.tolerance_mm);
-  Decimation(mesh, edges, options.tolerance_mm).run(edges, options.triangles, &guard, run);
-  return mesh;
+  std::vector<std::uint8_t> kept(original.mesh().vertices_mm.size());
+  std::vector<CollapseStep> steps;
+  for (int pass = 0; pass < kPasses; ++pass) {
+    Mesh few = original.mesh();
+    DistanceGuard guard(original, edges, kGuardedShare * options.tolerance_mm);
+    Decimation decimation(few, edges, options.tolerance_mm, kept);
+    decimation.run(edges, steps, options.triangles, &guard, run);
+    steps = decimation.steps();
+    const std::vector<std::uint32_t> beyond =
+        guard.vertices_beyond(few, decimation.alive(), kVerifiedShare * options.tolerance_mm, run);
+    if (beyond.empty()) {
+      keep_triangles(few, std::vector<std::uint8_t>(decimation.alive()));
+      return few;
+    }
+    const bool known = std::all_of(
+        beyond.begin(), beyond.end(), [&](std::uint32_t vertex) { return kept[vertex] != 0; });
+    for (const std::uint32_t vertex : beyond)
+      kept[vertex] = 1;
+    if (known || pass >= kSparing) kept = kept_with(std::move(kept), original.mesh(), beyond);
+  }
+  run.warn("the mesh stays as it is: no decimation within the tolerance was found");
+  return original.mesh();
 }
 
 }  // namespace
@@ -211,6 +308,7 @@ Mesh decimate(Mesh mesh, const DecimateOptions& options, const Run& run) {
           "decimation needs a number of triangles greater than 0 or a tolerance");
   run.check();
   if (mesh.triangles.size() <= options.triangles) return mesh;
+  mesh = with_manifold_edges(std::move(mesh), "decimation", run);
   mesh = std::isinf(options.tolerance_mm)
              ? decimate_to_count(std::move(mesh), options.triangles, run)
              : decimate_within(std::move(mesh), options, run);

@@ -9,6 +9,7 @@
 #include "frangia/geometry/boundary_loops.h"
 #include "frangia/geometry/vertex_data.h"
 #include "frangia/mesh/internal/choose_patches.h"
+#include "frangia/mesh/internal/with_manifold_edges.h"
 
 namespace frangia {
 namespace {
@@ -52,6 +53,7 @@ void append(Mesh& mesh, const HolePatch& patch, const VertexLoop& loop, std::uin
 
 Mesh fill_holes(Mesh mesh, const FillHolesOptions& options, const Run& run) {
   run.check();
+  if (options.only.empty()) mesh = with_manifold_edges(std::move(mesh), "hole filling", run);
   const HalfEdges edges(mesh);
   const std::vector<BoundaryLoop> loops = boundary_loops(mesh, edges);
   for (const std::size_t number : options.only) {

@@ -31,8 +31,12 @@ struct FillHolesOptions {
 /// that would make the mesh non-manifold is replaced by a triangle fan around the centroid of the
 /// boundary. `run` receives a note for each replacement and a warning when intersections remain.
 ///
+/// Non-manifold edges, at which loops have no end, are split first with a warning, unless holes are
+/// chosen by their index.
+///
 /// @units    mm
-/// @errors   Error(Input) when a loop does not exist; Error(Cancelled)
+/// @errors   Error(Input) when a loop does not exist, or when neighbouring triangles have opposite
+///          orientation; Error(Cancelled)
 /// @source   Liepa 2003, Filling Holes in Meshes; fair_patch.h
 [[nodiscard]] Mesh fill_holes(Mesh mesh, const FillHolesOptions& options = {}, const Run& run = {});
 

@@ -1,5 +1,11 @@
 #include "frangia/mesh/mesh_findings.h"
 
+#include <algorithm>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "frangia/core/missing.h"
 #include "frangia/geometry/half_edges.h"
 #include "frangia/geometry/triangles_intersect.h"
 #include "frangia/geometry/vertex_data.h"
@@ -7,6 +13,33 @@
 #include "frangia/mesh/self_intersections.h"
 
 namespace frangia {
+namespace {
+
+/// Whether each edge is used as often in one direction as in the other.
+bool is_balanced(const Mesh& mesh, const HalfEdges& edges) {
+  struct Use {
+    std::pair<std::uint32_t, std::uint32_t> ends;
+    int direction;
+  };
+  std::vector<Use> uses;
+  for (std::uint32_t edge = 0; edge < edges.count(); ++edge) {
+    if (edges.has_twin(edge)) continue;
+    if (edges.is_boundary(edge)) return false;
+    const std::uint32_t from = source_vertex(mesh, edge);
+    const std::uint32_t to = target_vertex(mesh, edge);
+    uses.push_back({std::minmax(from, to), from < to ? 1 : from > to ? -1 : 0});
+  }
+  std::sort(uses.begin(), uses.end(), [](const Use& a, const Use& b) { return a.ends < b.ends; });
+  int sum = 0;
+  for (std::size_t i = 0; i < uses.size(); ++i) {
+    sum += uses[i].direction;
+    const bool last = i + 1 == uses.size() || uses[i + 1].ends != uses[i].ends;
+    if (last && sum != 0) return false;
+  }
+  return true;
+}
+
+}  // namespace
 
 MeshFindings mesh_findings(const Mesh& mesh, const Run& run) {
   run.check();
@@ -36,6 +69,7 @@ MeshFindings mesh_findings(const Mesh& mesh, const Run& run) {
   for (std::uint32_t edge = 0; edge < edges.count(); ++edge)
     open = open || edges.is_boundary(edge);
   found.closed = !open && found.non_manifold_edges == 0 && !mesh.empty();
+  if (mesh.empty() || !is_balanced(mesh, edges)) found.volume_mm3 = kMissing;
   run.check();
   if (can_test_intersections()) found.self_intersections = self_intersections(mesh, run).size();
   return found;

@@ -27,9 +27,11 @@ struct MeshFindings {
   std::optional<std::size_t> self_intersections;
   std::array<std::size_t, 3> marks{};  ///< triangles by Mark: measured, displaced, synthesized
   double area_mm2 = 0.0;               ///< total area of the triangles
-  double volume_mm3 = 0.0;             ///< signed volume; has a meaning for a closed mesh only
-  Eigen::AlignedBox3d box_mm;          ///< bounding box of the vertices
-  bool closed = false;                 ///< neither boundary nor non-manifold edges
+  /// Signed volume; NaN unless as many triangles run along each edge in one direction as in the
+  /// other, which holds for closed bodies that share an edge, too.
+  double volume_mm3 = 0.0;
+  Eigen::AlignedBox3d box_mm;  ///< bounding box of the vertices
+  bool closed = false;         ///< neither boundary nor non-manifold edges
 };
 
 /// Analyses a mesh.

@@ -1,6 +1,8 @@
 #include "frangia/pipeline/finish_mesh.h"
 
 #include <algorithm>
+#include <cmath>
+#include <cstdint>
 #include <string>
 #include <utility>
 #include <vector>
@@ -8,9 +10,13 @@
 #include <Eigen/Geometry>
 #include <fmt/format.h>
 
+#include "frangia/core/median.h"
 #include "frangia/core/parallel.h"
 #include "frangia/geometry/boundary_loops.h"
+#include "frangia/geometry/connected_components.h"
+#include "frangia/geometry/hausdorff_distance.h"
 #include "frangia/geometry/ray_scene.h"
+#include "frangia/geometry/vertex_data.h"
 #include "frangia/mesh/decimate.h"
 #include "frangia/mesh/fill_holes.h"
 #include "frangia/mesh/make_manifold.h"
@@ -63,6 +69,61 @@ Mesh make_watertight(Mesh mesh, const Run& run) {
   return mesh;
 }
 
+/// Median sigma of the vertices of each component; 0 where none is known.
+std::vector<double> median_sigmas(const Mesh& mesh, const ConnectedComponents& parts) {
+  std::vector<double> medians(parts.components.size());
+  if (mesh.sigma_mm.empty()) return medians;
+  std::vector<std::vector<float>> known(medians.size());
+  std::vector<std::uint8_t> seen(mesh.vertices_mm.size());
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    for (const std::uint32_t vertex : mesh.triangles[t]) {
+      if (seen[vertex]++ != 0 || !std::isfinite(mesh.sigma_mm[vertex])) continue;
+      known[parts.component_of[t]].push_back(mesh.sigma_mm[vertex]);
+    }
+  }
+  for (std::size_t i = 0; i < medians.size(); ++i)
+    if (!known[i].empty()) medians[i] = static_cast<double>(median(std::move(known[i])));
+  return medians;
+}
+
+Mesh without_islands(Mesh mesh, const Run& run) {
+  constexpr double kFewEdges = 12.0;  // the fusion keeps components of 100 triangles and more
+  constexpr double kFewSigmas = 2.0;
+  if (mesh.empty()) return mesh;
+  const ConnectedComponents parts = connected_components(mesh);
+  const std::size_t count = parts.components.size();
+  if (count < 2) return mesh;
+  const double edges_mm = kFewEdges * mean_edge_length_mm(mesh);
+  const std::vector<double> sigmas_mm = median_sigmas(mesh, parts);
+  std::size_t largest = 0;
+  for (std::size_t i = 0; i < count; ++i)
+    if (parts.components[i].area_mm2 > parts.components[largest].area_mm2) largest = i;
+  std::vector<std::uint8_t> removed(count);
+  std::size_t islands = 0;
+  double size_mm = 0.0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const double own_mm = parts.components[i].size_mm;
+    if (i == largest || own_mm > std::max(edges_mm, kFewSigmas * sigmas_mm[i])) continue;
+    removed[i] = 1;
+    ++islands;
+    size_mm = std::max(size_mm, own_mm);
+  }
+  if (islands == 0) return mesh;
+  Selection kept(mesh.triangles.size());
+  for (std::size_t t = 0; t < kept.size(); ++t)
+    kept[t] = removed[parts.component_of[t]] == 0 ? 1 : 0;
+  const std::size_t before = mesh.triangles.size();
+  keep_triangles(mesh, kept);
+  run.note(
+      fmt::format("{} of {} components removed: islands of at most {:.3g} mm, {} triangles in "
+                  "total, which are too small to be told from noise; `keep_islands` keeps them",
+                  islands,
+                  count,
+                  size_mm,
+                  before - mesh.triangles.size()));
+  return mesh;
+}
+
 /// The largest distance of the vertices of one mesh from another.
 double max_distance_mm(const Mesh& from, const RayScene& to) {
   std::vector<double> distances(from.vertices_mm.size());
@@ -78,6 +139,7 @@ double max_distance_mm(const Mesh& from, const RayScene& to) {
 }  // namespace
 
 Mesh finish_mesh(Mesh mesh, const FinishOptions& options, const Run& run) {
+  if (!options.keep_islands) mesh = without_islands(std::move(mesh), run);
   if (options.watertight) mesh = make_watertight(std::move(mesh), run);
   if (options.tolerance_mm <= 0.0) return mesh;
   const std::size_t before = mesh.triangles.size();

@@ -7,13 +7,16 @@
 
 namespace frangia {
 
-/// Hole filling and decimation of a fused mesh.
+/// Islands, hole filling and decimation of a fused mesh.
 struct FinishOptions {
+  bool keep_islands = false;  ///< keep components that are too small to be told from noise
   bool watertight = false;    ///< fill all holes; new triangles are marked as synthesized
   double tolerance_mm = 0.0;  ///< decimate within this distance; 0: keep all triangles
 };
 
-/// Applies the optional last steps to a fused mesh. `run` receives a note of each.
+/// Removes islands and applies the optional last steps to a fused mesh. `run` receives a note of
+/// each. An island is a component whose bounding box has a diagonal of at most a few mean edge
+/// lengths, or of at most twice the median sigma of its vertices; the largest component stays.
 ///
 /// @units    mm
 /// @errors   as fill_holes and decimate; Error(Cancelled)

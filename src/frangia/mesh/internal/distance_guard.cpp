@@ -1,11 +1,16 @@
 #include "frangia/mesh/internal/distance_guard.h"
 
 #include <algorithm>
+#include <array>
 #include <limits>
+#include <span>
 
+#include "frangia/core/interruptible_chunks.h"
 #include "frangia/geometry/hausdorff_distance.h"
 #include "frangia/geometry/nearest_on_triangle.h"
+#include "frangia/geometry/selection.h"
 #include "frangia/geometry/triangle_samples.h"
+#include "frangia/geometry/vertex_data.h"
 
 namespace frangia {
 
@@ -16,35 +21,40 @@ namespace {
 // Avoids a division by 0 for a mesh whose vertices coincide.
 constexpr double kMinEdgeMm = std::numeric_limits<float>::min();
 
-Eigen::Vector3f centroid_of(const Mesh& mesh, std::uint32_t triangle) {
+constexpr std::size_t kTrianglesPerChunk = 8192;
+constexpr std::size_t kMostTriangles = 64;  // of a vertex; at a hub of more, Embree is faster
+
+Vector3d position_of(const Mesh& mesh, std::uint32_t vertex) {
+  return mesh.vertices_mm[vertex].cast<double>();
+}
+
+/// Squared distance of a point from a triangle of a mesh.
+double square_from(const Mesh& mesh, std::uint32_t triangle, const Vector3d& point) {
   const auto& [a, b, c] = mesh.triangles[triangle];
-  return (mesh.vertices_mm[a] + mesh.vertices_mm[b] + mesh.vertices_mm[c]) / 3.0F;
+  return (nearest_on_triangle(
+              position_of(mesh, a), position_of(mesh, b), position_of(mesh, c), point) -
+          point)
+      .squaredNorm();
 }
 
 }  // namespace
 
 DistanceGuard::DistanceGuard(const RayScene& original, const HalfEdges& edges, double distance_mm)
     : original_(&original),
+      edges_(&edges),
       distance_mm_(distance_mm),
-      spacing_mm_(0.5 * std::max(mean_edge_length_mm(original.mesh()), kMinEdgeMm)),
+      spacing_mm_(std::max(mean_edge_length_mm(original.mesh()), kMinEdgeMm) / 3.0),
+      next_(original.mesh().vertices_mm.size(), kNone),
       first_(original.mesh().triangles.size(), kNone) {
   const Mesh& mesh = original.mesh();
   std::vector<std::uint8_t> added(mesh.vertices_mm.size());
-  for (std::uint32_t edge = 0; edge < edges.count(); ++edge) {
-    const std::uint32_t from = source_vertex(mesh, edge);
-    if (added[from] == 0) add_point(mesh.vertices_mm[from], edge / 3);
-    added[from] = 1;
-    if (edge % 3 == 0) add_point(centroid_of(mesh, edge / 3), edge / 3);
-    if (edges.has_twin(edge) && edges.twin(edge) < edge) continue;
-    add_point(0.5F * (mesh.vertices_mm[from] + mesh.vertices_mm[target_vertex(mesh, edge)]),
-              edge / 3);
+  for (std::uint32_t corner = 0; corner < edges.count(); ++corner) {
+    const std::uint32_t vertex = source_vertex(mesh, corner);
+    if (added[vertex] != 0) continue;
+    added[vertex] = 1;
+    next_[vertex] = first_[corner / 3];
+    first_[corner / 3] = vertex;
   }
-}
-
-void DistanceGuard::add_point(const Eigen::Vector3f& position, std::uint32_t triangle) {
-  next_.push_back(first_[triangle]);
-  first_[triangle] = static_cast<std::uint32_t>(points_mm_.size());
-  points_mm_.push_back(position);
 }
 
 void DistanceGuard::gather(const CollapseTopology& topology,
@@ -59,10 +69,7 @@ void DistanceGuard::gather(const CollapseTopology& topology,
     if (is_removed && vertex > other) return;  // counted from the other end
     removed_.push_back(corner / 3);
     if (is_removed) return;
-    remaining_.push_back({corner / 3,
-                          target_mm,
-                          mesh.vertices_mm[next].cast<double>(),
-                          mesh.vertices_mm[last].cast<double>()});
+    remaining_.push_back({corner / 3, target_mm, position_of(mesh, next), position_of(mesh, last)});
   });
 }
 
@@ -78,11 +85,47 @@ std::uint32_t DistanceGuard::nearest_triangle(const Vector3d& point) const {
   return owner;
 }
 
+/// Walks along the edges of the original to vertices nearer and nearer to a point.
+std::uint32_t DistanceGuard::walk(const Vector3d& point, std::uint32_t from) const {
+  const Mesh& mesh = original_->mesh();
+  double nearest = (position_of(mesh, from) - point).squaredNorm();
+  while (edges_->outgoing(from).size() <= kMostTriangles) {
+    std::uint32_t best = from;
+    for (const std::uint32_t edge : edges_->outgoing(from)) {
+      for (const std::uint32_t vertex : {target_vertex(mesh, edge), opposite_vertex(mesh, edge)}) {
+        const double square = (position_of(mesh, vertex) - point).squaredNorm();
+        if (square >= nearest) continue;
+        nearest = square;
+        best = vertex;
+      }
+    }
+    if (best == from) return from;
+    from = best;
+  }
+  return from;
+}
+
+/// Whether a point is within a distance of the original. `from` is a vertex of the original near to
+/// which the search begins, and then the nearest one; kNone: none is known. Where the walk ends at
+/// another part of the surface, Embree decides.
+bool DistanceGuard::is_near(const Vector3d& point, double distance_mm, std::uint32_t& from) const {
+  if (from != kNone) {
+    from = walk(point, from);
+    const auto edges = edges_->outgoing(from);
+    for (const std::uint32_t edge : edges.first(std::min(edges.size(), kMostTriangles)))
+      if (square_from(original_->mesh(), edge / 3, point) <= distance_mm * distance_mm) return true;
+  }
+  return original_->nearest(point, distance_mm).has_value();
+}
+
 bool DistanceGuard::allows(const CollapseTopology& topology,
                            const Mesh& mesh,
                            std::uint32_t a,
                            std::uint32_t b,
-                           const Vector3d& target_mm) {
+                           const CollapseTarget& target) {
+  constexpr double kFar = 0.25;  // of the limit
+  constexpr double kFine = 7.0;  // limits apart; coarse meshes of designs have longer edges
+  const Vector3d& target_mm = target.position;
   removed_.clear();
   remaining_.clear();
   reassigned_.clear();
@@ -90,19 +133,20 @@ bool DistanceGuard::allows(const CollapseTopology& topology,
   gather(topology, mesh, a, b, target_mm);
   gather(topology, mesh, b, a, target_mm);
   for (const std::uint32_t triangle : removed_) {
-    for (std::uint32_t p = first_[triangle]; p != kNone; p = next_[p]) {
-      const std::uint32_t owner = nearest_triangle(points_mm_[p].cast<double>());
+    for (std::uint32_t v = first_[triangle]; v != kNone; v = next_[v]) {
+      const std::uint32_t owner = nearest_triangle(position_of(original_->mesh(), v));
       if (owner == kNone) return false;
-      reassigned_.push_back(p);
+      reassigned_.push_back(v);
       owners_.push_back(owner);
     }
   }
-  const auto is_near = [&](const Vector3d& position) {
-    return original_->nearest(position, distance_mm_).has_value();
-  };
-  return is_near(target_mm) &&
+  const bool fine = spacing_mm_ < kFine * distance_mm_;
+  if (fine && target.mean_square < kFar * kFar * distance_mm_ * distance_mm_) return true;
+  std::uint32_t from = reassigned_.empty() ? kNone : reassigned_.front();
+  return is_near(target_mm, distance_mm_, from) &&
          std::all_of(remaining_.begin(), remaining_.end(), [&](const Triangle& t) {
-           return all_triangle_samples(t.a, t.b, t.c, spacing_mm_, is_near);
+           return is_near((t.a + t.b + t.c) / 3.0, distance_mm_, from) &&
+                  is_near(0.5 * (t.a + t.b), distance_mm_, from);
          });
 }
 
@@ -113,6 +157,107 @@ void DistanceGuard::accept() {
     next_[reassigned_[i]] = first_[owners_[i]];
     first_[owners_[i]] = reassigned_[i];
   }
+}
+
+/// The distance from a triangle is a convex function, so that a triangle whose corners are assigned
+/// to one triangle is as near to it as they are.
+void DistanceGuard::check_original(const Mesh& mesh,
+                                   const std::vector<std::uint8_t>& alive,
+                                   double distance_mm,
+                                   const Run& run,
+                                   std::vector<std::uint32_t>& beyond) const {
+  const Mesh& original = original_->mesh();
+  std::vector<std::uint32_t> owner(original.vertices_mm.size(), kNone);
+  for (std::uint32_t t = 0; t < alive.size(); ++t)
+    for (std::uint32_t v = alive[t] != 0 ? first_[t] : kNone; v != kNone; v = next_[v])
+      owner[v] = t;
+  struct Sample {
+    Vector3d point;
+    std::uint32_t triangle;
+  };
+  const std::size_t count = original.triangles.size();
+  std::vector<std::vector<Sample>> unknown((count + kTrianglesPerChunk - 1) / kTrianglesPerChunk);
+  interruptible_chunks(count, kTrianglesPerChunk, run, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const Mesh::Triangle& t = original.triangles[i];
+      const std::array owners{owner[t[0]], owner[t[1]], owner[t[2]]};
+      const auto check = [&](const Vector3d& point) {
+        const bool near = std::any_of(owners.begin(), owners.end(), [&](std::uint32_t one) {
+          return one != kNone && square_from(mesh, one, point) <= distance_mm * distance_mm;
+        });
+        if (!near)
+          unknown[begin / kTrianglesPerChunk].push_back({point, static_cast<std::uint32_t>(i)});
+      };
+      if (owners[0] == owners[1] && owners[1] == owners[2]) continue;
+      static_cast<void>(all_triangle_samples(position_of(original, t[0]),
+                                             position_of(original, t[1]),
+                                             position_of(original, t[2]),
+                                             spacing_mm_,
+                                             [&](const Vector3d& point) {
+                                               check(point);
+                                               return true;
+                                             }));
+    }
+  });
+  if (std::all_of(unknown.begin(), unknown.end(), [](const auto& one) { return one.empty(); }))
+    return;
+  Mesh present;
+  present.vertices_mm = mesh.vertices_mm;
+  for (std::size_t t = 0; t < alive.size(); ++t)
+    if (alive[t] != 0) present.triangles.push_back(mesh.triangles[t]);
+  const RayScene scene(std::move(present), run);
+  for (const auto& samples : unknown) {
+    for (const Sample& sample : samples) {
+      if (scene.nearest(sample.point, distance_mm)) continue;
+      const Mesh::Triangle& t = original.triangles[sample.triangle];
+      beyond.insert(beyond.end(), t.begin(), t.end());
+    }
+  }
+}
+
+void DistanceGuard::check_present(const Mesh& mesh,
+                                  const std::vector<std::uint8_t>& alive,
+                                  double distance_mm,
+                                  const Run& run,
+                                  std::vector<std::uint32_t>& beyond) const {
+  const std::size_t count = alive.size();
+  std::vector<std::vector<std::uint32_t>> found((count + kTrianglesPerChunk - 1) /
+                                                kTrianglesPerChunk);
+  interruptible_chunks(count, kTrianglesPerChunk, run, [&](std::size_t begin, std::size_t end) {
+    auto& here = found[begin / kTrianglesPerChunk];
+    for (std::size_t i = begin; i < end; ++i) {
+      if (alive[i] == 0) continue;
+      const auto& [a, b, c] = mesh.triangles[i];
+      std::uint32_t from = first_[i];
+      static_cast<void>(all_triangle_samples(position_of(mesh, a),
+                                             position_of(mesh, b),
+                                             position_of(mesh, c),
+                                             spacing_mm_,
+                                             [&](const Vector3d& point) {
+                                               if (is_near(point, distance_mm, from)) return true;
+                                               if (const auto nearest = original_->nearest(point)) {
+                                                 const Mesh::Triangle& t =
+                                                     original_->mesh().triangles[nearest->triangle];
+                                                 here.insert(here.end(), t.begin(), t.end());
+                                               }
+                                               return true;
+                                             }));
+    }
+  });
+  for (const auto& here : found)
+    beyond.insert(beyond.end(), here.begin(), here.end());
+}
+
+std::vector<std::uint32_t> DistanceGuard::vertices_beyond(const Mesh& mesh,
+                                                          const std::vector<std::uint8_t>& alive,
+                                                          double distance_mm,
+                                                          const Run& run) const {
+  std::vector<std::uint32_t> beyond;
+  check_original(mesh, alive, distance_mm, run, beyond);
+  check_present(mesh, alive, distance_mm, run, beyond);
+  std::sort(beyond.begin(), beyond.end());
+  beyond.erase(std::unique(beyond.begin(), beyond.end()), beyond.end());
+  return beyond;
 }
 
 }  // namespace frangia

@@ -1,35 +1,50 @@
 #pragma once
 
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include <Eigen/Core>
 
+#include "frangia/core/run.h"
+#include "frangia/geometry/half_edges.h"
 #include "frangia/geometry/mesh.h"
 #include "frangia/geometry/ray_scene.h"
+#include "frangia/mesh/internal/collapse_cost.h"
 #include "frangia/mesh/internal/collapse_topology.h"
 
 namespace frangia {
 
 /// Keeps a mesh during decimation within a distance of the original.
 ///
-/// Sample points of the original (vertices, midpoints of edges, centroids of triangles) are each
-/// assigned to a triangle of the present mesh. A collapse is allowed when every point assigned to a
-/// changed triangle is within the distance of a remaining one, and points on the remaining
-/// triangles, half the mean edge length apart, are within the distance of the original.
+/// Each vertex of the original is assigned to a triangle of the present mesh. A collapse is allowed
+/// when every vertex that is assigned to a changed triangle is within the distance of a remaining
+/// one, and the centroids and edges of those are within the distance of the original. That is
+/// cheap; `vertices_beyond` verifies the result at many more points.
 class DistanceGuard {
  public:
+  /// `original` and its `edges` must outlive the object.
   DistanceGuard(const RayScene& original, const HalfEdges& edges, double distance_mm);
 
-  /// Whether the edge from a to b may collapse to `target_mm`; `mesh` is the present one.
+  /// Whether the edge from a to b may collapse to `target_mm`; `mesh` is the present one. On a fine
+  /// mesh, where its root mean square distance from the planes of the original is far less than the
+  /// limit, the distance of the new triangles from the original is left to `vertices_beyond`.
   [[nodiscard]] bool allows(const CollapseTopology& topology,
                             const Mesh& mesh,
                             std::uint32_t a,
                             std::uint32_t b,
-                            const Eigen::Vector3d& target_mm);
-  /// Reassigns the points after the collapse that was allowed last.
+                            const CollapseTarget& target);
+  /// Reassigns the vertices after the collapse that was allowed last.
   void accept();
+
+  /// Vertices of the original at which one surface is farther than a distance from the other: at
+  /// points a third of the original's mean edge length apart, of the original and of the triangles
+  /// of the present mesh that `alive` states.
+  ///
+  /// @errors   Error(Cancelled)
+  [[nodiscard]] std::vector<std::uint32_t> vertices_beyond(const Mesh& mesh,
+                                                           const std::vector<std::uint8_t>& alive,
+                                                           double distance_mm,
+                                                           const Run& run) const;
 
  private:
   static constexpr std::uint32_t kNone = 0xFFFFFFFF;
@@ -37,24 +52,37 @@ class DistanceGuard {
     std::uint32_t number;
     Eigen::Vector3d a, b, c;
   };
-  void add_point(const Eigen::Vector3f& position, std::uint32_t triangle);
   void gather(const CollapseTopology& topology,
               const Mesh& mesh,
               std::uint32_t vertex,
               std::uint32_t other,
               const Eigen::Vector3d& target_mm);
   [[nodiscard]] std::uint32_t nearest_triangle(const Eigen::Vector3d& point) const;
+  [[nodiscard]] std::uint32_t walk(const Eigen::Vector3d& point, std::uint32_t from) const;
+  [[nodiscard]] bool is_near(const Eigen::Vector3d& point,
+                             double distance_mm,
+                             std::uint32_t& from) const;
+  void check_original(const Mesh& mesh,
+                      const std::vector<std::uint8_t>& alive,
+                      double distance_mm,
+                      const Run& run,
+                      std::vector<std::uint32_t>& beyond) const;
+  void check_present(const Mesh& mesh,
+                     const std::vector<std::uint8_t>& alive,
+                     double distance_mm,
+                     const Run& run,
+                     std::vector<std::uint32_t>& beyond) const;
 
   const RayScene* original_;
+  const HalfEdges* edges_;
   double distance_mm_;
   double spacing_mm_;
-  std::vector<Eigen::Vector3f> points_mm_;
-  std::vector<std::uint32_t> next_;   ///< the next point of the same triangle
-  std::vector<std::uint32_t> first_;  ///< the first point of each triangle
+  std::vector<std::uint32_t> next_;   ///< the next vertex of the same triangle
+  std::vector<std::uint32_t> first_;  ///< the first vertex of each triangle
   std::vector<Triangle> remaining_;   ///< after the collapse
   std::vector<std::uint32_t> removed_;
-  std::vector<std::uint32_t> reassigned_;  ///< points
-  std::vector<std::uint32_t> owners_;      ///< the new triangle of each point
+  std::vector<std::uint32_t> reassigned_;  ///< vertices
+  std::vector<std::uint32_t> owners_;      ///< the new triangle of each of them
 };
 
 }  // namespace frangia
