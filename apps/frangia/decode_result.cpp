@@ -56,6 +56,23 @@ Json json_of(const SequenceCheck& check) {
   return json;
 }
 
+Json json_of(const FrameVerdict& verdict) {
+  const FrameExplanation& found = verdict.explanation;
+  const double log_odds = found.explanation.log_odds;
+  return {{"pattern", found.pattern},
+          {"decided", found.decided},
+          {"cause", name_of(found.best.cause)},
+          {"frames", found.best.frames},
+          {"best", found.explanation.best},
+          {"second", found.explanation.second},
+          {"log10_odds", number_or_null(log_odds / std::log(10.0))},
+          {"unexplained", number_or_null(found.explanation.unexplained)},
+          {"unexplained_rad", number_or_null(found.unexplained_rad)},
+          {"remedy", found.explanation.remedy},
+          {"left_out", verdict.left_out},
+          {"text", verdict.finding}};
+}
+
 Json json_of(const FrameAssessment& assessment) {
   return {{"name", assessment.pattern},
           {"algorithm", assessment.algorithm},
@@ -124,6 +141,9 @@ Json json_of_view(const Scan& scan, const ViewResult& result, const ViewFigures&
   json["checks"] = Json::array();
   for (const SequenceCheck& check : result.decoded.checks)
     json["checks"].push_back(json_of(check));
+  json["explanations"] = Json::array();
+  for (const FrameVerdict& verdict : result.decoded.frames)
+    json["explanations"].push_back(json_of(verdict));
   const std::string& reason = result.reason.empty() ? result.empty : result.reason;
   json["trustworthy"] = reason.empty();
   if (!reason.empty()) json["reason"] = with_flags(reason);

@@ -7,7 +7,7 @@ enum ExitCode {
   OutOfTolerance = 1,  ///< a check that was asked for failed
   Usage = 2,           ///< the command line is wrong
   BadInput = 3,        ///< a file or value is wrong, or a file cannot be read or written
-  DeviceFault = 4,     ///< a device failed
+  DeviceFault = 4,     ///< a device failed, or views were skipped
   NumericFault = 5,    ///< the result cannot be computed or is not trustworthy
   Interrupted = 130    ///< the user stopped the program
 };

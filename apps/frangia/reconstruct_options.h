@@ -88,6 +88,9 @@ inline void add_decode_options(CLI::App& verb, DecodeOptions& options) {
   verb.add_flag("--accept-inconsistent",
                 options.accept_inconsistent,
                 "triangulate frames that do not fit the patterns of scan.toml or the rig");
+  verb.add_flag("--accept-remedy",
+                options.accept_remedy,
+                "decode with the shifts that fit the frames where those of scan.toml do not");
   verb.add_option("--max-sigma",
                   options.wrap.max_sigma_rad,
                   "discard pixels whose phase has a larger standard deviation, rad")

@@ -11,6 +11,7 @@
 #include "counted.h"
 #include "fixed_text.h"
 #include "mesh_result.h"
+#include "option_names.h"
 #include "print_text.h"
 #include "quality_json.h"
 #include "refinement_text.h"
@@ -63,6 +64,7 @@ nlohmann::ordered_json json_of(const std::vector<ViewSummary>& views) {
                     {"points", view.points},
                     {"sigma_mm", view.sigma_mm},  // NaN is written as null
                     {"left_out", view.left_out}});
+    if (!view.reason.empty()) json.back()["reason"] = with_flags(view.reason);
     json.back().update(json_of_quality(view.quality, view.left_out));
   }
   return json;

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <filesystem>
 #include <map>
 #include <memory>
@@ -9,6 +10,7 @@
 #include "frangia/pipeline/reconstruct.h"
 
 #include "check_can_write.h"
+#include "exit_codes.h"
 #include "option_values.h"
 #include "reconstruct_options.h"
 #include "reconstruct_result.h"
@@ -62,6 +64,10 @@ void reconstruct_verb(ReconstructArguments& arguments, Terminal& terminal) {
   run.stage("files");
   write_outputs(result, arguments, run);
   terminal.assess(result.untrusted_reason);
+  const bool skipped = std::any_of(result.view_summaries.begin(),
+                                   result.view_summaries.end(),
+                                   [](const ViewSummary& view) { return !view.reason.empty(); });
+  if (skipped && terminal.exit_code == 0) terminal.exit_code = DeviceFault;
   print_reconstruction(result, arguments.outputs.paths, arguments.raw, terminal);
 }
 

@@ -312,13 +312,17 @@ std::vector<SequenceFault> other_scales(const GrayCodeSample& sample,
 SequenceFault start_fault(const Pattern& fringes, double start_rad) {
   const double declared_deg = deg_from_rad(fringes.shifts_rad.front());
   const double start_deg = std::round(declared_deg + deg_from_rad(start_rad));
-  return {SequenceFaultKind::Start,
-          {fringes.name},
-          fmt::format("a start of {:g} degrees, not {:g} degrees",
-                      start_deg - 360.0 * std::floor(start_deg / 360.0),
-                      declared_deg),
-          {},
-          "by the Gray code"};
+  SequenceFault fault{SequenceFaultKind::Start,
+                      {fringes.name},
+                      fmt::format("a start of {:g} degrees, not {:g} degrees",
+                                  start_deg - 360.0 * std::floor(start_deg / 360.0),
+                                  declared_deg),
+                      {},
+                      "by the Gray code"};
+  fault.shifts_rad = fringes.shifts_rad;
+  for (double& shift : fault.shifts_rad)
+    shift += rad_from_deg(start_deg - declared_deg);
+  return fault;
 }
 
 }  // namespace

@@ -22,6 +22,10 @@ struct FittedAlgorithm {
   std::vector<double> shifts_rad;  ///< actual shifts of the frames
   /// Harmonics of the fringes and flicker. `algorithm` compensates its gains.
   WaveformFit waveform;
+  /// Standard uncertainty of the phase by what nothing explains in the frames.
+  ///
+  /// @units    rad
+  double unexplained_rad = 0.0;
 };
 
 /// Returns the algorithm `name`, or for "auto" the one that suits the projector and the number of

@@ -17,6 +17,9 @@ constexpr std::size_t kMinFringePixels = 2000;  ///< fewer do not cover the frin
 constexpr std::size_t kMaxGainFrames = 32;
 /// Fewer frames do not tell flicker from motion.
 constexpr std::size_t kMinGainFrames = 5;
+/// Largest gain of a frame that is flicker: the weights of a frame of hardly any light would grow
+/// without bounds. Such a frame is at fault.
+constexpr double kMaxGain = 0.3;
 constexpr std::size_t kMaxSampledCounts = 1'600'000;  ///< pixels times frames
 /// Least amplitude of a harmonic, and of an offset, that follows from the contrast. Texture and
 /// uneven light leave up to 0.004 in sound scans (`./run figures harmonics`).
@@ -94,6 +97,10 @@ WaveformFit fit_waveform(const FrameStack& stack,
   }
   add_contrast_fit(bins, shifts_rad, residuals, options, with_gains, out);
   if (!with_gains || frames < kMinGainFrames || !residuals.gains_explain) return out;
+  if (std::any_of(residuals.gains.begin(), residuals.gains.end(), [](double gain) {
+        return std::abs(gain) > kMaxGain;
+      }))
+    return out;
   out.gains = residuals.gains;
   const double flicker = out.flicker();
   if (flicker < options.min_flicker ||

@@ -41,6 +41,7 @@ std::string name_of(SequenceFaultKind kind) {
 }
 
 std::string describe(const SequenceCheck& check) {
+  if (!check.finding.empty()) return check.finding;
   const std::string names = fmt::format("\"{}\"", fmt::join(check.patterns, "\", \""));
   if (check.fits.size() == 1) return clause_of(check.fits.front());
   if (!check.fits.empty()) {

@@ -47,6 +47,9 @@ struct SequenceCheck {
   /// Share of the rows of pixels in which the two ends of the field meet on the object.
   double split_rows = 0.0;
   std::vector<std::string> patterns;  ///< names of the patterns that were compared
+  /// What is wrong with the frames of one pattern by themselves, as a clause; it takes precedence
+  /// over `fits`.
+  std::string finding;
   std::vector<SequenceFault> fits;  ///< declarations that fit equally well; empty if none is found
 };
 

@@ -62,6 +62,7 @@ SystematicPhase systematic_phase(const FittedAlgorithm& fitted, const ResponseTa
     square += std::pow(fitted.waveform.sigma[i] * harmonic_response(fitted, i), 2);
   }
   square += std::pow(fitted.waveform.flicker_error_rad, 2);
+  square += std::pow(fitted.unexplained_rad, 2);
   const double differing = square;
   if (fitted.step.found && fitted.algorithm.name != "aia") {
     // Independent errors of N shifts change the phase by sqrt(2 / N) of their size.

@@ -22,9 +22,10 @@ struct SystematicPhase {
 };
 
 /// Returns the systematic standard uncertainty of the phase of one pattern: harmonics that are not
-/// corrected, or the uncertainty of those that are; flicker that is not compensated; errors of the
-/// shifts. All pixels share their causes. Quantization differs from pixel to pixel and is part of
-/// the noise. 0 if no cause is significant, or if all together stay below 0.0005 rad.
+/// corrected, or the uncertainty of those that are; flicker that is not compensated; what nothing
+/// explains in the frames; errors of the shifts. All pixels share their causes. Quantization
+/// differs from pixel to pixel and is part of the noise. 0 if no cause is significant, or if all
+/// together stay below 0.0005 rad.
 ///
 /// @units    rad
 [[nodiscard]] SystematicPhase systematic_phase(const FittedAlgorithm& fitted,

@@ -22,7 +22,7 @@ bool check_direction(const AbsolutePhase& phase,
   }
   // Rows that are exchanged with columns look like missing frames of a code.
   const bool unexplained =
-      sequence != nullptr && !sequence->consistent &&
+      sequence != nullptr && !sequence->consistent && sequence->finding.empty() &&
       std::all_of(sequence->fits.begin(), sequence->fits.end(), [](const SequenceFault& fault) {
         return fault.kind == SequenceFaultKind::Missing;
       });

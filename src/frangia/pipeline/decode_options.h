@@ -58,6 +58,9 @@ struct DecodeOptions {
   DirectionChoice directions = DirectionChoice::Fused;  ///< of a scan that has both directions
   /// Triangulates frames that do not fit scan.toml.
   bool accept_inconsistent = false;
+  /// Decodes with the shifts that fit the frames where those of scan.toml do not, if the same check
+  /// then passes.
+  bool accept_remedy = false;
   SequenceCheckOptions sequence_check;     ///< comparison of the patterns with each other
   ScanSurvey survey;                       ///< noise and gain error pooled over several views
   WrapOptions wrap;                        ///< limit of the phase noise

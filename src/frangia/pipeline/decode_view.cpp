@@ -28,6 +28,7 @@ DecodedView decode_view(std::span<const FrameStack> stacks,
   DecodedView second = decode(plan.directions.back());
   out.second_phase = std::move(second.phase);
   out.checks.insert(out.checks.end(), second.checks.begin(), second.checks.end());
+  std::move(second.frames.begin(), second.frames.end(), std::back_inserter(out.frames));
   std::move(out.wrapped.begin(), out.wrapped.end(), std::back_inserter(second.wrapped));
   out.wrapped = std::move(second.wrapped);
   out.assessments.insert(

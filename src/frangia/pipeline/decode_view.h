@@ -8,6 +8,7 @@
 
 #include "frangia/core/image.h"
 #include "frangia/core/run.h"
+#include "frangia/decode/explain/judge_frames.h"
 #include "frangia/frames/frame_stack.h"
 #include "frangia/frames/png.h"
 #include "frangia/fringe_order/resolve_regions.h"
@@ -36,6 +37,9 @@ struct DecodedView {
   std::optional<AbsolutePhase> second_phase;
   /// Comparison of the patterns with each other: one per decoded direction, that of `phase` first.
   std::vector<SequenceCheck> checks;
+  /// What explains the frames of the fringe patterns, coarse to fine, of the direction of `phase`
+  /// first; empty where frames are merged from several exposures.
+  std::vector<FrameVerdict> frames;
   std::vector<UnresolvedRegion> unresolved;  ///< regions without a fringe order
   Image<Rgb> color;                          ///< of each pixel; empty unless `colors` asks for it
 };

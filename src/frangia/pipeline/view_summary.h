@@ -16,6 +16,7 @@ struct ViewSummary {
   std::size_t points = 0;      ///< measured, before the background is removed
   double sigma_mm = kMissing;  ///< median noise of the points along their rays; NaN without points
   bool left_out = false;       ///< not part of the mesh; a warning gives the reason
+  std::string reason{};        ///< why its frames are not used; empty if they are
   ViewQuality quality{};       ///< of the frames of the reference camera
 };
 

@@ -85,6 +85,8 @@ std::string ViewAssessor::decode(std::size_t view,
     }
     const FrameAssessment& finest = decoded.assessments.back();
     found.verdict = word_for(finest, found.points);
+    for (const FrameVerdict& verdict : decoded.frames)
+      if (!verdict.finding.empty()) found.verdict = verdict.finding + "; capture the view again";
     found.good = found.verdict == kGood;
     found.contrast = finest.contrast;
     found.saturated_fraction = finest.saturated_fraction;

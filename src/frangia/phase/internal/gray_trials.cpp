@@ -86,6 +86,9 @@ void add_fringe_trials(const Pattern& code, const Pattern& fringes, std::vector<
       trial.fault.what = reversed ? "shifts in the opposite direction" : start;
       if (reversed && start_deg != 0.0) trial.fault.what += " and " + start;
       trial.fault.keys = "by the Gray code";
+      for (const double shift : fringes.shifts_rad)
+        trial.fault.shifts_rad.push_back(reversed ? trial.start_rad - shift
+                                                  : trial.start_rad + shift);
       out.push_back(std::move(trial));
     }
   }

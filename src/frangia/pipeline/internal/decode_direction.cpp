@@ -13,6 +13,7 @@
 #include "frangia/phase/unwrap_sequence.h"
 #include "frangia/pipeline/internal/check_code.h"
 #include "frangia/pipeline/internal/correct_view_orders.h"
+#include "frangia/pipeline/internal/judge_direction.h"
 #include "frangia/pipeline/internal/select_stacks.h"
 #include "frangia/range/fringe_ray.h"
 #include "frangia/rig/phase_range.h"
@@ -195,11 +196,60 @@ DecodedView decode_from(const Unresolved& /*source*/, const DirectionInput& inpu
   return finished(input, std::move(maps));
 }
 
-}  // namespace
-
-DecodedView decode_direction(const DirectionInput& input) {
+DecodedView decode_as_planned(const DirectionInput& input) {
   return std::visit([&](const auto& source) { return decode_from(source, input); },
                     input.plan.orders);
+}
+
+/// The only declaration that fits the frames, if other shifts of one pattern are all that it needs.
+const SequenceFault* remedy_of(const DecodedView& view) {
+  if (view.checks.empty() || view.checks.front().consistent) return nullptr;
+  const SequenceCheck& check = view.checks.front();
+  if (check.fits.size() != 1 || check.fits.front().patterns.size() != 1 ||
+      check.fits.front().shifts_rad.empty())
+    return nullptr;
+  return &check.fits.front();
+}
+
+/// Decodes again with the shifts that fit, and returns that if the same check passes.
+DecodedView remedied(const DirectionInput& input, DecodedView view) {
+  const SequenceFault* fault = remedy_of(view);
+  if (fault == nullptr) return view;
+  if (!input.options.accept_remedy) {
+    view.checks.front().finding =
+        describe(view.checks.front()) + "; `accept_remedy` decodes with the shifts that fit";
+    return view;
+  }
+  std::vector<FrameStack> stacks(input.stacks.begin(), input.stacks.end());
+  for (FrameStack& stack : stacks) {
+    const bool concerned = stack.pattern.name == fault->patterns.front() &&
+                           stack.pattern.shifts_rad.size() == fault->shifts_rad.size();
+    if (concerned) stack.pattern.shifts_rad = fault->shifts_rad;
+  }
+  DirectionInput changed = input;  // its references are those of `input`
+  changed.stacks = stacks;
+  DecodedView again = decode_as_planned(changed);
+  if (!again.checks.front().consistent) return view;
+  input.run.warn(describe(view.checks.front()) + "; decoded with the shifts that fit");
+  return again;
+}
+
+}  // namespace
+
+DecodedView decode_direction(const DirectionInput& all) {
+  JudgedFrames judged = judge_direction(all);
+  const DirectionInput input{judged.stacks.empty() ? all.stacks : judged.stacks,
+                             all.plan,
+                             all.rig,
+                             all.rays,
+                             all.options,
+                             all.run,
+                             judged.noise,
+                             std::move(judged.unexplained_rad)};
+  DecodedView view = remedied(input, decode_as_planned(input));
+  view.frames = std::move(judged.verdicts);
+  report_frames(view.frames, view.checks, input.run);
+  return view;
 }
 
 }  // namespace frangia

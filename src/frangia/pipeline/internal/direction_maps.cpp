@@ -8,7 +8,6 @@
 #include "frangia/core/error.h"
 #include "frangia/phase/check_sequence.h"
 #include "frangia/phase/decode_sequence.h"
-#include "frangia/phase/estimate_noise.h"
 #include "frangia/phase/frame_samples.h"
 #include "frangia/phase/systematic_phase.h"
 #include "frangia/pipeline/internal/select_stacks.h"
@@ -16,16 +15,6 @@
 
 namespace frangia {
 namespace {
-
-/// The camera's noise: from rig.toml, else from the survey of several views, else from this view.
-/// Lossy compression adds its own.
-NoiseModel noise_of(const DirectionInput& input) {
-  NoiseModel noise = input.rig.camera.noise       ? *input.rig.camera.noise
-                     : input.options.survey.noise ? *input.options.survey.noise
-                                                  : estimate_noise(input.stacks);
-  noise.floor_counts2 += input.stacks.front().compression_counts2;
-  return noise;
-}
 
 /// The systematic uncertainty of the slope of phase over frequency through all maps, whose
 /// modulations are taken as equal.
@@ -70,9 +59,13 @@ DirectionMaps fit_maps(const DirectionInput& input) {
   out.fringes = fringes_of(input.stacks, input.plan.direction);
   require(out.fringes.size() == input.plan.maps.size(),
           "decode_view: the frames are not those of the plan's patterns");
-  out.view.noise = noise_of(input);
+  out.view.noise = input.noise;
   out.view.coarsest = out.fringes.front()->pattern;
   out.fits = fit_all(out.fringes, out.view.noise, input.options, input.run);
+  for (std::size_t m = 0; m < out.fits.size(); ++m) {
+    const auto found = input.unexplained_rad.find(out.fringes[m]->pattern.name);
+    if (found != input.unexplained_rad.end()) out.fits[m].unexplained_rad = found->second;
+  }
   return out;
 }
 

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <map>
 #include <span>
+#include <string>
 #include <vector>
 
 #include <Eigen/Core>
@@ -8,6 +10,7 @@
 #include "frangia/core/image.h"
 #include "frangia/core/run.h"
 #include "frangia/frames/frame_stack.h"
+#include "frangia/frames/noise_model.h"
 #include "frangia/phase/fit_algorithm.h"
 #include "frangia/pipeline/decode_view.h"
 #include "frangia/rig/rig.h"
@@ -22,6 +25,9 @@ struct DirectionInput {
   const Image<Eigen::Vector2f>& rays;
   const DecodeOptions& options;
   const Run& run;
+  NoiseModel noise{};  ///< of the camera
+  /// Uncertainty of the phase by what nothing explains in the frames of a pattern, by its name.
+  std::map<std::string, double> unexplained_rad{};
 };
 
 /// The fringes of one direction, the algorithms that fit their frames, and what they show.

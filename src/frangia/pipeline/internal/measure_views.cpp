@@ -201,6 +201,7 @@ MeasuredViews measure_views(const Scan& scan,
     summary.quality = view_quality(reference.assessments);
     if (!decoded.front().used) {
       summary.left_out = true;
+      summary.reason = decoded.front().fit.reason;
       all.summaries.push_back(summary);
       continue;
     }

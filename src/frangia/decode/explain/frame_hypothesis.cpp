@@ -1,0 +1,165 @@
+#include "frangia/decode/explain/frame_hypothesis.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "frangia/decode/explain/internal/frame_design.h"
+
+namespace frangia {
+namespace {
+
+FrameHypothesis as_described(const Pattern& pattern) {
+  const std::size_t frames = pattern.shifts_rad.size();
+  return {.frames = {},
+          .shifts_rad = pattern.shifts_rad,
+          .gains = std::vector<double>(frames, 1.0),
+          .free = std::vector<bool>(frames, false),
+          .lamp_on = {}};
+}
+
+std::string clause_of(FrameCause cause, std::size_t frame, const FrameHypothesis& all) {
+  switch (cause) {
+    case FrameCause::Lost:
+      return fmt::format("frame {} shows no fringes", frame);
+    case FrameCause::Repeated:
+      return fmt::format("frame {} repeats frame {}", frame, frame - 1);
+    case FrameCause::Late:
+      return fmt::format("the frames from {} on are late by one", frame);
+    case FrameCause::Gain:
+      return fmt::format("frame {} has {:.2f} times the light", frame, all.gains[frame]);
+    case FrameCause::Lamp:
+      return fmt::format("another lamp was switched on or off before frame {}", frame);
+    case FrameCause::Exchanged:
+    case FrameCause::AsDescribed:
+    case FrameCause::Unexplained:
+      break;
+  }
+  return {};
+}
+
+}  // namespace
+
+std::string name_of(FrameCause cause) {
+  switch (cause) {
+    case FrameCause::AsDescribed:
+      return "as-described";
+    case FrameCause::Lost:
+      return "lost";
+    case FrameCause::Repeated:
+      return "repeated";
+    case FrameCause::Exchanged:
+      return "exchanged";
+    case FrameCause::Late:
+      return "late";
+    case FrameCause::Gain:
+      return "gain";
+    case FrameCause::Lamp:
+      return "lamp";
+    case FrameCause::Unexplained:
+      break;
+  }
+  return "unexplained";
+}
+
+std::vector<FrameHypothesis> frame_hypotheses(const Pattern& pattern) {
+  const FrameHypothesis declared = as_described(pattern);
+  const std::size_t frames = pattern.shifts_rad.size();
+  std::vector<FrameHypothesis> out{declared};
+  const auto add = [&](FrameCause cause, std::size_t frame, int parameters, std::size_t choices) {
+    FrameHypothesis one = declared;
+    one.cause = cause;
+    one.frames = {frame};
+    one.faults = 1;
+    one.parameters = parameters;
+    one.choices = choices;
+    out.push_back(std::move(one));
+  };
+  for (std::size_t k = 0; k < frames; ++k) {
+    add(FrameCause::Lost, k, 2, frames);
+    out.back().free[k] = true;
+    if (frames > 3) add(FrameCause::Gain, k, 1, frames);
+    if (k == 0) continue;
+    add(FrameCause::Repeated, k, 0, frames - 1);
+    out.back().shifts_rad[k] = declared.shifts_rad[k - 1];
+    if (k + 1 == frames) continue;  // from the last frame on it is a repeated frame
+    add(FrameCause::Late, k, 0, frames - 2);
+    for (std::size_t l = k; l < frames; ++l)
+      out.back().shifts_rad[l] = declared.shifts_rad[l - 1];
+    if (frames < 5 || k < 2) continue;  // a lamp in one frame alone is a lost frame
+    add(FrameCause::Lamp, k, 1, frames - 3);
+    out.back().lamp_on = k;
+  }
+  for (std::size_t i = 0; i < frames; ++i) {
+    for (std::size_t k = i + 1; k < frames; ++k) {
+      add(FrameCause::Exchanged, i, 0, frames * (frames - 1) / 2);
+      out.back().frames.push_back(k);
+      std::swap(out.back().shifts_rad[i], out.back().shifts_rad[k]);
+    }
+  }
+  return out;
+}
+
+std::optional<FrameHypothesis> both_of(const FrameHypothesis& a, const FrameHypothesis& b) {
+  const bool common = std::any_of(a.frames.begin(), a.frames.end(), [&](std::size_t frame) {
+    return std::find(b.frames.begin(), b.frames.end(), frame) != b.frames.end();
+  });
+  const auto ordered = [](const FrameHypothesis& one) {
+    return one.cause == FrameCause::Late || one.cause == FrameCause::Exchanged;
+  };
+  // The order of what is late and exchanged would matter.
+  if (common || (ordered(a) && ordered(b)) || (a.lamp_on && b.lamp_on)) return std::nullopt;
+  FrameHypothesis out = ordered(b) ? b : a;
+  const FrameHypothesis& other = ordered(b) ? a : b;
+  out.frames.insert(out.frames.end(), other.frames.begin(), other.frames.end());
+  for (const std::size_t k : other.frames) {
+    if (other.cause == FrameCause::Repeated) out.shifts_rad[k] = out.shifts_rad[k - 1];
+    out.gains[k] = other.gains[k];
+    out.free[k] = other.free[k];
+  }
+  if (other.lamp_on) out.lamp_on = other.lamp_on;
+  out.faults += other.faults;
+  out.parameters += other.parameters;
+  out.choices *= other.choices;
+  return out;
+}
+
+std::string describe(const FrameHypothesis& hypothesis) {
+  switch (hypothesis.cause) {
+    case FrameCause::AsDescribed:
+      return "the frames are as described";
+    case FrameCause::Unexplained:
+      return "the frames differ from fringes of these shifts, and no known cause explains it";
+    case FrameCause::Exchanged: {
+      std::string text =
+          fmt::format("frames {} and {} are exchanged", hypothesis.frames[0], hypothesis.frames[1]);
+      for (std::size_t i = 2; i < hypothesis.frames.size(); ++i)
+        text += fmt::format(", and frame {} differs, too", hypothesis.frames[i]);
+      return text;
+    }
+    default:
+      break;
+  }
+  std::string text = clause_of(hypothesis.cause, hypothesis.frames.front(), hypothesis);
+  for (std::size_t i = 1; i < hypothesis.frames.size(); ++i) {
+    const std::size_t frame = hypothesis.frames[i];
+    const FrameCause cause = hypothesis.free[frame]           ? FrameCause::Lost
+                             : hypothesis.gains[frame] != 1.0 ? FrameCause::Gain
+                             : hypothesis.lamp_on.value_or(frame + 1) == frame
+                                 ? FrameCause::Lamp
+                                 : FrameCause::Repeated;
+    text += ", and " + clause_of(cause, frame, hypothesis);
+  }
+  return text;
+}
+
+bool predict_alike(const FrameHypothesis& a, const FrameHypothesis& b) {
+  if (a.free != b.free ||
+      (a.cause == FrameCause::Unexplained) != (b.cause == FrameCause::Unexplained))
+    return false;
+  constexpr double kSame = 1e-6;
+  return (explained_space(a) - explained_space(b)).cwiseAbs().maxCoeff() < kSame;
+}
+
+}  // namespace frangia

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "frangia/pattern/pattern.h"
+
+namespace frangia {
+
+/// What may differ between the frames of a pattern and their description.
+enum class FrameCause {
+  AsDescribed,  ///< nothing
+  Lost,         ///< a frame shows no fringes: black, white or something else
+  Repeated,     ///< a frame shows the one before it again
+  Exchanged,    ///< two frames show each other
+  Late,         ///< the frames show the one before them, from one of them on
+  Gain,         ///< a frame was taken at another gain, exposure or power of the lamp
+  Lamp,         ///< another lamp was switched on or off within the set
+  Unexplained   ///< no cause: the frames differ from the fringes by a broad density
+};
+
+/// Returns the word for a cause in JSON and in the table of hypotheses: "as-described", "lost",
+/// "repeated", "exchanged", "late", "gain", "lamp" or "unexplained".
+[[nodiscard]] std::string name_of(FrameCause cause);
+
+/// A generative model of the frames of one pattern: what each of them shows.
+///
+/// Frame k has the counts g_k (A + B cos(phi + delta_k)) + L_k with mean A, modulation B and phase
+/// phi of the pixel, or is free of all of them.
+struct FrameHypothesis {
+  FrameCause cause = FrameCause::AsDescribed;
+  std::vector<std::size_t> frames;     ///< which differ
+  std::vector<double> shifts_rad;      ///< delta_k that frame k shows
+  std::vector<double> gains;           ///< g_k, 1 unless the frame's gain differs
+  std::vector<bool> free;              ///< the frame shows no fringes
+  std::optional<std::size_t> lamp_on;  ///< first frame with the light L of another lamp
+  int faults = 0;                      ///< 0 as described, 1, or 2
+  int parameters = 0;                  ///< fitted for all pixels together
+  std::size_t choices = 1;             ///< hypotheses of its kind: "which frame"
+};
+
+/// All hypotheses with one fault, "as described" first. Gains are 1 until they are fitted.
+///
+/// @shape    a fringe pattern with three shifts or more
+[[nodiscard]] std::vector<FrameHypothesis> frame_hypotheses(const Pattern& pattern);
+
+/// Both faults at once; none where they concern the same frame.
+[[nodiscard]] std::optional<FrameHypothesis> both_of(const FrameHypothesis& a,
+                                                     const FrameHypothesis& b);
+
+/// A clause: "frame 2 repeats frame 1". Frames are counted from 0.
+[[nodiscard]] std::string describe(const FrameHypothesis& hypothesis);
+
+/// Whether two hypotheses predict the same frames for any phases, so that no frames tell them
+/// apart: with three steps two exchanged frames are shifts in the other direction.
+[[nodiscard]] bool predict_alike(const FrameHypothesis& a, const FrameHypothesis& b);
+
+}  // namespace frangia

@@ -1,0 +1,50 @@
+#include "frangia/decode/explain/internal/frame_design.h"
+
+#include <cmath>
+#include <cstddef>
+
+#include <Eigen/Cholesky>
+#include <Eigen/QR>
+
+namespace frangia {
+
+FrameDesign design_of(const FrameHypothesis& hypothesis) {
+  FrameDesign out;
+  for (std::size_t k = 0; k < hypothesis.shifts_rad.size(); ++k)
+    if (!hypothesis.free[k]) out.shown.push_back(static_cast<Eigen::Index>(k));
+  const Eigen::Index rows = std::ssize(out.shown);
+  out.design = Eigen::MatrixXd::Zero(rows, hypothesis.lamp_on ? 4 : 3);
+  for (Eigen::Index row = 0; row < rows; ++row) {
+    const auto k = static_cast<std::size_t>(out.shown[static_cast<std::size_t>(row)]);
+    const double shift = hypothesis.shifts_rad[k];
+    out.design.row(row).head<3>() << 1.0, std::cos(shift), -std::sin(shift);
+    out.design.row(row) *= hypothesis.gains[k];
+    if (hypothesis.lamp_on && k >= *hypothesis.lamp_on) out.design(row, 3) = 1.0;
+  }
+  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(out.design);
+  constexpr double kSingular = 1e-6;  // of the largest pivot: shifts that differ by less are equal
+  qr.setThreshold(kSingular);
+  const Eigen::Index rank = qr.rank();
+  const Eigen::MatrixXd basis = qr.householderQ() * Eigen::MatrixXd::Identity(rows, rows);
+  out.span = basis.leftCols(rank);
+  out.rest = basis.rightCols(rows - rank);
+  if (rank < out.design.cols()) return out;
+  out.inverse = (out.design.transpose() * out.design).ldlt().solve(out.design.transpose());
+  return out;
+}
+
+Eigen::MatrixXd explained_space(const FrameHypothesis& hypothesis) {
+  const FrameDesign design = design_of(hypothesis);
+  const Eigen::Index frames = std::ssize(hypothesis.shifts_rad);
+  const Eigen::MatrixXd shown = design.span * design.span.transpose();
+  Eigen::MatrixXd out = Eigen::MatrixXd::Zero(frames, frames);
+  for (std::size_t row = 0; row < design.shown.size(); ++row) {
+    for (std::size_t col = 0; col < design.shown.size(); ++col) {
+      out(design.shown[row], design.shown[col]) =
+          shown(static_cast<Eigen::Index>(row), static_cast<Eigen::Index>(col));
+    }
+  }
+  return out;
+}
+
+}  // namespace frangia

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "frangia/frames/frame_stack.h"
+#include "frangia/frames/noise_model.h"
+
+namespace frangia {
+
+/// Pixels of the frames of a pattern, in small blocks spread over the image.
+struct FrameSample {
+  Eigen::ArrayXXd counts;       ///< one row per pixel, one column per frame
+  Eigen::ArrayXd scale_counts;  ///< largest count of each pixel, of frames that are not white
+  Eigen::ArrayXd variance;      ///< of the camera noise of each pixel, counts squared
+  std::vector<int> blocks;      ///< number of each pixel's block, equal ones side by side
+};
+
+/// Samples pixels that the projector lights: their counts change over the frames by a quarter of
+/// what the most changing pixels do. Saturated pixels are left out, unless nearly all pixels of a
+/// frame are.
+///
+/// @shape    about 2500 pixels or fewer
+[[nodiscard]] FrameSample sample_blocks(const FrameStack& stack, const NoiseModel& noise);
+
+}  // namespace frangia

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "frangia/decode/explain/explain_frames.h"
+#include "frangia/frames/frame_stack.h"
+#include "frangia/frames/noise_model.h"
+
+namespace frangia {
+
+/// What is done with the frames of a pattern.
+enum class FrameAction {
+  Use,             ///< all of them
+  LeaveOutFrames,  ///< the others determine the phase, and fit
+  LeaveOutView     ///< the pattern measures nothing in this view
+};
+
+/// What follows from the explanation of the frames of a pattern.
+struct FrameVerdict {
+  FrameExplanation explanation;
+  FrameAction action = FrameAction::Use;
+  std::vector<std::size_t> left_out;  ///< frames that are left out
+  /// The shifts with which all frames fit, where those of the pattern are wrong; empty otherwise.
+  std::vector<double> remedy_rad;
+  /// What is wrong with the frames, as a clause: "frame 2 of pattern "f" is black"; empty if
+  /// nothing is.
+  std::string finding{};
+};
+
+/// What may be done with frames that are at fault.
+struct JudgeOptions {
+  bool may_leave_out = true;  ///< the phase can be computed from some of the frames
+  /// Coarser patterns or a Gray code check the phase, also if three frames remain, which leave no
+  /// residual.
+  bool has_other_check = false;
+};
+
+/// Explains the frames of a fringe pattern and decides what is used of them.
+///
+/// A frame that is lost, repeated, or under other light is left out if those that remain determine
+/// the phase with less than twice the noise and are as described. Otherwise the pattern measures
+/// nothing in this view, and neither do frames that are no fringes.
+[[nodiscard]] FrameVerdict judge_frames(const FrameStack& stack,
+                                        const NoiseModel& noise,
+                                        const JudgeOptions& options = {});
+
+/// The stack without some of its frames and their shifts.
+[[nodiscard]] FrameStack without_frames(const FrameStack& stack,
+                                        std::span<const std::size_t> left_out);
+
+}  // namespace frangia
