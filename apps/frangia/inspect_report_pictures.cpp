@@ -22,7 +22,7 @@ namespace {
 /// A place on the part that pictures label.
 struct LabelledPlace {
   PictureLabel label;
-  SurfacePoint place;
+  PlaceOnSurface place;
 };
 
 std::string value_text(double value, double u95) {
@@ -91,7 +91,7 @@ void add_labels(ReportPicture& picture,
                 const RayScene& scene,
                 const RenderOptions& options,
                 const std::vector<LabelledPlace>& places) {
-  std::vector<SurfacePoint> points;
+  std::vector<PlaceOnSurface> points;
   for (const LabelledPlace& place : places)
     points.push_back(place.place);
   const auto positions = picture_positions(scene, options, points);
