@@ -22,7 +22,7 @@ namespace {
 /// A place on the part that pictures label.
 struct LabelledPlace {
   PictureLabel label;
-  PlaceOnSurface place;
+  PicturedPlace place;
 };
 
 std::string value_text(double value, double u95) {
@@ -53,6 +53,14 @@ std::vector<LabelledPlace> labelled_places(const InspectedPart& part) {
     for (const auto& [extreme, detail] :
          {std::pair(verdict.highest, "largest"), std::pair(verdict.lowest, "smallest")}) {
       if (!std::isfinite(extreme.deviation_mm)) continue;
+      const auto same =
+          std::find_if(places.begin(), places.end(), [&](const LabelledPlace& labelled) {
+            return labelled.place.point_mm == extreme.at_mm;
+          });
+      if (same != places.end()) {
+        same->label.detail = std::string(detail) + ", " + same->label.detail;
+        continue;
+      }
       places.push_back({{value_text(extreme.deviation_mm, extreme.u95_mm),
                          detail,
                          conformity_of(extreme.deviation_mm,
@@ -91,14 +99,14 @@ void add_labels(ReportPicture& picture,
                 const RayScene& scene,
                 const RenderOptions& options,
                 const std::vector<LabelledPlace>& places) {
-  std::vector<PlaceOnSurface> points;
+  std::vector<PicturedPlace> points;
   for (const LabelledPlace& place : places)
     points.push_back(place.place);
   const auto positions = picture_positions(scene, options, points);
   std::set<std::string> shown;
   for (std::size_t i = 0; i < places.size(); ++i) {
     const PictureLabel& label = places[i].label;
-    if (!positions[i] || (label.detail != "out" && label.detail != "undecided" &&
+    if (!positions[i] || (!label.detail.ends_with("out") && !label.detail.ends_with("undecided") &&
                           !shown.insert(label.detail + label.text).second))
       continue;
     picture.labels.push_back(label);
@@ -127,7 +135,11 @@ std::vector<ReportPicture> report_pictures(const InspectArguments& arguments,
     options.elevation_rad = rad_from_deg(elevation);
     ReportPicture picture;
     picture.caption =
-        fmt::format("{}seen from azimuth {:.0f}°, elevation {:.0f}°", what, azimuth, elevation);
+        fmt::format("{}seen from azimuth {:.0f}°, elevation {:.0f}°{}",
+                    what,
+                    azimuth,
+                    elevation,
+                    what.empty() ? "" : "; dark gray: no value; magenta: inside of the surface");
     picture.picture = render_mesh(part.mesh, options, run);
     if (!options.values.empty()) {
       picture.scale = PictureScale{options.value_label,

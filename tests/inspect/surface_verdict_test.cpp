@@ -89,6 +89,7 @@ TEST(SurfaceVerdict, IsNotDecidedByOneVertexOfMany) {
   Plate plate;
   plate.add_noise(3, static_cast<double>(kSigma));
   plate.mesh().sigma_mm[61 * 30 + 30] = 5.0F;
+  plate.mesh().sigma_mm[61 * 40 + 20] = std::nanf("");
   const SurfaceVerdict verdict = plate.verdict({.limits = {-0.05, 0.05}});
   EXPECT_EQ(verdict.conformity, Conformity::In) << sentence_of(verdict);
   EXPECT_GT(verdict.share_of(PatchDecision::NotWellMeasured), 0.0);
@@ -227,7 +228,24 @@ TEST(SurfaceVerdict, OfAMissingBossIsOutThere) {
   EXPECT_GT(missing->area_mm2, 50.0);  // the cap of the boss has 133 mm2
 }
 
-TEST(SurfaceVerdict, SharesOfASurfaceWithABase) {
+TEST(SurfaceVerdict, DoesNotTakeTheFloorBelowAThinWallForMissingMaterial) {
+  // A lid of 1 mm over a floor; its top was not measured, the floor lies 0.05 mm too high.
+  Mesh nominal = testing::box({0, 0, 0}, {30, 30, 5});
+  const Mesh lid = testing::box({0, 0, 20}, {30, 30, 21});
+  const auto first = static_cast<std::uint32_t>(nominal.vertices_mm.size());
+  nominal.vertices_mm.insert(
+      nominal.vertices_mm.end(), lid.vertices_mm.begin(), lid.vertices_mm.end());
+  for (const auto& [a, b, c] : lid.triangles)
+    nominal.triangles.push_back({a + first, b + first, c + first});
+  Mesh measured = testing::box({0, 0, 0}, {30, 30, 5.05F});
+  const RayScene reference(nominal);
+  const SurfaceVerdict verdict = judge_surface(
+      measured, deviations_of(measured, reference), reference, {.min_feature_mm = 1.0});
+  EXPECT_EQ(verdict.share_of(PatchDecision::Out), 0.0);
+  EXPECT_EQ(verdict.reason, UndecidedReason::NotMeasured);
+}
+
+TEST(SurfaceVerdict, IsOpenWhereABaseWasNotMeasured) {
   // The base of a box was not measured: below it there is no measured surface that faces down.
   Mesh box = testing::box({0, 0, 0}, {30, 30, 10});
   const RayScene reference(box);
@@ -256,7 +274,7 @@ TEST(SurfaceVerdict, DoesNotCallAGoodPartBad) {
       vertex.z() = 0.0F;
     Deviations found = deviations_of(mesh, reference);
     int bad = 0;
-    constexpr int kTrials = 200;
+    constexpr int kTrials = 120;
     for (std::uint64_t seed = 0; seed < kTrials; ++seed) {
       const double alike = common * normal_from(hash(seed, 1U << 30U));
       for (std::size_t i = 0; i < mesh.vertices_mm.size(); ++i) {
@@ -268,7 +286,7 @@ TEST(SurfaceVerdict, DoesNotCallAGoodPartBad) {
       const SurfaceVerdict verdict = judge_surface(mesh, found, reference, {.limits = {-0.1, 0.1}});
       bad += verdict.conformity == Conformity::Out ? 1 : 0;
     }
-    EXPECT_LE(bad, kTrials / 20 + 8) << common;  // 5 % and 2.6 standard deviations
+    EXPECT_LE(bad, kTrials / 20 + 7) << common;  // 5 % and 2.6 standard deviations
     if (common == 0.0) {
       EXPECT_GE(bad, 1);
     }

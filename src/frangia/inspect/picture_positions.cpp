@@ -24,7 +24,7 @@ Vector2d projected(const Viewpoint& viewpoint, const Vector3d& point) {
 
 std::vector<std::optional<Vector2d>> picture_positions(const RayScene& mesh,
                                                        const RenderOptions& options,
-                                                       const std::vector<PlaceOnSurface>& places) {
+                                                       const std::vector<PicturedPlace>& places) {
   constexpr double kLeastCosine = 0.1;
   constexpr double kNear = 0.01;  // of the size: a place need not lie on the measured surface
   const Viewpoint viewpoint = fit_viewpoint(mesh.mesh(), options);
@@ -34,7 +34,7 @@ std::vector<std::optional<Vector2d>> picture_positions(const RayScene& mesh,
   const double near_mm = kNear * box.diagonal().norm();
   const double half = 0.5 * std::min(options.width_px, options.height_px);
   std::vector<std::optional<Vector2d>> positions;
-  for (const PlaceOnSurface& place : places) {
+  for (const PicturedPlace& place : places) {
     positions.emplace_back();
     const Vector2d at = projected(viewpoint, place.point_mm);
     const Vector2d pixel(0.5 * options.width_px + half * at.x(),

@@ -11,7 +11,7 @@
 namespace frangia {
 
 /// A place on a surface.
-struct PlaceOnSurface {
+struct PicturedPlace {
   Eigen::Vector3d point_mm = Eigen::Vector3d::Zero();  ///< its position
   Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();   ///< unit, outward
 };
@@ -22,6 +22,6 @@ struct PlaceOnSurface {
 /// @units    pixels from the upper left corner
 /// @missing  none for a place that faces away, is hidden by the mesh or lies outside of the picture
 [[nodiscard]] std::vector<std::optional<Eigen::Vector2d>> picture_positions(
-    const RayScene& mesh, const RenderOptions& options, const std::vector<PlaceOnSurface>& places);
+    const RayScene& mesh, const RenderOptions& options, const std::vector<PicturedPlace>& places);
 
 }  // namespace frangia

@@ -228,7 +228,10 @@ bool is_missing(const Vector3d& center,
   if (!hit || hit->normal.dot(normal) < static_cast<double>(kSameFace)) return false;
   const auto& marks = mesh.mesh().triangle_marks;
   if (!marks.empty() && marks[hit->triangle] == Mark::Synthesized) return false;
-  return !reference.first_hit(center - margin_mm * normal, -normal, hit->distance);
+  // A wall that is thinner than the margin is left before the ray begins.
+  const double below_mm = 0.01 * margin_mm;
+  return !reference.first_hit(
+      center - below_mm * normal, -normal, margin_mm - below_mm + hit->distance);
 }
 
 void mark_missing(SurfacePatches& patches, const Mesh& mesh, const RayScene& reference) {

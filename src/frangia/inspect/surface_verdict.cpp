@@ -10,6 +10,8 @@
 #include <span>
 #include <tuple>
 
+#include <fmt/format.h>
+
 #include "frangia/core/error.h"
 #include "frangia/core/median.h"
 
@@ -63,6 +65,7 @@ OutGuard out_guard_of(const SurfacePatches& patches) {
     if (!patches.is_measured(i)) continue;
     area += patches.area_mm2[i];
     ++measured;
+    if (!std::isfinite(patches.u_mm(i))) continue;
     noises.push_back(static_cast<double>(patches.noise_mm[i]));
     systematics.push_back(static_cast<double>(patches.systematic_mm[i]));
   }
@@ -103,11 +106,10 @@ bool is_gap(PatchDecision decision) {
   return decision == PatchDecision::NotMeasured || decision == PatchDecision::NotWellMeasured;
 }
 
-/// Finds the widest gap: twice the largest distance, over the surface, of a patch that is not
-/// decided from the nearest one that is.
-void find_gap(SurfaceVerdict& verdict,
-              const SurfacePatches& patches,
-              const std::vector<PatchDecision>& decided) {
+/// Distance of each patch, over the surface, from the nearest one that is decided; infinite where
+/// none can be reached.
+std::vector<double> gap_distances(const SurfacePatches& patches,
+                                  const std::vector<PatchDecision>& decided) {
   using Step = std::pair<double, std::uint32_t>;
   std::priority_queue<Step, std::vector<Step>, std::greater<>> next;
   std::vector<double> distance(patches.size(), std::numeric_limits<double>::infinity());
@@ -128,6 +130,13 @@ void find_gap(SurfaceVerdict& verdict,
       next.emplace(there, k);
     }
   }
+  return distance;
+}
+
+/// Finds the widest gap: its width is twice the largest distance of its patches.
+void find_gap(SurfaceVerdict& verdict,
+              const SurfacePatches& patches,
+              const std::vector<double>& distance) {
   for (std::size_t i = 0; i < patches.size(); ++i) {
     const double width = std::min(2.0 * distance[i], patches.size_mm);
     if (width <= verdict.gap_mm) continue;
@@ -140,8 +149,10 @@ void find_gap(SurfaceVerdict& verdict,
 double badness(const SurfacePatches& patches,
                std::size_t i,
                PatchDecision decision,
-               const ToleranceLimits& limits) {
+               const ToleranceLimits& limits,
+               const std::vector<double>& distance) {
   if (decision == PatchDecision::NotWellMeasured) return patches.u_mm(i);
+  if (decision == PatchDecision::NotMeasured) return distance[i];
   if (!patches.is_measured(i)) return 0.0;
   const auto value = static_cast<double>(patches.deviation_mm[i]);
   return std::max(limits.lower - value, value - limits.upper);
@@ -150,7 +161,8 @@ double badness(const SurfacePatches& patches,
 /// Connected parts of the surface that were decided alike, the worst first.
 std::vector<SurfacePlace> places_of(const SurfacePatches& patches,
                                     const std::vector<PatchDecision>& decided,
-                                    const ToleranceLimits& limits) {
+                                    const ToleranceLimits& limits,
+                                    const std::vector<double>& distance) {
   std::vector<SurfacePlace> places;
   std::vector<std::uint8_t> seen(patches.size(), 0);
   for (std::uint32_t first = 0; first < patches.size(); ++first) {
@@ -166,7 +178,7 @@ std::vector<SurfacePlace> places_of(const SurfacePatches& patches,
       stack.pop_back();
       place.area_mm2 += patches.area_mm2[i];
       place.missing = place.missing || patches.missing[i] != 0;
-      const double bad = badness(patches, i, place.decision, limits);
+      const double bad = badness(patches, i, place.decision, limits, distance);
       if (bad > most) {
         most = bad;
         worst = i;
@@ -238,11 +250,11 @@ void conclude(SurfaceVerdict& verdict, double noise_share) {
 void SurfaceRule::check() const {
   limits.check();
   require(std::isfinite(min_feature_mm) && min_feature_mm >= 0.0,
-          "`min_feature_mm` must be 0 or more");
+          "min_feature_mm must be 0 or more");
   require(max_uncertainty_share > 0.0 && max_uncertainty_share <= 1.0,
-          "`max_uncertainty_share` must be above 0, and 1 at most");
-  require(min_coverage >= 0.0 && min_coverage <= 1.0, "`min_coverage` must be from 0 to 1");
-  require(std::isfinite(max_gap_mm) && max_gap_mm >= 0.0, "`max_gap_mm` must be 0 or more");
+          "max_uncertainty_share must be above 0, and 1 at most");
+  require(min_coverage >= 0.0 && min_coverage <= 1.0, "min_coverage must be from 0 to 1");
+  require(std::isfinite(max_gap_mm) && max_gap_mm >= 0.0, "max_gap_mm must be 0 or more");
 }
 
 double SurfaceVerdict::share_of(PatchDecision decision) const {
@@ -273,7 +285,8 @@ SurfaceVerdict judge_surface(const SurfacePatches& patches, const SurfaceRule& r
         patches.noise_mm[i] > patches.systematic_mm[i])
       noise_share += share;
     if (!patches.is_measured(i)) continue;
-    if (patches.uncertainty_known) known_u.push_back(patches.u_mm(i));
+    if (patches.uncertainty_known && std::isfinite(patches.u_mm(i)))
+      known_u.push_back(patches.u_mm(i));
     if (is_gap(decided.back())) continue;
     ++verdict.patches;
     const float value = patches.deviation_mm[i];
@@ -285,9 +298,10 @@ SurfaceVerdict judge_surface(const SurfacePatches& patches, const SurfaceRule& r
   if (lowest < patches.size()) verdict.lowest = extreme_of(patches, lowest);
   if (highest < patches.size()) verdict.highest = extreme_of(patches, highest);
   if (!known_u.empty()) verdict.median_u_mm = median_in_place(std::span<double>(known_u));
-  find_gap(verdict, patches, decided);
+  const std::vector<double> distance = gap_distances(patches, decided);
+  find_gap(verdict, patches, distance);
   conclude(verdict, noise_share);
-  verdict.places = places_of(patches, decided, rule.limits);
+  verdict.places = places_of(patches, decided, rule.limits, distance);
   if (verdict.places.size() > kMostPlaces) verdict.places.resize(kMostPlaces);
   return verdict;
 }
@@ -298,8 +312,17 @@ SurfaceVerdict judge_surface(const Mesh& mesh,
                              const SurfaceRule& rule,
                              const Run& run) {
   rule.check();
-  return judge_surface(
-      surface_patches(mesh, deviations, reference, rule.min_feature_mm, rule.excluded, run), rule);
+  const SurfacePatches patches =
+      surface_patches(mesh, deviations, reference, rule.min_feature_mm, rule.excluded, run);
+  if (rule.min_feature_mm > 0.0 && patches.diameter_mm > 1.001 * rule.min_feature_mm) {
+    run.warn(fmt::format(
+        "the surface is judged by patches of {:.3g} mm and not of {:.3g} mm, of which there would "
+        "be too many; state a min_feature_mm of {:.3g} mm",
+        patches.diameter_mm,
+        rule.min_feature_mm,
+        patches.diameter_mm));
+  }
+  return judge_surface(patches, rule);
 }
 
 }  // namespace frangia

@@ -61,7 +61,10 @@ std::string share_text(double share) {
 }
 
 std::string place_text(const Eigen::Vector3d& at_mm) {
-  return fmt::format("({:.2f}, {:.2f}, {:.2f}) mm", at_mm.x(), at_mm.y(), at_mm.z());
+  const auto text = [](double value) {  // without the sign of a zero
+    return fmt::format("{:.2f}", std::abs(value) < 0.005 ? 0.0 : value);
+  };
+  return fmt::format("({}, {}, {}) mm", text(at_mm.x()), text(at_mm.y()), text(at_mm.z()));
 }
 
 std::string_view name_of(PatchDecision decision) {

@@ -31,15 +31,23 @@ table.facts td:first-child{width:32%;color:#5a6470}
 figure{margin:.6em 0;break-inside:avoid}figcaption{font-size:8.5pt;color:#5a6470;margin-top:.2em}
 figure img,figure svg{width:100%;height:auto;display:block}
 .row figure{display:inline-block;width:48.5%;margin-right:1%;vertical-align:top}
+.row figure svg{max-height:95mm}
 .brand{width:100%;margin:0}.brand td{border:0;padding:0;vertical-align:middle}
 .brand img{max-height:16mm;max-width:60mm}.brand td:last-child{text-align:right;color:#5a6470}
 .fields{width:100%;table-layout:fixed;margin:.4em 0 .7em;font-size:9pt}
-.fields td{text-align:left;overflow-wrap:anywhere;padding:.2em .4em}
+.fields td{box-sizing:border-box;text-align:left;overflow-wrap:anywhere;padding:.2em .4em}
 .fields .name{color:#5a6470;width:15%}.fields .fact{width:35%}
 .signal{width:100%;margin:.3em 0 .6em}.signal td{border:0;text-align:left;vertical-align:middle}
 .signal .lamps{width:13mm;padding:.5em 0 .5em .8em}.signal .lamps svg{width:10mm;height:26mm;display:block}
 .signal .word{font-size:15pt;font-weight:700}
-.results{width:100%}.results .bar{width:34mm}.results svg{width:32mm;height:4mm;display:block}
+.results{width:100%;table-layout:fixed}
+.results td,.results th{box-sizing:border-box;padding-left:.25em;padding-right:.25em}
+.results th{overflow-wrap:normal;font-size:8pt}.results th:first-child{width:22.5%}
+.results .unit{width:4.5%}.results .value{width:9.2%}.results .limits{width:13%}
+.results td.limits{white-space:nowrap}
+.results .bar{width:13.2%}.results .decision{width:10%}
+.results svg{width:22mm;height:2.75mm;display:block;margin-left:auto}
+.lead{break-after:avoid}
 .small{font-size:8pt;color:#5a6470}
 .labelled{position:relative;width:100%}
 .labelled img{position:absolute;left:16.0377%;top:0;width:67.9245%;height:100%}

@@ -118,7 +118,8 @@ std::string drawn_scale(const PictureScale& scale) {
         "y=\"35\" text-anchor=\"middle\">{2}</text>",
         x,
         limit ? 2.5 : 1.0,
-        scale.low < 0.0 ? fmt::format("{:+.3g}", ticks[i]) : fmt::format("{:.3g}", ticks[i]));
+        scale.low < 0.0 && ticks[i] != 0.0 ? fmt::format("{:+.3g}", ticks[i])
+                                           : fmt::format("{:.3g}", ticks[i]));
   }
   return svg + "</svg>";
 }

@@ -10,13 +10,31 @@
 namespace frangia::report {
 namespace {
 
-/// How many rows of results the first sheet has room for.
-std::size_t rows_on_cover(const InspectionReport& report, std::size_t rows) {
-  constexpr std::size_t kBesidePicture = 8;
-  constexpr std::size_t kWithoutPicture = 20;
-  const std::size_t room = report.pictures.empty() ? kWithoutPicture : kBesidePicture;
-  const std::size_t warnings = std::min<std::size_t>(report.warnings.size(), 4);
-  return std::min(rows, room - warnings);
+/// Lines that a text takes in a column of so many characters.
+std::size_t lines_of(const std::string& text, std::size_t characters) {
+  return 1 + (text.empty() ? 0 : (text.size() - 1) / characters);
+}
+
+/// How many rows of results the first sheet has room for, beside the head, the verdict and the
+/// picture.
+std::size_t rows_on_cover(const InspectionReport& report,
+                          const std::vector<MeasuredCharacteristic>& rows) {
+  constexpr double kLine_mm = 4.7;
+  constexpr double kWarning_mm = 10.0;
+  constexpr double kPicture_mm = 92.0;
+  constexpr std::size_t kWarnings = 4;  // three, and how many there are besides
+  double room_mm = report.fields.paper == "Letter" ? 71.0 : 90.0;
+  if (report.pictures.empty()) room_mm += kPicture_mm;
+  room_mm -= kWarning_mm * static_cast<double>(std::min(report.warnings.size(), kWarnings));
+  for (const std::string& reason : reasons_of(report))
+    room_mm -= kLine_mm * static_cast<double>(lines_of(reason, 102) - 1);
+  std::size_t count = 0;
+  for (const MeasuredCharacteristic& row : rows) {
+    room_mm -= 1.7 + kLine_mm * static_cast<double>(lines_of(row.name, 24));
+    if (room_mm < 0.0) break;
+    ++count;
+  }
+  return count;
 }
 
 const char* word_of(Conformity verdict) {
@@ -112,7 +130,7 @@ std::vector<MeasuredCharacteristic> rows_of_results(const InspectionReport& repo
 /// The table of results, where the first sheet holds a part of it.
 void add_all_results(HtmlPage& page, const InspectionReport& report) {
   const auto rows = rows_of_results(report);
-  if (rows.size() <= rows_on_cover(report, rows.size())) return;
+  if (rows.size() <= rows_on_cover(report, rows)) return;
   page.heading("Results, the worst first");
   page.html(result_table(rows, rows.size()));
 }
@@ -130,8 +148,8 @@ void add_cover(HtmlPage& page, const InspectionReport& report) {
         fmt::format("{} more warnings: see the annex.", report.warnings.size() - kWarnings));
   if (!report.pictures.empty()) page.html(labelled_picture(report.pictures.front()));
   const auto rows = rows_of_results(report);
-  const std::size_t shown = rows_on_cover(report, rows.size());
-  if (!rows.empty()) page.html(result_table(rows, shown));
+  const std::size_t shown = rows_on_cover(report, rows);
+  if (shown > 0) page.html(result_table(rows, shown));
   if (rows.size() > shown)
     page.paragraph(
         fmt::format("The {} worst of {} rows; all are on the next page.", shown, rows.size()));

@@ -11,6 +11,13 @@
 namespace frangia::report {
 namespace {
 
+std::string point_text(const Eigen::Vector3d& point, int decimals) {
+  return fmt::format("{} {} {}",
+                     coordinate_text(point.x(), decimals),
+                     coordinate_text(point.y(), decimals),
+                     coordinate_text(point.z(), decimals));
+}
+
 void add_pictures(HtmlPage& page, const InspectionReport& report) {
   if (report.pictures.size() < 2) return;
   page.heading("Pictures");
@@ -98,10 +105,8 @@ void add_found_features(HtmlPage& page, const InspectionReport& report) {
                     round ? number_text(2.0 * shape.radius_mm, 4) : "",
                     number_text(feature.uncertainty.u95_mm, 4),
                     fitted ? number_text(feature.fit.form_mm, 4) : "",
-                    fmt::format("{:.3f} {:.3f} {:.3f}", c.x(), c.y(), c.z()),
-                    shape.kind == ShapeKind::Sphere
-                        ? ""
-                        : fmt::format("{:.4f} {:.4f} {:.4f}", a.x(), a.y(), a.z()),
+                    point_text(c, 3),
+                    shape.kind == ShapeKind::Sphere ? "" : point_text(a, 4),
                     fmt::format("{}", feature.fit.points)});
     if (report.nominals.empty()) continue;
     const std::optional<NominalFace>& nominal = report.nominals[i];
@@ -162,8 +167,9 @@ void add_blades(HtmlPage& page, const std::vector<SectionResult>& sections) {
 void add_sections(HtmlPage& page, const InspectionReport& report) {
   if (report.sections.empty()) return;
   page.heading("Sections");
-  page.paragraph(
-      "Black: reference. Blue: measured. Red: deviations along the normal, enlarged as stated.");
+  page.html(
+      "<p class=\"lead\">Black: reference. Blue: measured. Red: deviations along the normal, "
+      "enlarged as stated.</p>\n");
   for (const SectionResult& section : report.sections) {
     const Eigen::Vector3d& p = section.plane.point_mm;
     const Eigen::Vector3d& n = section.plane.normal;

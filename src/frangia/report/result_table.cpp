@@ -26,7 +26,7 @@ std::string tolerance_text(const MeasuredCharacteristic& row) {
   const double upper = row.limits->upper - from;
   if (!std::isfinite(lower)) return fmt::format("≤ {:.4g}", upper + from);
   if (std::abs(lower + upper) < 1e-9 * std::abs(upper)) return fmt::format("± {:.4g}", upper);
-  return fmt::format("{:+.4g} / {:+.4g}", lower, upper);
+  return fmt::format("{:+.4g}/{:+.4g}", lower, upper);
 }
 
 int rank_of(const MeasuredCharacteristic& row) {
@@ -116,15 +116,17 @@ std::string tolerance_bar(const MeasuredCharacteristic& row) {
 
 std::string result_table(const std::vector<MeasuredCharacteristic>& rows, std::size_t count) {
   std::string html =
-      "<table class=\"results\"><thead><tr><th>characteristic</th><th>unit</th><th>nominal</th>"
-      "<th>tolerance</th><th>measured</th><th>deviation</th><th>U95</th><th "
-      "class=\"bar\">tolerance "
-      "used</th><th>verdict</th></tr></thead><tbody>\n";
+      "<table class=\"results\"><thead><tr><th>characteristic</th><th class=\"unit\">unit</th><th "
+      "class=\"value\">nominal</th><th class=\"limits\">tolerance</th><th "
+      "class=\"value\">measured</th><th class=\"value\">deviation</th><th "
+      "class=\"value\">U95</th><th class=\"bar\">tolerance used</th><th "
+      "class=\"decision\">verdict</th></tr></thead><tbody>\n";
   for (std::size_t i = 0; i < std::min(count, rows.size()); ++i) {
     const MeasuredCharacteristic& row = rows[i];
     const double deviation = row.nominal ? row.value - *row.nominal : static_cast<double>(kMissing);
     html += fmt::format(
-        "<tr><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td>"
+        "<tr><td>{}</td><td>{}</td><td>{}</td><td class=\"limits\">{}</td><td>{}</td><td>{}</td>"
+        "<td>{}</td>"
         "<td class=\"bar\">{}</td><td class=\"{}\">{}</td></tr>\n",
         html_escaped(row.name),
         row.unit == "degrees" ? "°" : row.unit,

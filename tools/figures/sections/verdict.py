@@ -18,7 +18,7 @@ CASES = {
     **{f"{excess}, T = {level} U": 100 for level in LEVELS for excess in EXCESSES},
     **{defect: 40 for defect in DEFECTS},
 }
-PART = 20
+PART = {case: 20 for case in CASES if case not in DEFECTS}
 
 HOLE_MM, RIM_MM, THICK_MM, TURNS = 5.0, 30.0, 8.0, 188
 DENT, BOSS = (17.0, 0.0), (-17.0, 0.0)

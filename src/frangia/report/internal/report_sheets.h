@@ -19,6 +19,12 @@ using Rows = std::vector<std::vector<std::string>>;  ///< of a table
   return std::isfinite(value) ? fmt::format("{:.{}f}", value, decimals) : "";
 }
 
+/// A coordinate with that many decimals, without the sign of a zero.
+[[nodiscard]] inline std::string coordinate_text(double value, int decimals) {
+  const double step = std::pow(10.0, -decimals);
+  return fmt::format("{:.{}f}", std::abs(value) < 0.5 * step ? 0.0 : value, decimals);
+}
+
 /// The first sheet: head, verdict, the first picture and the worst rows of results; then all rows,
 /// where the first sheet has no room for them.
 void add_cover(HtmlPage& page, const InspectionReport& report);
