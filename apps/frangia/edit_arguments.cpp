@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "frangia/core/error.h"
 #include "frangia/files/mesh_formats.h"
 
 #include "allow_memory.h"
@@ -12,6 +13,18 @@
 
 namespace frangia {
 namespace {
+
+/// What is wrong with the value of an operation; empty for a right one.
+std::string fault_of_step(const std::string& name, const std::string& value) {
+  try {
+    check_step({name, value});
+  } catch (const Error& error) {
+    const std::string what = error.what();
+    const std::string prefix = name + ": ";
+    return with_flags(what.starts_with(prefix) ? what.substr(prefix.size()) : what);
+  }
+  return {};
+}
 
 void add_operations(CLI::App& verb, EditArguments& arguments) {
   for (const EditOperation& operation : edit_operations()) {
@@ -31,7 +44,9 @@ void add_operations(CLI::App& verb, EditArguments& arguments) {
             arguments.steps.push_back({name, value});
           },
           with_flags(operation.help));
-      option->type_name(operation.value);
+      option->type_name(operation.value)
+          ->check(CLI::Validator(
+              [name](const std::string& value) { return fault_of_step(name, value); }, ""));
     }
     option->trigger_on_parse()->group(operation.group);
   }

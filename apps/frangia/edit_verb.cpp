@@ -83,6 +83,11 @@ std::vector<std::filesystem::path> written_files(const EditArguments& arguments)
   return files;
 }
 
+void print_unsaved(const EditArguments& arguments) {
+  if (arguments.outputs.empty() && !arguments.steps.empty())
+    print_text("the mesh was not saved; -o names a file for it\n");
+}
+
 void report(const Mesh& mesh,
             const std::optional<PreviewCounts>& counts,
             const EditArguments& arguments,
@@ -102,13 +107,13 @@ void report(const Mesh& mesh,
     const MeshFindings found = mesh_findings(mesh, run);
     terminal.finish();
     print_findings(found);
+    print_unsaved(arguments);
   } else if (!terminal.quiet) {
     terminal.finish();
     print_text("{}\n",
                mesh.empty() ? counted(mesh.vertices_mm.size(), "point")
                             : counted(mesh.triangles.size(), "triangle"));
-    if (written_files(arguments).empty() && !arguments.steps.empty())
-      print_text("nothing was saved; -o names a file for the mesh\n");
+    print_unsaved(arguments);
   }
   if (counts && !terminal.json && !terminal.quiet) {
     print_text("preview: {} would be removed or moved, {} added\n",

@@ -16,14 +16,15 @@
 #include "json_number.h"
 #include "option_values.h"
 #include "print_text.h"
+#include "usage.h"
 
 namespace frangia {
 
 void inspect_batch(InspectArguments arguments, const InspectionPlan& plan, Terminal& terminal) {
   const Run run = terminal.run();
-  require(arguments.qif.empty(), "--qif states one part, not a batch; leave out --batch");
-  require(!plan.features.empty(),
-          "--batch compares the characteristics of a --plan; give one with [[features]]");
+  require_usage(arguments.qif.empty(), "--qif states one part, not a batch; leave out --batch");
+  require_usage(!plan.features.empty(),
+                "--batch compares the characteristics of a --plan; give one with [[features]]");
   const std::optional<Reference> reference = read_reference(arguments, run);
   std::vector<BatchPart> parts;
   bool out = false;

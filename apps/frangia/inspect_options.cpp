@@ -12,6 +12,7 @@
 #include "inspect_plan.h"
 #include "option_values.h"
 #include "picture_file.h"
+#include "usage.h"
 
 namespace frangia {
 namespace {
@@ -19,16 +20,17 @@ namespace {
 /// Checks before the work that the options of the alignment go together.
 void check_alignment(const InspectArguments& arguments) {
   const AlignmentArguments& alignment = arguments.alignment;
-  require(alignment.align.empty() || !arguments.reference.empty(),
-          "--align needs a --reference to align the mesh to; give one");
-  require(arguments.outputs.empty() || !arguments.reference.empty() || arguments.thickness,
-          "-o writes the mesh with its deviations or its thickness; give a --reference to measure "
-          "against, or --thickness");
-  require(!arguments.fail_out_of_tolerance || !arguments.reference.empty(),
-          "--fail-out-of-tolerance needs a --reference to measure against; give one");
+  require_usage(alignment.align.empty() || !arguments.reference.empty(),
+                "--align needs a --reference to align the mesh to; give one");
+  require_usage(
+      arguments.outputs.empty() || !arguments.reference.empty() || arguments.thickness,
+      "-o writes the mesh with its deviations or its thickness; give a --reference to measure "
+      "against, or --thickness");
+  require_usage(!arguments.fail_out_of_tolerance || !arguments.reference.empty(),
+                "--fail-out-of-tolerance needs a --reference to measure against; give one");
   static_cast<void>(alignment.band());
-  require(alignment.start == 0 || alignment.align == "best-fit" || alignment.align == "datum",
-          "--start chooses a pose of --align best-fit; add it");
+  require_usage(alignment.start == 0 || alignment.align == "best-fit" || alignment.align == "datum",
+                "--start chooses a pose of --align best-fit; add it");
   for (const auto& path : arguments.outputs) {
     check_deviation_output(path);
     if (arguments.reference.empty() && lowercase_extension(path) != ".ply") {
@@ -45,13 +47,13 @@ void check_inspect_arguments(const InspectArguments& arguments, const Inspection
     static_cast<void>(read_logo(plan.report.logo));
   const bool drawn = !arguments.picture.empty();
   const bool planned = !plan.features.empty() || !plan.sections.empty();
-  require(
+  require_usage(
       !arguments.reference.empty() || drawn || arguments.features || arguments.thickness || planned,
       "nothing to do: give a --reference to measure against, --features, --thickness, --plan, "
       "--section, or a --picture to draw");
   if (drawn) check_picture_output(arguments.picture);
-  require(arguments.qif.empty() || !plan.features.empty(),
-          "--qif states the characteristics of a --plan; give one with [[features]]");
+  require_usage(arguments.qif.empty() || !plan.features.empty(),
+                "--qif states the characteristics of a --plan; give one with [[features]]");
   for (const auto& path : {arguments.report, arguments.batch, arguments.qif})
     if (!path.empty()) check_can_write(path);
   if (!arguments.report.empty() && lowercase_extension(arguments.report) != ".html") {
@@ -60,8 +62,9 @@ void check_inspect_arguments(const InspectArguments& arguments, const Inspection
                             arguments.report.string()));
   }
   check_alignment(arguments);
-  require(arguments.alignment.align != "datum" || !plan.datums.empty(),
-          "--align datum needs a --plan whose `datums` name one to three of its [[features]]");
+  require_usage(
+      arguments.alignment.align != "datum" || !plan.datums.empty(),
+      "--align datum needs a --plan whose `datums` name one to three of its [[features]]");
 }
 
 namespace {

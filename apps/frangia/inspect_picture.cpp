@@ -7,6 +7,8 @@
 #include "frangia/core/angles.h"
 #include "frangia/frames/png.h"
 
+#include "usage.h"
+
 namespace frangia {
 namespace {
 
@@ -21,11 +23,11 @@ std::vector<float> shown_values(const InspectArguments& arguments, const Mesh& m
 void check_shown(const InspectArguments& arguments, const Mesh& mesh) {
   const std::string& show = arguments.show;
   if (show == "deviation") {
-    require(!arguments.reference.empty(),
-            "--show deviation needs a --reference; give one, or choose another --show");
+    require_usage(!arguments.reference.empty(),
+                  "--show deviation needs a --reference; give one, or choose another --show");
   }
   if (show == "thickness")
-    require(arguments.thickness, "--show thickness needs --thickness; add it");
+    require_usage(arguments.thickness, "--show thickness needs --thickness; add it");
   const bool missing =
       (show == "sigma" && mesh.sigma_mm.empty()) || (show == "views" && mesh.views.empty()) ||
       (show == "marks" && mesh.vertex_marks.empty() && mesh.triangle_marks.empty());

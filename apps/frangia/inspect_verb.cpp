@@ -16,6 +16,7 @@
 #include "inspect_reference.h"
 #include "option_values.h"
 #include "print_text.h"
+#include "usage.h"
 #include "verbs.h"
 
 namespace frangia {
@@ -73,8 +74,8 @@ void inspect(InspectArguments arguments, Terminal& terminal) {
     inspect_batch(std::move(arguments), plan, terminal);
     return;
   }
-  require(arguments.meshes.size() == 1,
-          "several meshes are inspected by --plan and --batch; name one mesh, or add these");
+  require_usage(arguments.meshes.size() == 1,
+                "several meshes are inspected by --plan and --batch; name one mesh, or add these");
   InspectAnswer answer;
   const std::optional<Reference> reference = read_reference(arguments, run);
   const InspectedPart part = inspect_mesh(arguments, plan, reference, answer, run);

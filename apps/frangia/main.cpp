@@ -7,6 +7,8 @@
 #include <string>
 #include <string_view>
 #include <system_error>
+#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -143,7 +145,9 @@ int run_program(int argc, char** argv) {
     return Usage;
   }
   try {
-    program.parse(argc, argv);
+    std::vector<std::string> arguments = without_help_verb(program, argc, argv);
+    std::reverse(arguments.begin(), arguments.end());  // as CLI11 takes them
+    program.parse(std::move(arguments));
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return program.exit(error);  // --help and --version
     terminal.json = asks_for_json(argc, argv);

@@ -19,6 +19,7 @@
 #include "counted.h"
 #include "option_values.h"
 #include "print_text.h"
+#include "usage.h"
 #include "verbs.h"
 
 namespace frangia {
@@ -46,15 +47,16 @@ double fine_fringes(const Rig& rig) {
 SequencePlan plan_of(const PlanArguments& arguments) {
   if (arguments.indirect) {
     constexpr int kMaps = 4;
-    require(!arguments.lowest,
-            "with `indirect`, the band is the narrowest one; leave out `lowest`");
+    require_usage(!arguments.lowest,
+                  "with `indirect`, the band is the narrowest one; leave out `lowest`");
     return plan_narrow_band(arguments.fringes,
                             arguments.maps.value_or(kMaps),
                             arguments.sigma_rad,
                             arguments.max_wrong_order);
   }
   if (!arguments.maps) {
-    require(!arguments.lowest, "`lowest` is for sequences of beats; set the number of `maps`");
+    require_usage(!arguments.lowest,
+                  "`lowest` is for sequences of beats; set the number of `maps`");
     return plan_sequence(arguments.fringes, arguments.sigma_rad, arguments.max_wrong_order);
   }
   return plan_beats(arguments.fringes,

@@ -1,6 +1,7 @@
 #include "usage.h"
 
 #include <algorithm>
+#include <array>
 #include <vector>
 
 #include <fmt/format.h>
@@ -58,6 +59,12 @@ bool is_option(const std::string& word) {
   return !word.empty() && word.front() == '-';
 }
 
+/// A word that belongs to the number before it, as in "--voxel 1 mm".
+bool is_unit(const std::string& word) {
+  constexpr std::array kUnits{"um", "mm", "cm", "m", "in", "ft", "deg", "rad", "GB", "MB", "kB"};
+  return std::find(kUnits.begin(), kUnits.end(), word) != kUnits.end();
+}
+
 bool has_unknown_option(const VerbPath& path) {
   const std::vector<std::string> words = path.front()->remaining(true);
   return std::any_of(words.begin(), words.end(), is_option);
@@ -75,7 +82,16 @@ std::string unexpected_argument(const VerbPath& path) {
   if (option != words.end())
     return fmt::format(
         "{} has no option {}{}", name, *option, suggestion(*option, options_of(path)));
-  if (word != words.end()) return fmt::format("{} is one argument more than {} takes", *word, name);
+  if (word != words.end()) {
+    return fmt::format("{} is one argument more than {} takes{}",
+                       *word,
+                       name,
+                       is_unit(*word)
+                           ? fmt::format("; write a number and its unit as one word, such "
+                                         "as 1{}",
+                                         *word)
+                           : "");
+  }
   return fmt::format("{} needs a verb: {}", name, fmt::join(verbs, ", "));
 }
 
@@ -112,6 +128,25 @@ std::string usage_sentence(const CLI::App& program, const CLI::ParseError& error
   if (dynamic_cast<const CLI::ConversionError*>(&error) != nullptr) what = conversion_failure(what);
   if (dynamic_cast<const CLI::ArgumentMismatch*>(&error) != nullptr) what = count_mismatch(what);
   return fmt::format("{}; see frangia {}{}--help", what, name_of(path), path.size() > 1 ? " " : "");
+}
+
+void require_usage(bool condition, const char* message) {
+  if (!condition) throw CLI::ParseError(message, CLI::ExitCodes::ValidationError);
+}
+
+std::vector<std::string> without_help_verb(const CLI::App& program, int argc, char** argv) {
+  std::vector<std::string> arguments(argv + 1, argv + argc);
+  if (arguments.empty() || arguments.front() != "help") return arguments;
+  arguments.erase(arguments.begin());
+  const CLI::App* verb = &program;
+  for (const std::string& word : arguments) {
+    const auto verbs =
+        verb->get_subcommands([&](const CLI::App* one) { return one->get_name() == word; });
+    if (verbs.empty()) return arguments;
+    verb = verbs.front();
+  }
+  arguments.emplace_back("--help");
+  return arguments;
 }
 
 }  // namespace frangia

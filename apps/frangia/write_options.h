@@ -48,11 +48,16 @@ struct MeshOutputs {
       check_can_write(path);
     }
   }
-  /// Writes every file. A DXF is simplified to `dxf_faces`; a note of `run` states the deviation.
+  /// Writes every file. A DXF is simplified to `dxf_faces`; a note of `run` names the file and
+  /// the deviation.
   void write_all(const Mesh& mesh, const Run& run) const {
     for (const auto& path : paths) {
       const bool dxf = lowercase_extension(path) == ".dxf";
-      write_mesh(path, dxf ? limit_triangles(mesh, dxf_faces, run) : mesh, write, run);
+      Run named = run;
+      named.on_note = [&run, &path](const std::string& note) {
+        run.note(fmt::format("{}: {}; other formats keep all triangles", path.string(), note));
+      };
+      write_mesh(path, dxf ? limit_triangles(mesh, dxf_faces, named) : mesh, write, run);
     }
   }
 };

@@ -209,7 +209,7 @@ normal = [0, 0, 1]
   EXPECT_NE(text_of("batch.html").find("Cpk"), std::string::npos);
   const Answer two =
       run_program("inspect " + at("mesh.ply") + " " + at("mesh.ply") + " --features");
-  EXPECT_EQ(two.exit_code, 3) << two.output;
+  EXPECT_EQ(two.exit_code, 2) << two.output;
 }
 
 TEST_F(InspectProgram, EndsWithItsExitCodesWithoutAFile) {
@@ -225,7 +225,7 @@ TEST_F(InspectProgram, EndsWithItsExitCodesWithoutAFile) {
   EXPECT_EQ(foreign.exit_code, 3) << foreign.output;
   EXPECT_FALSE(std::filesystem::exists(at("out.ply")));
   const Answer without = run_program("inspect " + at("plate.ply") + " --align best-fit");
-  EXPECT_EQ(without.exit_code, 3) << without.output;
+  EXPECT_EQ(without.exit_code, 2) << without.output;
   EXPECT_NE(without.output.find("--reference"), std::string::npos) << without.output;
 }
 

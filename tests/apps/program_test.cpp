@@ -132,6 +132,16 @@ TEST_F(Program, UsageErrorsExitWithTwoAndOneSentence) {
   expect_usage_error(
       "reconstruct x y -o z.ply",
       "y is one argument more than reconstruct takes; see frangia reconstruct --help");
+  expect_usage_error("reconstruct x -o z.ply --voxel 1 mm",
+                     "mm is one argument more than reconstruct takes; write a number and its unit "
+                     "as one word, such as 1mm; see frangia reconstruct --help");
+  expect_usage_error("edit x.ply --decimate wide",
+                     "--decimate: 'wide' is not SIZE; a size is a length greater than 0, in mm or "
+                     "with a unit: 10, 10mm, 1cm, 0.5in; see frangia edit --help");
+  expect_usage_error("inspect x.ply --features --align best-fit",
+                     "--align needs a --reference to align the mesh to; give one; see frangia "
+                     "inspect --help");
+  expect_usage_error("help fly", "the program has no verb fly; see frangia --help");
   expect_usage_error("reconstruct x --voxl 3 -o z.ply",
                      "reconstruct has no option --voxl, perhaps --voxel was meant; see frangia "
                      "reconstruct --help");
@@ -160,6 +170,27 @@ TEST_F(Program, NamesTheAllowedValuesOfAnOption) {
   expect("--dxf-faces -1", "--dxf-faces: -1 is not a number of 0 or more");
   expect("--dxf-faces 2.5", "--dxf-faces cannot be 2.5");
   expect("--unwrap 1", "--unwrap: 1 is not one of default, herraez, takeda-abe");
+}
+
+TEST_F(Program, ShowsTheHelpOfAVerbByItsName) {
+  EXPECT_EQ(run_program("help calibrate board").output,
+            run_program("calibrate board --help").output);
+  EXPECT_EQ(run_program("help edit").exit_code, 0);
+  EXPECT_EQ(run_program("help").output, run_program("--help").output);
+}
+
+TEST_F(Program, SaysThatAnEditedMeshWasNotSaved) {
+  const auto mesh = out("pyramid.off");
+  std::ofstream(mesh) << "OFF\n4 4 0\n0 0 0\n9 0 0\n0 9 0\n0 0 9\n"
+                         "3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n";
+  const std::string edit = "edit " + quoted(mesh) + " --orient";
+  for (const char* more : {"", " --list"}) {
+    const Answer answer = run_program(edit + more);
+    EXPECT_EQ(answer.exit_code, 0) << answer.output;
+    EXPECT_NE(answer.output.find("the mesh was not saved"), std::string::npos) << answer.output;
+  }
+  EXPECT_EQ(run_program("edit " + quoted(mesh) + " --list").output.find("not saved"),
+            std::string::npos);
 }
 
 TEST_F(Program, ShowsAnExampleInTheHelpOfEveryVerb) {

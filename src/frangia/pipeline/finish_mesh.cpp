@@ -87,7 +87,7 @@ std::vector<double> median_sigmas(const Mesh& mesh, const ConnectedComponents& p
 }
 
 Mesh without_islands(Mesh mesh, const Run& run) {
-  constexpr double kFewEdges = 12.0;  // the fusion keeps components of 100 triangles and more
+  constexpr double kFewEdges = 6.0;  // a triangle or a few dozen, between views that do not overlap
   constexpr double kFewSigmas = 2.0;
   if (mesh.empty()) return mesh;
   const ConnectedComponents parts = connected_components(mesh);
