@@ -24,7 +24,7 @@
 #include "frangia/fusion/fuse_views.h"
 #include "frangia/inspect/surface_completeness.h"
 #include "frangia/inspect/surface_error.h"
-#include "frangia/pipeline/internal/measure_views.h"
+#include "frangia/reconstruct/internal/measure_views.h"
 
 namespace frangia {
 namespace {

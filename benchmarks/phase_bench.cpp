@@ -14,10 +14,10 @@
 #include "frangia/core/angles.h"
 #include "frangia/core/release_cached_pixels.h"
 #include "frangia/pattern/fringe_sequence.h"
-#include "frangia/phase/decode_sequence.h"
-#include "frangia/phase/published_algorithms.h"
-#include "frangia/phase/unwrap_spatially.h"
-#include "frangia/phase/wrap_phase.h"
+#include "frangia/phase/algorithm/published_algorithms.h"
+#include "frangia/phase/spatial/unwrap_spatially.h"
+#include "frangia/phase/wrap/decode_sequence.h"
+#include "frangia/phase/wrap/wrap_phase.h"
 
 #include "support/benchmark_scene.h"
 

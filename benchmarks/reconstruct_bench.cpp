@@ -17,7 +17,7 @@
 #include "frangia/core/random.h"
 #include "frangia/dataset/scan_folder.h"
 #include "frangia/frames/png.h"
-#include "frangia/pipeline/reconstruct.h"
+#include "frangia/reconstruct/reconstruct.h"
 #include "frangia/simulate/default_patterns.h"
 #include "frangia/simulate/parts.h"
 #include "frangia/simulate/rig_presets.h"

@@ -9,7 +9,7 @@ trap 'rm -rf "$work"' EXIT
 cmake --install "$build_dir" --prefix "$work/usr" >"$work/install.log"
 
 # Public headers are installed, internal ones are not.
-test -f "$work/usr/include/frangia/pipeline/reconstruct.h"
+test -f "$work/usr/include/frangia/reconstruct/reconstruct.h"
 test -z "$(find "$work/usr/include" -name internal)"
 
 cmake -S "$source_dir/examples/find_package" -B "$work/build" -DCMAKE_PREFIX_PATH="$work/usr" >"$work/configure.log"

@@ -16,7 +16,7 @@ import time
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 CHANGED = {  # module -> the source that is changed, one of the longest of its module
-    "phase": "src/frangia/phase/unwrap_sequence.cpp",
+    "phase": "src/frangia/phase/temporal/unwrap_sequence.cpp",
     "fusion": "src/frangia/fusion/fuse_views.cpp",
     "service": "src/frangia/service/internal/scan_commands.cpp",
     "apps": "apps/frangia/reconstruct_verb.cpp",

@@ -11,7 +11,7 @@ from module_statement import module_uses
 
 PICTURE = "docs/images/modules.svg"
 # The path of light, dark; what serves all stages or leads in and out of it, light.
-PATH = "pattern frames phase range views local_fit fringe_order registration fusion mesh files".split()
+PATH = "pattern frames phase range decode views local_fit fringe_order registration fusion mesh files".split()
 
 
 def reduced(uses):

@@ -13,7 +13,7 @@
 #include "frangia/core/sha256.h"
 #include "frangia/dataset/scan_folder.h"
 #include "frangia/files/ply.h"
-#include "frangia/pipeline/reconstruct.h"
+#include "frangia/reconstruct/reconstruct.h"
 #include "frangia/report/inspection_report.h"
 
 #include "accept_scans.h"

@@ -7,9 +7,9 @@
 #include <nlohmann/json.hpp>
 
 #include "frangia/core/angles.h"
-#include "frangia/phase/algorithm_errors.h"
-#include "frangia/phase/published_algorithms.h"
-#include "frangia/phase/read_algorithm.h"
+#include "frangia/phase/algorithm/algorithm_errors.h"
+#include "frangia/phase/algorithm/published_algorithms.h"
+#include "frangia/phase/algorithm/read_algorithm.h"
 
 #include "print_text.h"
 #include "verbs.h"

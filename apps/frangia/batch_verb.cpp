@@ -1,4 +1,3 @@
-// Above 250 lines: half of it are the options and their help.
 #include <algorithm>
 #include <atomic>
 #include <filesystem>

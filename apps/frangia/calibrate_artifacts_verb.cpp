@@ -8,10 +8,10 @@
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
+#include "frangia/calibrate/artifact/calibrate_artifacts.h"
+#include "frangia/calibrate/report/artifact_report.h"
+#include "frangia/calibrate/solve/calibrate_rig.h"
 #include "frangia/core/angles.h"
-#include "frangia/pipeline/calibrate_artifact_report.h"
-#include "frangia/pipeline/calibrate_artifacts.h"
-#include "frangia/pipeline/calibrate_rig.h"
 #include "frangia/rig/write_rig.h"
 
 #include "counted.h"

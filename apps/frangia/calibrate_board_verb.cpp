@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "frangia/calibrate/write_board_pdf.h"
+#include "frangia/calibrate/board/write_board_pdf.h"
 #include "frangia/core/error.h"
 #include "frangia/core/lowercase_extension.h"
 

@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "frangia/pipeline/calibrate_check.h"
+#include "frangia/calibrate/check/calibrate_check.h"
 #include "frangia/rig/read_rig.h"
 
 #include "counted.h"

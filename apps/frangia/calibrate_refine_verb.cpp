@@ -5,7 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "frangia/pipeline/refine_scan_rig.h"
+#include "frangia/reconstruct/refine_scan_rig.h"
 #include "frangia/rig/write_rig.h"
 
 #include "check_can_write.h"

@@ -1,4 +1,3 @@
-// Above 250 lines: half of it are the options and their help.
 #include "calibrate_rig_verb.h"
 
 #include <algorithm>
@@ -15,10 +14,10 @@
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
-#include "frangia/calibrate/write_covariance.h"
+#include "frangia/calibrate/report/calibration_report.h"
+#include "frangia/calibrate/solve/calibrate_rig.h"
+#include "frangia/calibrate/solve/write_covariance.h"
 #include "frangia/core/angles.h"
-#include "frangia/pipeline/calibrate_report.h"
-#include "frangia/pipeline/calibrate_rig.h"
 #include "frangia/rig/read_rig.h"
 #include "frangia/rig/write_rig.h"
 

@@ -7,8 +7,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "frangia/calibrate/solve/calibrate_turntable.h"
 #include "frangia/core/angles.h"
-#include "frangia/pipeline/calibrate_turntable.h"
 #include "frangia/rig/read_rig.h"
 #include "frangia/rig/write_rig.h"
 

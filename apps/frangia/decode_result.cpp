@@ -11,7 +11,7 @@
 #include "frangia/core/angles.h"
 #include "frangia/core/median.h"
 #include "frangia/core/missing.h"
-#include "frangia/pipeline/stage_pictures.h"
+#include "frangia/decode/stage_pictures.h"
 
 #include "counted.h"
 #include "json_number.h"

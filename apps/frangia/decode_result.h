@@ -9,8 +9,8 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "frangia/dataset/scan_folder.h"
-#include "frangia/pipeline/decode_view.h"
-#include "frangia/pipeline/write_stages.h"
+#include "frangia/decode/decode_view.h"
+#include "frangia/decode/write_stages.h"
 #include "frangia/range/range_grid.h"
 
 #include "terminal.h"

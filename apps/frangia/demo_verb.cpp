@@ -16,7 +16,7 @@
 #include "frangia/inspect/render_mesh.h"
 #include "frangia/inspect/surface_completeness.h"
 #include "frangia/inspect/surface_error.h"
-#include "frangia/pipeline/reconstruct.h"
+#include "frangia/reconstruct/reconstruct.h"
 #include "frangia/simulate/default_patterns.h"
 #include "frangia/simulate/parts.h"
 #include "frangia/simulate/rig_presets.h"

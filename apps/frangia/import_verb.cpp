@@ -12,7 +12,7 @@
 #include "frangia/core/angles.h"
 #include "frangia/dataset/import_frames.h"
 #include "frangia/dataset/read_frames.h"
-#include "frangia/phase/estimate_noise.h"
+#include "frangia/phase/wrap/estimate_noise.h"
 
 #include "ask.h"
 #include "counted.h"

@@ -3,10 +3,10 @@
 #include <utility>
 #include <vector>
 
+#include "frangia/calibrate/solve/calibration_displacements.h"
 #include "frangia/features/find_features.h"
 #include "frangia/features/thermal_displacement.h"
 #include "frangia/geometry/transform_mesh.h"
-#include "frangia/pipeline/calibration_displacements.h"
 #include "frangia/report/planned_nominals.h"
 
 #include "inspect_alignment.h"

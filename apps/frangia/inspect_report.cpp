@@ -1,4 +1,3 @@
-// Above 250 lines: the contents of the report in their order.
 #include "inspect_report.h"
 
 #include <algorithm>

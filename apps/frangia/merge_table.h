@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "frangia/pipeline/merge_scans.h"
+#include "frangia/reconstruct/merge_scans.h"
 
 namespace frangia {
 

@@ -11,7 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "frangia/core/lowercase_extension.h"
-#include "frangia/pipeline/merge_scans.h"
+#include "frangia/reconstruct/merge_scans.h"
 
 #include "allow_memory.h"
 #include "check_can_write.h"

@@ -2,7 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "frangia/pipeline/view_quality.h"
+#include "frangia/decode/view_quality.h"
 
 #include "json_number.h"
 

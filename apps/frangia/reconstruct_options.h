@@ -7,8 +7,8 @@
 #include <CLI/CLI.hpp>
 
 #include "frangia/core/error.h"
-#include "frangia/phase/read_algorithm.h"
-#include "frangia/pipeline/reconstruct.h"
+#include "frangia/phase/algorithm/read_algorithm.h"
+#include "frangia/reconstruct/reconstruct.h"
 #include "frangia/rig/read_rig.h"
 
 #include "option_values.h"

@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "frangia/pipeline/reconstruct.h"
+#include "frangia/reconstruct/reconstruct.h"
 
 #include "terminal.h"
 

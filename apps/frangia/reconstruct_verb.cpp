@@ -7,7 +7,7 @@
 #include "frangia/core/lowercase_extension.h"
 #include "frangia/files/ply.h"
 #include "frangia/geometry/vertex_data.h"
-#include "frangia/pipeline/reconstruct.h"
+#include "frangia/reconstruct/reconstruct.h"
 
 #include "check_can_write.h"
 #include "exit_codes.h"

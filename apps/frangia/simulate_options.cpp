@@ -1,4 +1,3 @@
-// Above 250 lines: all options of the verb and their help.
 #include "simulate_options.h"
 
 #include <fmt/format.h>

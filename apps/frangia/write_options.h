@@ -12,7 +12,7 @@
 #include "frangia/core/lowercase_extension.h"
 #include "frangia/files/mesh_formats.h"
 #include "frangia/files/write_mesh.h"
-#include "frangia/pipeline/finish_mesh.h"
+#include "frangia/reconstruct/finish_mesh.h"
 
 #include "check_can_write.h"
 #include "option_values.h"

@@ -4,7 +4,7 @@
 
 #include <frangia/dataset/scan_folder.h>
 #include <frangia/files/write_mesh.h>
-#include <frangia/pipeline/reconstruct.h>
+#include <frangia/reconstruct/reconstruct.h>
 
 int main(int argc, char** argv) {
   if (argc != 3) {

@@ -6,7 +6,7 @@
 #include <pybind11/eigen.h>
 #include <pybind11/stl.h>
 
-#include "frangia/pipeline/calibrate_rig.h"
+#include "frangia/calibrate/solve/calibrate_rig.h"
 #include "frangia/rig/rig.h"
 
 #include "../bindings/arrays.h"

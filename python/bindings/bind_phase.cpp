@@ -6,16 +6,16 @@
 
 #include <pybind11/stl.h>
 
+#include "frangia/decode/plan_decoding.h"
 #include "frangia/frames/frame_stack.h"
 #include "frangia/frames/noise_model.h"
-#include "frangia/phase/decode_gray_code.h"
-#include "frangia/phase/estimate_noise.h"
-#include "frangia/phase/phase_map.h"
-#include "frangia/phase/unwrap_sequence.h"
-#include "frangia/phase/unwrap_spatially.h"
-#include "frangia/phase/unwrap_temporally.h"
-#include "frangia/phase/wrap_phase.h"
-#include "frangia/pipeline/plan_decoding.h"
+#include "frangia/phase/gray/decode_gray_code.h"
+#include "frangia/phase/spatial/unwrap_spatially.h"
+#include "frangia/phase/temporal/unwrap_sequence.h"
+#include "frangia/phase/temporal/unwrap_temporally.h"
+#include "frangia/phase/wrap/estimate_noise.h"
+#include "frangia/phase/wrap/phase_map.h"
+#include "frangia/phase/wrap/wrap_phase.h"
 #include "frangia/range/triangulate.h"
 #include "frangia/rig/rig.h"
 

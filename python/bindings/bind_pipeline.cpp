@@ -13,12 +13,12 @@
 
 #include "frangia/core/angles.h"
 #include "frangia/dataset/read_frames.h"
+#include "frangia/decode/check_view.h"
+#include "frangia/decode/decode_view.h"
+#include "frangia/decode/survey_scan.h"
 #include "frangia/files/range_scan.h"
-#include "frangia/pipeline/check_view.h"
-#include "frangia/pipeline/decode_view.h"
-#include "frangia/pipeline/merge_scans.h"
-#include "frangia/pipeline/reconstruct.h"
-#include "frangia/pipeline/survey_scan.h"
+#include "frangia/reconstruct/merge_scans.h"
+#include "frangia/reconstruct/reconstruct.h"
 #include "frangia/rig/has_geometry.h"
 
 #include "arrays.h"

@@ -3,7 +3,7 @@
 
 #include <pybind11/pybind11.h>
 
-#include "frangia/pipeline/own_stages.h"
+#include "frangia/decode/own_stages.h"
 
 namespace frangia::python {
 

@@ -6,8 +6,8 @@
 #include <pybind11/pybind11.h>
 
 #include "frangia/frames/frame_stack.h"
-#include "frangia/phase/phase_algorithm.h"
-#include "frangia/phase/phase_map.h"
+#include "frangia/phase/algorithm/phase_algorithm.h"
+#include "frangia/phase/wrap/phase_map.h"
 
 namespace frangia::python {
 

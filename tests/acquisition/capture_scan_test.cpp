@@ -7,7 +7,7 @@
 
 #include "frangia/dataset/read_frames.h"
 #include "frangia/inspect/surface_error.h"
-#include "frangia/pipeline/reconstruct.h"
+#include "frangia/reconstruct/reconstruct.h"
 
 #include "support/error_of.h"
 #include "support/simulated_capture.h"

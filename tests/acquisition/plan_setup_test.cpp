@@ -1,6 +1,6 @@
 #include "frangia/acquisition/plan_setup.h"
 
-#include "frangia/pipeline/reconstruct.h"
+#include "frangia/reconstruct/reconstruct.h"
 
 #include "support/error_of.h"
 #include "support/simulated_capture.h"

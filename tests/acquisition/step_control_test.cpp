@@ -7,8 +7,8 @@
 
 #include "frangia/acquisition/sweep_piezo.h"
 #include "frangia/dataset/read_frames.h"
-#include "frangia/phase/fit_algorithm.h"
-#include "frangia/phase/wrap_phase.h"
+#include "frangia/phase/algorithm/fit_algorithm.h"
+#include "frangia/phase/wrap/wrap_phase.h"
 #include "frangia/simulate/internal/light_sample.h"
 #include "frangia/simulate/internal/simulated_bench.h"
 

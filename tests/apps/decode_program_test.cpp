@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "frangia/dataset/scan_folder.h"
-#include "frangia/pipeline/reconstruct.h"
+#include "frangia/reconstruct/reconstruct.h"
 
 #include "support/run_program.h"
 #include "support/small_scan.h"

@@ -1,4 +1,4 @@
-#include "frangia/calibrate/check_board_views.h"
+#include "frangia/calibrate/board/check_board_views.h"
 
 #include <cmath>
 #include <functional>

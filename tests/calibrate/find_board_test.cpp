@@ -1,4 +1,4 @@
-#include "frangia/calibrate/find_board.h"
+#include "frangia/calibrate/board/find_board.h"
 
 #include <cmath>
 #include <optional>
@@ -9,11 +9,11 @@
 #include <opencv2/calib3d.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "frangia/calibrate/board_image.h"
-#include "frangia/calibrate/count_corners.h"
-#include "frangia/calibrate/find_charuco.h"
-#include "frangia/calibrate/measure_fringe_misfit.h"
-#include "frangia/calibrate/measure_sharpness.h"
+#include "frangia/calibrate/board/board_image.h"
+#include "frangia/calibrate/board/count_corners.h"
+#include "frangia/calibrate/board/find_charuco.h"
+#include "frangia/calibrate/board/measure_fringe_misfit.h"
+#include "frangia/calibrate/board/measure_sharpness.h"
 #include "frangia/core/angles.h"
 
 namespace frangia {

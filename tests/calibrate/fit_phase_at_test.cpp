@@ -1,4 +1,4 @@
-#include "frangia/calibrate/fit_phase_at.h"
+#include "frangia/calibrate/board/fit_phase_at.h"
 
 #include <cmath>
 

@@ -1,4 +1,4 @@
-#include "frangia/calibrate/pose_coverage.h"
+#include "frangia/calibrate/board/pose_coverage.h"
 
 #include <vector>
 

@@ -1,5 +1,5 @@
 // The truth is the plane on which each site was computed.
-#include "frangia/calibrate/select_plane.h"
+#include "frangia/calibrate/board/select_plane.h"
 
 #include <cmath>
 #include <limits>

@@ -1,6 +1,6 @@
 // The truth is geometry: rays that meet a plate and balls which turn about an axis, and the angle
 // psi under which the projector sees the points.
-#include "frangia/calibrate/solve_artifacts.h"
+#include "frangia/calibrate/artifact/solve_artifacts.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // The truth is a camera whose rays OpenCV undistorts.
-#include "frangia/calibrate/solve_camera.h"
+#include "frangia/calibrate/solve/solve_camera.h"
 
 #include <cmath>
 #include <random>

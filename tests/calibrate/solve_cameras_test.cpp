@@ -7,7 +7,7 @@
 #include <Eigen/Cholesky>
 #include <gtest/gtest.h>
 
-#include "frangia/calibrate/solve_rig.h"
+#include "frangia/calibrate/solve/solve_rig.h"
 #include "frangia/rig/rig_covariance.h"
 
 #include "support/board_poses.h"

@@ -1,4 +1,4 @@
-#include "frangia/calibrate/solve_rig.h"
+#include "frangia/calibrate/solve/solve_rig.h"
 
 #include <cmath>
 #include <map>

@@ -1,5 +1,5 @@
 // The truth is a board that OpenCV projects after it has been turned about a known axis.
-#include "frangia/calibrate/solve_turntable.h"
+#include "frangia/calibrate/solve/solve_turntable.h"
 
 #include <array>
 #include <cmath>

@@ -11,7 +11,7 @@
 #include "frangia/acquisition/capture_scan.h"
 #include "frangia/devices/internal/aravis_driver.h"
 #include "frangia/inspect/surface_error.h"
-#include "frangia/pipeline/reconstruct.h"
+#include "frangia/reconstruct/reconstruct.h"
 #include "frangia/rig/write_rig.h"
 #include "frangia/simulate/internal/simulated_devices.h"
 #include "frangia/simulate/simulated_drivers.h"

@@ -1,4 +1,4 @@
-#include "frangia/phase/algorithm_errors.h"
+#include "frangia/phase/algorithm/algorithm_errors.h"
 
 #include <string>
 #include <vector>
@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "frangia/phase/published_algorithms.h"
+#include "frangia/phase/algorithm/published_algorithms.h"
 
 #include "support/synthetic_fringes.h"
 

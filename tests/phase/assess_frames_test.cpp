@@ -1,4 +1,4 @@
-#include "frangia/phase/assess_frames.h"
+#include "frangia/phase/waveform/assess_frames.h"
 
 #include <cmath>
 #include <ctime>
@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include "frangia/phase/wrap_phase.h"
+#include "frangia/phase/wrap/wrap_phase.h"
 
 #include "support/display_fringes.h"
 #include "support/synthetic_fringes.h"

@@ -9,16 +9,16 @@
 #include <sys/resource.h>
 
 #include "frangia/core/angles.h"
-#include "frangia/phase/assess_frames.h"
-#include "frangia/phase/decode_sequence.h"
-#include "frangia/phase/estimate_noise.h"
-#include "frangia/phase/fill_enclosed.h"
-#include "frangia/phase/find_residues.h"
-#include "frangia/phase/fit_algorithm.h"
-#include "frangia/phase/merge_exposures.h"
-#include "frangia/phase/unwrap_spatially.h"
-#include "frangia/phase/unwrap_temporally.h"
-#include "frangia/phase/wrap_phase.h"
+#include "frangia/phase/algorithm/fit_algorithm.h"
+#include "frangia/phase/spatial/find_residues.h"
+#include "frangia/phase/spatial/unwrap_spatially.h"
+#include "frangia/phase/temporal/unwrap_temporally.h"
+#include "frangia/phase/waveform/assess_frames.h"
+#include "frangia/phase/wrap/decode_sequence.h"
+#include "frangia/phase/wrap/estimate_noise.h"
+#include "frangia/phase/wrap/fill_enclosed.h"
+#include "frangia/phase/wrap/merge_exposures.h"
+#include "frangia/phase/wrap/wrap_phase.h"
 
 #include "support/synthetic_fringes.h"
 

@@ -1,4 +1,4 @@
-#include "frangia/phase/check_gray_code.h"
+#include "frangia/phase/gray/check_gray_code.h"
 
 #include <cmath>
 #include <random>
@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "frangia/core/angles.h"
-#include "frangia/phase/wrap_phase.h"
+#include "frangia/phase/wrap/wrap_phase.h"
 
 namespace frangia {
 namespace {

@@ -1,4 +1,4 @@
-#include "frangia/phase/check_indirect_light.h"
+#include "frangia/phase/temporal/check_indirect_light.h"
 
 #include <cmath>
 #include <cstdint>

@@ -1,4 +1,4 @@
-#include "frangia/phase/check_sequence.h"
+#include "frangia/phase/temporal/check_sequence.h"
 
 #include <cmath>
 #include <random>
@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "frangia/core/angles.h"
-#include "frangia/phase/unwrap_sequence.h"
+#include "frangia/phase/temporal/unwrap_sequence.h"
 
 namespace frangia {
 namespace {

@@ -1,4 +1,4 @@
-#include "frangia/phase/correct_order_jumps.h"
+#include "frangia/phase/temporal/correct_order_jumps.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,7 +11,7 @@
 #include "frangia/core/angles.h"
 #include "frangia/core/missing.h"
 #include "frangia/core/random.h"
-#include "frangia/phase/unwrap_temporally.h"
+#include "frangia/phase/temporal/unwrap_temporally.h"
 #include "frangia/rig/projector.h"
 
 namespace frangia {

@@ -1,4 +1,4 @@
-#include "frangia/phase/correct_response.h"
+#include "frangia/phase/waveform/correct_response.h"
 
 #include <cmath>
 #include <string>

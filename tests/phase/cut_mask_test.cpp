@@ -1,4 +1,4 @@
-#include "frangia/phase/internal/cut_mask.h"
+#include "frangia/phase/spatial/internal/cut_mask.h"
 
 #include <algorithm>
 #include <cstdlib>

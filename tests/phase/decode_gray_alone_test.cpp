@@ -1,5 +1,5 @@
 // A Gray code without fringes against the columns that the frames were made of.
-#include "frangia/phase/decode_gray_alone.h"
+#include "frangia/phase/gray/decode_gray_alone.h"
 
 #include <cmath>
 #include <functional>

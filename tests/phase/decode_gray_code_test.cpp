@@ -1,4 +1,4 @@
-#include "frangia/phase/decode_gray_code.h"
+#include "frangia/phase/gray/decode_gray_code.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,7 +10,7 @@
 #include "frangia/core/error.h"
 #include "frangia/core/random.h"
 #include "frangia/pattern/gray_code.h"
-#include "frangia/phase/wrap_phase.h"
+#include "frangia/phase/wrap/wrap_phase.h"
 
 #include "support/synthetic_fringes.h"
 

@@ -1,4 +1,4 @@
-#include "frangia/phase/decode_sequence.h"
+#include "frangia/phase/wrap/decode_sequence.h"
 
 #include <cmath>
 #include <cstdint>
@@ -12,7 +12,7 @@
 #include "frangia/core/angles.h"
 #include "frangia/core/error.h"
 #include "frangia/pattern/fringe_sequence.h"
-#include "frangia/phase/unwrap_sequence.h"
+#include "frangia/phase/temporal/unwrap_sequence.h"
 
 #include "support/synthetic_fringes.h"
 

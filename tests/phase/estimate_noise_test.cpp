@@ -1,4 +1,4 @@
-#include "frangia/phase/estimate_noise.h"
+#include "frangia/phase/wrap/estimate_noise.h"
 
 #include <cmath>
 #include <cstdint>
@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include "frangia/phase/internal/row_rounds.h"
+#include "frangia/phase/wrap/internal/row_rounds.h"
 
 #include "support/display_fringes.h"
 #include "support/synthetic_fringes.h"

@@ -1,4 +1,4 @@
-#include "frangia/phase/estimate_shifts.h"
+#include "frangia/phase/algorithm/estimate_shifts.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "frangia/phase/estimate_step.h"
+#include "frangia/phase/algorithm/estimate_step.h"
 
 #include <cmath>
 

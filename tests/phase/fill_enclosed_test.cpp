@@ -1,4 +1,4 @@
-#include "frangia/phase/fill_enclosed.h"
+#include "frangia/phase/wrap/fill_enclosed.h"
 
 #include <array>
 #include <cmath>

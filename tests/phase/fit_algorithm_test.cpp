@@ -1,4 +1,4 @@
-#include "frangia/phase/fit_algorithm.h"
+#include "frangia/phase/algorithm/fit_algorithm.h"
 
 #include <cmath>
 #include <string>
@@ -6,8 +6,8 @@
 #include <gtest/gtest.h>
 
 #include "frangia/core/angles.h"
-#include "frangia/phase/published_algorithms.h"
-#include "frangia/phase/wrap_phase.h"
+#include "frangia/phase/algorithm/published_algorithms.h"
+#include "frangia/phase/wrap/wrap_phase.h"
 
 #include "support/synthetic_fringes.h"
 

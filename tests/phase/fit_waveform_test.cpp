@@ -1,4 +1,4 @@
-#include "frangia/phase/fit_waveform.h"
+#include "frangia/phase/waveform/fit_waveform.h"
 
 #include <cmath>
 #include <complex>

@@ -1,4 +1,4 @@
-#include "frangia/phase/frame_samples.h"
+#include "frangia/phase/waveform/frame_samples.h"
 
 #include <vector>
 

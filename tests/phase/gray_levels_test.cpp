@@ -8,7 +8,7 @@
 
 #include "frangia/core/random.h"
 #include "frangia/pattern/gray_code.h"
-#include "frangia/phase/decode_gray_alone.h"
+#include "frangia/phase/gray/decode_gray_alone.h"
 
 namespace frangia {
 namespace {

@@ -1,5 +1,5 @@
 // The published algorithms, written as coefficients, are the truth.
-#include "frangia/phase/linear_algorithm.h"
+#include "frangia/phase/algorithm/linear_algorithm.h"
 
 #include <cmath>
 #include <filesystem>
@@ -10,7 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "frangia/core/angles.h"
-#include "frangia/phase/read_algorithm.h"
+#include "frangia/phase/algorithm/read_algorithm.h"
 
 #include "support/error_of.h"
 #include "support/temporary_folder.h"

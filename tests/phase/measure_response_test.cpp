@@ -1,4 +1,4 @@
-#include "frangia/phase/measure_response.h"
+#include "frangia/phase/waveform/measure_response.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,7 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "frangia/core/angles.h"
-#include "frangia/phase/measure_fringe_response.h"
+#include "frangia/phase/waveform/measure_fringe_response.h"
 
 #include "support/error_of.h"
 

@@ -1,4 +1,4 @@
-#include "frangia/phase/merge_exposures.h"
+#include "frangia/phase/wrap/merge_exposures.h"
 
 #include <algorithm>
 #include <cmath>

@@ -7,10 +7,10 @@
 
 #include "frangia/core/angles.h"
 #include "frangia/core/random.h"
-#include "frangia/phase/assess_frames.h"
-#include "frangia/phase/estimate_noise.h"
-#include "frangia/phase/fit_algorithm.h"
-#include "frangia/phase/wrap_phase.h"
+#include "frangia/phase/algorithm/fit_algorithm.h"
+#include "frangia/phase/waveform/assess_frames.h"
+#include "frangia/phase/wrap/estimate_noise.h"
+#include "frangia/phase/wrap/wrap_phase.h"
 
 #include "support/synthetic_fringes.h"
 

@@ -1,4 +1,4 @@
-#include "frangia/phase/phase_algorithm.h"
+#include "frangia/phase/algorithm/phase_algorithm.h"
 
 #include <cmath>
 
@@ -6,7 +6,7 @@
 
 #include "frangia/core/angles.h"
 #include "frangia/core/error.h"
-#include "frangia/phase/published_algorithms.h"
+#include "frangia/phase/algorithm/published_algorithms.h"
 
 #include "support/linspace.h"
 #include "support/synthetic_fringes.h"

@@ -1,4 +1,4 @@
-#include "frangia/phase/pooled_gain_error.h"
+#include "frangia/phase/waveform/pooled_gain_error.h"
 
 #include <cmath>
 #include <random>
@@ -7,8 +7,8 @@
 #include <gtest/gtest.h>
 
 #include "frangia/core/angles.h"
-#include "frangia/phase/fit_algorithm.h"
-#include "frangia/phase/wrap_phase.h"
+#include "frangia/phase/algorithm/fit_algorithm.h"
+#include "frangia/phase/wrap/wrap_phase.h"
 
 #include "support/synthetic_fringes.h"
 

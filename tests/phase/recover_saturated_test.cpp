@@ -1,12 +1,12 @@
-#include "frangia/phase/recover_saturated.h"
+#include "frangia/phase/wrap/recover_saturated.h"
 
 #include <cmath>
 
 #include <gtest/gtest.h>
 
 #include "frangia/core/error.h"
-#include "frangia/phase/phase_algorithm.h"
-#include "frangia/phase/wrap_phase.h"
+#include "frangia/phase/algorithm/phase_algorithm.h"
+#include "frangia/phase/wrap/wrap_phase.h"
 
 #include "support/synthetic_fringes.h"
 

@@ -1,4 +1,4 @@
-#include "frangia/phase/share_waveforms.h"
+#include "frangia/phase/waveform/share_waveforms.h"
 
 #include <cmath>
 #include <cstddef>

@@ -1,4 +1,4 @@
-#include "frangia/phase/smooth_jumps.h"
+#include "frangia/phase/wrap/smooth_jumps.h"
 
 #include <cmath>
 

@@ -1,4 +1,4 @@
-#include "frangia/phase/systematic_phase.h"
+#include "frangia/phase/waveform/systematic_phase.h"
 
 #include <cmath>
 #include <optional>
@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "frangia/phase/wrap_phase.h"
+#include "frangia/phase/wrap/wrap_phase.h"
 
 #include "support/display_fringes.h"
 #include "support/synthetic_fringes.h"

@@ -1,4 +1,4 @@
-#include "frangia/phase/unwrap_levels.h"
+#include "frangia/phase/temporal/unwrap_levels.h"
 
 #include <cmath>
 #include <vector>

@@ -1,4 +1,4 @@
-#include "frangia/phase/unwrap_sequence.h"
+#include "frangia/phase/temporal/unwrap_sequence.h"
 
 #include <cmath>
 #include <optional>

@@ -1,4 +1,4 @@
-#include "frangia/phase/unwrap_spatially.h"
+#include "frangia/phase/spatial/unwrap_spatially.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,8 +11,8 @@
 
 #include "frangia/core/angles.h"
 #include "frangia/core/missing.h"
-#include "frangia/phase/find_residues.h"
-#include "frangia/phase/internal/discard_residues.h"
+#include "frangia/phase/spatial/find_residues.h"
+#include "frangia/phase/spatial/internal/discard_residues.h"
 
 namespace frangia {
 namespace {

@@ -1,4 +1,4 @@
-#include "frangia/phase/unwrap_temporally.h"
+#include "frangia/phase/temporal/unwrap_temporally.h"
 
 #include <cmath>
 #include <vector>
@@ -7,8 +7,8 @@
 
 #include "frangia/core/angles.h"
 #include "frangia/core/error.h"
-#include "frangia/phase/published_algorithms.h"
-#include "frangia/phase/wrap_phase.h"
+#include "frangia/phase/algorithm/published_algorithms.h"
+#include "frangia/phase/wrap/wrap_phase.h"
 
 #include "support/synthetic_fringes.h"
 

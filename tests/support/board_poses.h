@@ -8,7 +8,7 @@
 
 #include <opencv2/calib3d.hpp>
 
-#include "frangia/calibrate/board_view.h"
+#include "frangia/calibrate/board/board_view.h"
 #include "frangia/rig/board.h"
 #include "frangia/rig/rig.h"
 

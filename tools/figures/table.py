@@ -24,7 +24,7 @@ SECTIONS = {
     "captured_scan": Inputs(
         SCAN + " scan", files="examples/simulated-digital.toml examples/simulated-interferometer.toml", case_s=20
     ),
-    "gige": Inputs(modules="acquisition simulate pipeline", files="tests/devices tests/support", case_s=20),
+    "gige": Inputs(modules="acquisition simulate reconstruct", files="tests/devices tests/support", case_s=20),
     "step_control": Inputs(modules="acquisition simulate", files="tests/acquisition tests/support", case_s=10),
     "polished_blade": Inputs(SCAN + " scan", files="examples/simulated-digital.toml", case_s=12),
     "capture_overhead": Inputs("scan", files="examples/simulated-digital.toml", case_s=6),
@@ -45,5 +45,7 @@ SECTIONS = {
     "edit_pictures": Inputs("simulate reconstruct edit picture", files="tools/edit_pictures.py", case_s=60),
     "surface_pictures": Inputs(SCAN + " decode", files="tools/surface_pictures.py", case_s=90),
     "phase_plots": Inputs("simulate decode algorithms", files="tools/plot_phase.py tools/plot_fusion.py", case_s=30),
-    "sensitivity": Inputs("simulate", modules="fusion pipeline", files="benchmarks/fusion_sensitivity.cpp", case_s=180),
+    "sensitivity": Inputs(
+        "simulate", modules="fusion reconstruct", files="benchmarks/fusion_sensitivity.cpp", case_s=180
+    ),
 }

@@ -1,4 +1,3 @@
-// Above 250 lines: the routes of the app, side by side.
 #include "app_routes.h"
 
 #include <algorithm>

@@ -6,9 +6,9 @@
 #include <fmt/format.h>
 
 #include "frangia/acquisition/capture_scan.h"
+#include "frangia/calibrate/board/calibrate_measure_pose.h"
 #include "frangia/core/error.h"
 #include "frangia/dataset/read_frames.h"
-#include "frangia/pipeline/calibrate_measure_pose.h"
 
 namespace frangia {
 namespace {

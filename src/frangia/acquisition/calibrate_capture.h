@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "frangia/acquisition/capture_options.h"
-#include "frangia/calibrate/board_view.h"
-#include "frangia/calibrate/pose_coverage.h"
+#include "frangia/calibrate/board/board_view.h"
+#include "frangia/calibrate/board/pose_coverage.h"
 #include "frangia/core/folder_lock.h"
 #include "frangia/core/run.h"
 #include "frangia/dataset/scan_folder.h"

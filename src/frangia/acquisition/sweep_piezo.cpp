@@ -5,8 +5,8 @@
 #include <fmt/format.h>
 
 #include "frangia/acquisition/internal/capture_devices.h"
-#include "frangia/phase/estimate_noise.h"
-#include "frangia/phase/estimate_shifts.h"
+#include "frangia/phase/algorithm/estimate_shifts.h"
+#include "frangia/phase/wrap/estimate_noise.h"
 
 namespace frangia {
 namespace {

@@ -1,4 +1,3 @@
-// Above 250 lines: each way in which a frame can be wrong has its message.
 #include "frangia/dataset/read_frames.h"
 
 #include <algorithm>

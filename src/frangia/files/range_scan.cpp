@@ -1,4 +1,3 @@
-// Above 250 lines: grids and lists of poses are read and checked side by side.
 #include "frangia/files/range_scan.h"
 
 #include <algorithm>

@@ -2,8 +2,8 @@
 
 #include <span>
 
-#include "frangia/phase/check_sequence.h"
-#include "frangia/phase/phase_map.h"
+#include "frangia/phase/temporal/check_sequence.h"
+#include "frangia/phase/wrap/phase_map.h"
 #include "frangia/range/laser_profile.h"
 #include "frangia/rig/projector.h"
 

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "frangia/phase/phase_map.h"
+#include "frangia/phase/wrap/phase_map.h"
 #include "frangia/range/laser_profile.h"
 #include "frangia/rig/rig.h"
 

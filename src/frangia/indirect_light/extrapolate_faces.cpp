@@ -1,4 +1,3 @@
-// Above 250 lines: one algorithm, whose steps share the arrays of a view.
 #include "frangia/indirect_light/extrapolate_faces.h"
 
 #include <algorithm>

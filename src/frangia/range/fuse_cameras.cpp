@@ -1,4 +1,3 @@
-// Above 250 lines: the cases of one pixel seen by several cameras, side by side.
 #include "frangia/range/fuse_cameras.h"
 
 #include <algorithm>

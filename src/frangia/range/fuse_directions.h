@@ -5,7 +5,7 @@
 #include <Eigen/Core>
 
 #include "frangia/core/image.h"
-#include "frangia/phase/phase_map.h"
+#include "frangia/phase/wrap/phase_map.h"
 #include "frangia/range/range_grid.h"
 
 namespace frangia {

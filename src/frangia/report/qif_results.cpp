@@ -1,4 +1,3 @@
-// Above 250 lines: the elements of a document in their order.
 #include "frangia/report/qif_results.h"
 
 #include <cmath>

@@ -1,4 +1,3 @@
-// Above 250 lines: the keys of rig.toml in their order.
 #include "frangia/rig/read_rig.h"
 
 #include <algorithm>

@@ -5,10 +5,10 @@
 #include <fmt/format.h>
 
 #include "frangia/acquisition/calibrate_capture.h"
+#include "frangia/calibrate/solve/calibrate_turntable.h"
 #include "frangia/core/angles.h"
 #include "frangia/core/folder_lock.h"
 #include "frangia/dataset/scan_folder.h"
-#include "frangia/pipeline/calibrate_turntable.h"
 #include "frangia/rig/read_rig.h"
 #include "frangia/rig/write_rig.h"
 #include "frangia/service/internal/opened_devices.h"

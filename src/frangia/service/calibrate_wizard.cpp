@@ -4,14 +4,14 @@
 #include <utility>
 
 #include "frangia/acquisition/calibrate_capture.h"
-#include "frangia/calibrate/find_board.h"
+#include "frangia/calibrate/board/find_board.h"
+#include "frangia/calibrate/report/calibration_report.h"
+#include "frangia/calibrate/solve/calibrate_rig.h"
 #include "frangia/core/atomic_file.h"
 #include "frangia/core/error.h"
 #include "frangia/core/folder_lock.h"
 #include "frangia/core/make_folder.h"
 #include "frangia/dataset/scan_folder.h"
-#include "frangia/pipeline/calibrate_report.h"
-#include "frangia/pipeline/calibrate_rig.h"
 #include "frangia/rig/read_rig.h"
 #include "frangia/rig/write_rig.h"
 #include "frangia/service/calibration_wizard.h"

@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "frangia/calibrate/pose_coverage.h"
+#include "frangia/calibrate/board/pose_coverage.h"
+#include "frangia/calibrate/solve/calibrate_rig.h"
 #include "frangia/core/run.h"
-#include "frangia/pipeline/calibrate_rig.h"
 #include "frangia/rig/board.h"
 #include "frangia/service/live_preview.h"
 #include "frangia/service/project_scan.h"

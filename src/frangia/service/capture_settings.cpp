@@ -9,7 +9,7 @@
 #include "frangia/core/atomic_file.h"
 #include "frangia/core/error.h"
 #include "frangia/core/read_json_below.h"
-#include "frangia/phase/published_algorithms.h"
+#include "frangia/phase/algorithm/published_algorithms.h"
 #include "frangia/simulate/default_patterns.h"
 
 namespace frangia {

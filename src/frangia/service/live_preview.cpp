@@ -6,11 +6,11 @@
 #include <utility>
 
 #include "frangia/core/error.h"
-#include "frangia/phase/assess_frames.h"
-#include "frangia/phase/fit_algorithm.h"
-#include "frangia/phase/wrap_phase.h"
-#include "frangia/pipeline/check_view.h"
-#include "frangia/pipeline/triangulate_view.h"
+#include "frangia/decode/check_view.h"
+#include "frangia/decode/triangulate_view.h"
+#include "frangia/phase/algorithm/fit_algorithm.h"
+#include "frangia/phase/waveform/assess_frames.h"
+#include "frangia/phase/wrap/wrap_phase.h"
 #include "frangia/rig/has_geometry.h"
 
 namespace frangia {

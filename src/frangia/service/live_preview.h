@@ -13,8 +13,8 @@
 
 #include "frangia/acquisition/preview.h"
 #include "frangia/core/image.h"
+#include "frangia/decode/decode_view.h"
 #include "frangia/frames/frame_stack.h"
-#include "frangia/pipeline/decode_view.h"
 #include "frangia/range/range_grid.h"
 #include "frangia/service/capture_settings.h"
 

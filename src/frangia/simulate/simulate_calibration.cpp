@@ -1,4 +1,3 @@
-// Over 250 lines: poses by hand and poses on the turntable share what makes a board visible.
 #include "frangia/simulate/simulate_calibration.h"
 
 #include <algorithm>

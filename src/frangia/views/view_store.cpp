@@ -1,4 +1,3 @@
-// Above 250 lines: one file format, written and read side by side.
 #include "frangia/views/view_store.h"
 
 #include <algorithm>

@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "frangia/phase/assess_frames.h"
-#include "frangia/phase/estimate_noise.h"
-#include "frangia/phase/estimate_shifts.h"
-#include "frangia/phase/estimate_step.h"
-#include "frangia/phase/fit_algorithm.h"
-#include "frangia/phase/wrap_phase.h"
+#include "frangia/phase/algorithm/estimate_shifts.h"
+#include "frangia/phase/algorithm/estimate_step.h"
+#include "frangia/phase/algorithm/fit_algorithm.h"
+#include "frangia/phase/waveform/assess_frames.h"
+#include "frangia/phase/wrap/estimate_noise.h"
+#include "frangia/phase/wrap/wrap_phase.h"
 
 namespace frangia {
 namespace {

@@ -6,7 +6,7 @@
 #include "frangia/core/run.h"
 #include "frangia/frames/frame_stack.h"
 #include "frangia/frames/noise_model.h"
-#include "frangia/phase/phase_map.h"
+#include "frangia/phase/wrap/phase_map.h"
 
 namespace frangia {
 

@@ -4,7 +4,7 @@
 #include <map>
 #include <vector>
 
-#include "frangia/phase/phase_map.h"
+#include "frangia/phase/wrap/phase_map.h"
 
 namespace frangia {
 

@@ -4,7 +4,7 @@
 
 #include "frangia/acquisition/internal/capture_devices.h"
 #include "frangia/pattern/pattern.h"
-#include "frangia/phase/phase_map.h"
+#include "frangia/phase/wrap/phase_map.h"
 #include "frangia/rig/rig.h"
 
 namespace frangia {

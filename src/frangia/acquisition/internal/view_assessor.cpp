@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 
 #include "frangia/core/angles.h"
-#include "frangia/pipeline/decode_view.h"
+#include "frangia/decode/decode_view.h"
 #include "frangia/rig/has_geometry.h"
 
 namespace frangia {

@@ -1,4 +1,3 @@
-// Above 250 lines: one class around the handles of a library.
 #include <algorithm>
 #include <cmath>
 #include <istream>

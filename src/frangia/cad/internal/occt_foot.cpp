@@ -1,4 +1,3 @@
-// Above 250 lines: the feet on each kind of surface and edge.
 #include "frangia/cad/internal/occt_foot.h"
 
 #include <algorithm>

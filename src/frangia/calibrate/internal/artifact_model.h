@@ -8,7 +8,7 @@
 
 #include <Eigen/Core>
 
-#include "frangia/calibrate/solve_artifacts.h"
+#include "frangia/calibrate/artifact/solve_artifacts.h"
 #include "frangia/core/run.h"
 
 namespace frangia {

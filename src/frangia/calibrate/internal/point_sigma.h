@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 
 #include "frangia/calibrate/internal/rig_model.h"
-#include "frangia/calibrate/solve_rig.h"
+#include "frangia/calibrate/solve/solve_rig.h"
 
 namespace frangia {
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "frangia/calibrate/check_board_views.h"
+#include "frangia/calibrate/board/check_board_views.h"
 
 namespace frangia {
 

@@ -6,7 +6,7 @@
 
 #include <Eigen/Core>
 
-#include "frangia/calibrate/board_view.h"
+#include "frangia/calibrate/board/board_view.h"
 #include "frangia/calibrate/internal/rig_model.h"
 #include "frangia/calibrate/internal/rig_residuals.h"
 #include "frangia/rig/board.h"

@@ -2,9 +2,9 @@
 
 #include <span>
 
-#include "frangia/calibrate/board_view.h"
+#include "frangia/calibrate/board/board_view.h"
 #include "frangia/calibrate/internal/rig_model.h"
-#include "frangia/calibrate/solve_rig.h"
+#include "frangia/calibrate/solve/solve_rig.h"
 #include "frangia/rig/board.h"
 #include "frangia/rig/rig.h"
 

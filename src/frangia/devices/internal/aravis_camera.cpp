@@ -1,5 +1,3 @@
-// Above 250 lines: one device, whose settings, buffers and stream share their state.
-// Over 250 lines: all that one class of devices needs; its states depend on each other.
 #ifdef FRANGIA_WITH_ARAVIS
 
 #include "frangia/devices/internal/aravis_camera.h"

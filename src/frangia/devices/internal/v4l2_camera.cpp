@@ -1,4 +1,3 @@
-// Above 250 lines: one device, whose settings, buffers and stream share their state.
 #include "frangia/devices/internal/v4l2_camera.h"
 
 #include <algorithm>

@@ -1,4 +1,3 @@
-// Above 250 lines: the operations of one kind, side by side.
 #include <string>
 #include <utility>
 

@@ -1,4 +1,3 @@
-// Above 250 lines: each element of the format, and what may be wrong with it.
 #include <algorithm>
 #include <array>
 #include <cstdint>

@@ -1,4 +1,3 @@
-// Above 250 lines: each way in which a file can be wrong has its message.
 #include <algorithm>
 #include <array>
 #include <bit>

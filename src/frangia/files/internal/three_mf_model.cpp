@@ -1,4 +1,3 @@
-// Above 250 lines: each element of the format, and what may be wrong with it.
 #include "frangia/files/internal/three_mf_model.h"
 
 #include <algorithm>

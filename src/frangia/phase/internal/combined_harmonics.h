@@ -7,8 +7,8 @@
 
 #include "frangia/frames/frame_stack.h"
 #include "frangia/frames/noise_model.h"
-#include "frangia/phase/fit_waveform.h"
-#include "frangia/phase/phase_algorithm.h"
+#include "frangia/phase/algorithm/phase_algorithm.h"
+#include "frangia/phase/waveform/fit_waveform.h"
 
 namespace frangia {
 

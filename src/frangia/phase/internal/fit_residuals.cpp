@@ -8,7 +8,7 @@
 
 #include "frangia/core/angles.h"
 #include "frangia/core/missing.h"
-#include "frangia/phase/phase_algorithm.h"
+#include "frangia/phase/algorithm/phase_algorithm.h"
 
 namespace frangia {
 namespace {

@@ -7,7 +7,7 @@
 #include <cstdint>
 
 #include "frangia/core/median.h"
-#include "frangia/phase/phase_algorithm.h"
+#include "frangia/phase/algorithm/phase_algorithm.h"
 
 namespace frangia {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "frangia/pattern/pattern.h"
 #include "frangia/phase/internal/tile_phases.h"
-#include "frangia/phase/unwrap_levels.h"
+#include "frangia/phase/temporal/unwrap_levels.h"
 #include "frangia/rig/projector.h"
 
 namespace frangia {

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "frangia/phase/phase_map.h"
+#include "frangia/phase/wrap/phase_map.h"
 
 namespace frangia {
 

@@ -6,7 +6,7 @@
 
 #include "frangia/frames/frame_stack.h"
 #include "frangia/frames/noise_model.h"
-#include "frangia/phase/phase_algorithm.h"
+#include "frangia/phase/algorithm/phase_algorithm.h"
 
 namespace frangia {
 

@@ -1,4 +1,3 @@
-// Above 250 lines: one equation system, its derivatives and its covariance.
 #include "frangia/range/internal/common_point.h"
 
 #include <algorithm>

@@ -11,7 +11,7 @@
 #include "frangia/core/image.h"
 #include "frangia/core/median.h"
 #include "frangia/core/missing.h"
-#include "frangia/phase/phase_map.h"
+#include "frangia/phase/wrap/phase_map.h"
 
 namespace frangia {
 

@@ -4,8 +4,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "frangia/calibrate/report/residual_maps.h"
 #include "frangia/core/angles.h"
-#include "frangia/pipeline/calibrate_residuals.h"
 
 namespace frangia {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "frangia/pipeline/calibrate_rig.h"
+#include "frangia/calibrate/solve/calibrate_rig.h"
 
 namespace frangia {
 

@@ -9,7 +9,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "frangia/pipeline/reconstruct.h"
+#include "frangia/reconstruct/reconstruct.h"
 #include "frangia/service/calibration_wizard.h"
 #include "frangia/service/internal/answered_commands.h"
 #include "frangia/service/internal/command_arguments.h"

@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "frangia/core/angles.h"
-#include "frangia/phase/published_algorithms.h"
+#include "frangia/phase/algorithm/published_algorithms.h"
 #include "frangia/service/example_rigs.h"
 #include "frangia/service/internal/rig_json.h"
 #include "frangia/service/internal/station_json.h"

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "frangia/pipeline/triangulate_view.h"
+#include "frangia/decode/triangulate_view.h"
 #include "frangia/range/range_grid.h"
 
 namespace frangia {

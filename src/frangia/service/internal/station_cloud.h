@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 
 #include "frangia/core/image.h"
-#include "frangia/pipeline/decode_view.h"
+#include "frangia/decode/decode_view.h"
 #include "frangia/rig/rig.h"
 #include "frangia/views/collect_points.h"
 

@@ -4,7 +4,7 @@
 #include <filesystem>
 
 #include "frangia/core/run.h"
-#include "frangia/pipeline/reconstruct.h"
+#include "frangia/reconstruct/reconstruct.h"
 
 namespace frangia {
 

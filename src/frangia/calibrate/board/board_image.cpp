@@ -1,0 +1,64 @@
+#include "frangia/calibrate/board/board_image.h"
+
+#include <cmath>
+#include <vector>
+
+#include <Eigen/QR>
+
+#include "frangia/core/error.h"
+#include "frangia/pattern/pattern.h"
+
+namespace frangia {
+namespace {
+
+/// Weights of the frames whose weighted sum is the mean intensity: they sum to one, and the cosine
+/// and the sine of the shifts vanish. The solution of least norm has the least noise.
+Eigen::VectorXd mean_weights(const std::vector<double>& shifts_rad) {
+  const auto count = static_cast<Eigen::Index>(shifts_rad.size());
+  Eigen::MatrixXd conditions(3, count);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const double shift = shifts_rad[static_cast<std::size_t>(i)];
+    conditions.col(i) << 1.0, std::cos(shift), std::sin(shift);
+  }
+  return conditions.completeOrthogonalDecomposition().solve(Eigen::Vector3d::UnitX());
+}
+
+void add_frame(const Frame& frame, double weight, Image<float>& sum) {
+  std::visit(
+      [&](const auto& image) {
+        const auto counts = image.pixels();
+        auto out = sum.pixels();
+        for (std::size_t i = 0; i < counts.size(); ++i)
+          out[i] += static_cast<float>(weight) * static_cast<float>(counts[i]);
+      },
+      frame);
+}
+
+}  // namespace
+
+Image<float> board_image(std::span<const FrameStack> stacks) {
+  require(!stacks.empty() && !stacks.front().frames.empty(), "a view holds no frames");
+  const Frame& first = stacks.front().frames.front();
+  Image<float> image(width_of(first), height_of(first), 0.0F);
+  std::vector<const FrameStack*> fringes;
+  for (const FrameStack& stack : stacks) {
+    if (stack.pattern.kind == PatternKind::White) {
+      add_frame(stack.frames.front(), 1.0, image);
+      return image;
+    }
+    if (stack.pattern.kind == PatternKind::Fringe && stack.exposure == 0) fringes.push_back(&stack);
+  }
+  require(!fringes.empty(),
+          "scan.toml has no pattern of kind \"white\" or \"fringe\", so the board cannot be seen");
+  for (const FrameStack* stack : fringes) {
+    const Eigen::VectorXd weights = mean_weights(stack->pattern.shifts_rad);
+    for (std::size_t i = 0; i < stack->frames.size(); ++i) {
+      add_frame(stack->frames[i],
+                weights[static_cast<Eigen::Index>(i)] / static_cast<double>(fringes.size()),
+                image);
+    }
+  }
+  return image;
+}
+
+}  // namespace frangia

@@ -1,0 +1,181 @@
+#include "frangia/calibrate/board/calibrate_measure_pose.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <utility>
+
+#include "frangia/calibrate/board/board_image.h"
+#include "frangia/calibrate/board/count_corners.h"
+#include "frangia/calibrate/board/find_board.h"
+#include "frangia/calibrate/board/find_charuco.h"
+#include "frangia/calibrate/board/internal/calibrate_measure_faults.h"
+#include "frangia/calibrate/board/measure_sharpness.h"
+#include "frangia/core/angles.h"
+
+namespace frangia {
+namespace {
+
+/// The stacks whose fringes run in one direction.
+std::vector<FrameStack> stacks_of(std::span<const FrameStack> stacks, FringeDirection direction) {
+  std::vector<FrameStack> chosen;
+  std::copy_if(stacks.begin(), stacks.end(), std::back_inserter(chosen), [&](const auto& stack) {
+    const PatternKind kind = stack.pattern.kind;
+    return (kind == PatternKind::Fringe || kind == PatternKind::Gray) &&
+           stack.pattern.direction == direction;
+  });
+  return chosen;
+}
+
+/// Sets one projector coordinate of all points from the phase of its direction.
+void add_projector_pixels(std::span<const FrameStack> stacks,
+                          FringeDirection direction,
+                          const Rig& known,
+                          const PoseOptions& options,
+                          const Run& run,
+                          std::vector<BoardPoint>& points) {
+  DecodeOptions decode = options.decode;
+  decode.keep_maps = false;
+  decode.order_jumps.max_share = 0.0;  // a board is flat: jumps show frames that do not fit
+  decode.fill.max_px = 0;              // a point is fitted to measured pixels only
+  // The rays serve the decoding of scans without absolute phase only.
+  const DecodedView decoded = decode_view(stacks_of(stacks, direction), known, {}, decode, run);
+  const double px_per_rad = decoded.phase.pattern.period_px / kTwoPi;
+  const int axis = direction == FringeDirection::Vertical ? 0 : 1;
+  for (BoardPoint& point : points) {
+    const PhaseAt phase = fit_phase_at(
+        decoded.phase.phase_rad, decoded.phase.sigma_rad, point.camera_px, options.fit);
+    point.projector_px[axis] = px_per_rad * phase.phase_rad;
+    point.projector_sigma_px[axis] = px_per_rad * phase.sigma_rad;
+    point.projector_by_camera.row(axis) = px_per_rad * phase.gradient_rad_per_px.transpose();
+  }
+}
+
+/// Part of the image that a pose's brightness is measured on: the box about the points, or all.
+struct ImageBox {
+  int left = 0, top = 0, right = 0, bottom = 0;
+};
+
+ImageBox box_about(const std::vector<BoardPoint>& points, int width, int height) {
+  if (points.empty()) return {0, 0, width, height};
+  Eigen::AlignedBox2d box;
+  for (const BoardPoint& point : points)
+    box.extend(point.camera_px);
+  const auto within = [](double value, int size) {
+    return std::clamp(static_cast<int>(std::lround(value)), 0, size);
+  };
+  return {within(box.min().x(), width),
+          within(box.min().y(), height),
+          within(box.max().x(), width),
+          within(box.max().y(), height)};
+}
+
+void measure_light(std::span<const FrameStack> stacks,
+                   const Image<float>& image,
+                   int white_level,
+                   PoseCapture& pose) {
+  const ImageBox box = box_about(pose.view.points, image.width(), image.height());
+  std::vector<float> counts;
+  std::size_t saturated = 0;
+  constexpr int kStride = 3;  // every ninth pixel is enough for a share
+  for (int y = box.top; y < box.bottom; y += kStride) {
+    for (int x = box.left; x < box.right; x += kStride) {
+      counts.push_back(image(x, y));
+      const bool full = std::any_of(stacks.begin(), stacks.end(), [&](const FrameStack& stack) {
+        return stack.pattern.kind == PatternKind::Fringe && stack.exposure == 0 &&
+               std::any_of(stack.frames.begin(), stack.frames.end(), [&](const Frame& frame) {
+                 return counts_at(frame, x, y) >= stack.white_level;
+               });
+      });
+      if (full) ++saturated;
+    }
+  }
+  if (counts.empty()) return;
+  constexpr double kBright = 0.95;
+  const auto rank =
+      counts.begin() + static_cast<std::ptrdiff_t>(kBright * static_cast<double>(counts.size()));
+  std::nth_element(counts.begin(), rank, counts.end());
+  pose.brightness = static_cast<double>(*rank) / white_level;
+  pose.saturated = static_cast<double>(saturated) / static_cast<double>(counts.size());
+}
+
+/// The image reduced by averaging whole blocks of pixels to at most 480 columns.
+BoardPicture picture_of(const Image<float>& image) {
+  constexpr int kColumns = 480;
+  const int step = std::max(1, (image.width() + kColumns - 1) / kColumns);
+  BoardPicture picture{Image<std::uint8_t>(image.width() / step, image.height() / step),
+                       static_cast<double>(step)};
+  const auto counts = image.pixels();
+  const float brightest = std::max(1.0F, *std::max_element(counts.begin(), counts.end()));
+  for (int y = 0; y < picture.pixels.height(); ++y) {
+    for (int x = 0; x < picture.pixels.width(); ++x) {
+      float sum = 0.0F;
+      for (int v = 0; v < step; ++v) {
+        for (int u = 0; u < step; ++u)
+          sum += std::max(0.0F, image(x * step + u, y * step + v));
+      }
+      constexpr float kGamma = 0.6F;  // of a display, so that the dark squares are visible
+      const float level = std::pow(sum / static_cast<float>(step * step) / brightest, kGamma);
+      picture.pixels(x, y) = static_cast<std::uint8_t>(std::lround(255.0F * level));
+    }
+  }
+  return picture;
+}
+
+/// Finds the points of the board in an image; false where there are too few.
+bool find_points(const Image<float>& image,
+                 const Board& board,
+                 const PoseOptions& options,
+                 PoseCapture& pose) {
+  if (board.kind == BoardKind::Charuco) {
+    CharucoSight sight = find_charuco(image, board);
+    pose.mirrored_markers = std::max(pose.mirrored_markers, sight.mirrored_markers);
+    if (sight.other) pose.other_board = sight.other;
+    if (sight.points.size() >= options.min_points) pose.view.points = std::move(sight.points);
+  } else {
+    pose.view.points = find_board(image, board);
+  }
+  return !pose.view.points.empty();
+}
+
+/// The fringes alone; empty where there are none.
+std::vector<FrameStack> without_white(std::span<const FrameStack> stacks) {
+  std::vector<FrameStack> fringes;
+  std::copy_if(stacks.begin(), stacks.end(), std::back_inserter(fringes), [](const auto& stack) {
+    return stack.pattern.kind == PatternKind::Fringe && stack.exposure == 0;
+  });
+  return fringes;
+}
+
+}  // namespace
+
+PoseCapture calibrate_measure_pose(std::span<const FrameStack> stacks,
+                                   const Board& board,
+                                   const Rig& known,
+                                   const std::string& name,
+                                   const PoseOptions& options,
+                                   const Run& run) {
+  PoseCapture pose;
+  pose.view.name = name;
+  Image<float> image = board_image(stacks);
+  const bool found = find_points(image, board, options, pose);
+  // A white frame that holds something else: the frames are out of step, and the fringes say so.
+  if (const auto fringes = without_white(stacks);
+      !found && !fringes.empty() && fringes.size() < stacks.size()) {
+    Image<float> mean = board_image(fringes);
+    if (find_points(mean, board, options, pose)) image = std::move(mean);
+  }
+  pose.image = measure_image_sharpness(image);
+  if (options.keep_picture) pose.picture = picture_of(image);
+  measure_light(stacks, image, known.camera.white_level, pose);
+  if (pose.view.points.empty()) {
+    if (board.kind == BoardKind::Checkerboard) pose.counted = count_corners(image);
+    return pose;
+  }
+  calibrate_measure_faults(stacks, image, board, pose);
+  for (const FringeDirection direction : {FringeDirection::Vertical, FringeDirection::Horizontal})
+    add_projector_pixels(stacks, direction, known, options, run, pose.view.points);
+  return pose;
+}
+
+}  // namespace frangia

@@ -1,0 +1,177 @@
+#include "frangia/calibrate/solve/calibrate_rig.h"
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <ctime>
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+
+#include "frangia/calibrate/internal/assess_solution.h"
+#include "frangia/calibrate/solve/internal/collect_views.h"
+#include "frangia/decode/plan_decoding.h"
+
+namespace frangia {
+namespace {
+
+[[noreturn]] void fail_calibration(const std::string& sentence) {
+  throw Error(ErrorKind::Input, sentence);
+}
+
+FringeDirection other(FringeDirection direction) {
+  return direction == FringeDirection::Vertical ? FringeDirection::Horizontal
+                                                : FringeDirection::Vertical;
+}
+
+/// The fringes and codes of one direction.
+std::vector<Pattern> patterns_of(const Scan& scan, FringeDirection direction) {
+  std::vector<Pattern> patterns;
+  for (const Pattern& pattern : scan.patterns) {
+    const bool coded = pattern.kind == PatternKind::Fringe || pattern.kind == PatternKind::Gray;
+    if (coded && pattern.direction == direction) patterns.push_back(pattern);
+  }
+  return patterns;
+}
+
+/// Whether both directions would determine the absolute phase if they were exchanged.
+bool are_absolute_exchanged(const Scan& scan) {
+  for (const FringeDirection direction : {FringeDirection::Vertical, FringeDirection::Horizontal}) {
+    std::vector<Pattern> patterns = patterns_of(scan, other(direction));
+    for (Pattern& pattern : patterns)
+      pattern.direction = direction;
+    if (patterns.empty() || !is_absolute(plan_decoding(patterns, scan.rig, {}))) return false;
+  }
+  return true;
+}
+
+/// Fails unless the fringes of a direction determine the absolute phase.
+void require_direction(const Scan& scan, FringeDirection direction) {
+  const std::vector<Pattern> patterns = patterns_of(scan, direction);
+  const bool vertical = direction == FringeDirection::Vertical;
+  const char* name = vertical ? "vertical" : "horizontal";
+  const bool fringes = std::any_of(patterns.begin(), patterns.end(), [](const Pattern& pattern) {
+    return pattern.kind == PatternKind::Fringe;
+  });
+  if (!fringes) {
+    fail_calibration(
+        fmt::format("{}: there are no {} fringes; a board needs both directions, so add patterns "
+                    "with direction = \"{}\" and capture the poses again",
+                    (scan.folder / "scan.toml").string(),
+                    name,
+                    name));
+  }
+  if (is_absolute(plan_decoding(patterns, scan.rig, {}))) return;
+  if (are_absolute_exchanged(scan)) {
+    fail_calibration(fmt::format(
+        "{}: rows and columns of the projector are exchanged, the periods say: exchange "
+        "the values \"vertical\" and \"horizontal\" of the key direction",
+        (scan.folder / "scan.toml").string()));
+  }
+  fail_calibration(
+      fmt::format("{}: the {} fringes have no absolute phase; add one with a period of the "
+                  "projector's {}, and check the key direction of each pattern",
+                  (scan.folder / "scan.toml").string(),
+                  name,
+                  vertical ? "width" : "height"));
+}
+
+void check_scan(const Scan& scan) {
+  if (!scan.board) {
+    fail_calibration(
+        fmt::format("{}: [board] is missing; add kind = \"checkerboard\", corners and "
+                    "square_mm",
+                    (scan.folder / "scan.toml").string()));
+  }
+  if (scan.rig.projector.is_angular()) {
+    fail_calibration(
+        fmt::format("{}: projector.model is \"angular\", but a board calibrates a digital "
+                    "projector, model = \"pinhole\"",
+                    (scan.folder / "rig.toml").string()));
+  }
+  if (scan.rig.projector.is_label && scan.rig.more_cameras.empty()) {
+    fail_calibration(
+        fmt::format("{}: projector.model is \"label\", which needs two cameras: add "
+                    "[[more_cameras]], or set model = \"pinhole\" to calibrate the projector",
+                    (scan.folder / "rig.toml").string()));
+  }
+  require_direction(scan, FringeDirection::Vertical);
+  require_direction(scan, FringeDirection::Horizontal);
+}
+
+std::string today() {
+  return fmt::format(
+      "{:%Y-%m-%d}",
+      fmt::gmtime(std::chrono::system_clock::to_time_t(std::chrono::system_clock::now())));
+}
+
+Rig calibrated(const Rig& known, const Board& board, const RigSolution& solution) {
+  Rig rig = known;
+  rig.camera.model = solution.camera;
+  if (solution.has_projector) {
+    rig.projector.model = solution.projector;
+    rig.projector.rotation = solution.projector_from_camera.linear();
+    rig.projector.position_mm =
+        -(rig.projector.rotation.transpose() * solution.projector_from_camera.translation());
+  }
+  for (std::size_t i = 0; i < solution.more_cameras.size(); ++i) {
+    const FurtherCameraSolution& found = solution.more_cameras[i];
+    PosedCamera& posed = rig.more_cameras[i];
+    posed.camera.model = found.model;
+    posed.rotation = found.camera_from_rig.linear();
+    posed.position_mm = -(posed.rotation.transpose() * found.camera_from_rig.translation());
+  }
+  Calibration calibration;
+  calibration.date = today();
+  calibration.board = name_of(board.kind);
+  calibration.poses = static_cast<int>(solution.camera_from_board.size());
+  calibration.camera_rms_px = solution.camera_residuals.rms_px;
+  calibration.projector_rms_px = solution.has_projector
+                                     ? solution.projector_residuals.rms_px
+                                     : solution.more_cameras.front().projector_residuals.rms_px;
+  calibration.point_sigma_mm = solution.point_sigma_mm;
+  calibration.distance_mm = solution.distance_mm;
+  for (std::size_t i = 0; i < solution.parameters.size(); ++i) {
+    const auto row = static_cast<Eigen::Index>(i);
+    calibration.sigma.emplace_back(solution.parameters[i],
+                                   std::sqrt(solution.covariance(row, row)));
+  }
+  rig.calibration = calibration;
+  return rig;
+}
+
+}  // namespace
+
+std::string calibration_grade(const RigSolution& solution) {
+  return calibration_grade(std::max(solution.point_sigma_mm, solution.spread_mm),
+                           solution.distance_mm);
+}
+
+std::string calibration_grade(double sigma_mm, double distance_mm) {
+  struct Grade {
+    double share;
+    const char* name;
+  };
+  // 0.025, 0.1 and 0.5 mm at half a metre: inspection, good fringe projection, a maker's print.
+  constexpr std::array<Grade, 3> kGrades{{{5e-5, "excellent"}, {2e-4, "good"}, {1e-3, "usable"}}};
+  for (const Grade& grade : kGrades)
+    if (sigma_mm <= grade.share * distance_mm) return grade.name;
+  return "poor";
+}
+
+RigCalibration calibrate_rig(const Scan& scan, const CalibrateRigOptions& options, const Run& run) {
+  check_scan(scan);
+  run.stage("board");
+  RigCalibration result;
+  collect_board_views(scan, options, result, run);
+  run.stage("adjustment");
+  result.solution = solve_rig(*scan.board, result.views, scan.rig, options.solve, run);
+  check_solution(result.solution, result.views, options.max_rms_px);
+  warn_of_scale(scan, result.solution, options.max_scale_error, run);
+  warn_of_outliers(result.views, result.solution, options, run);
+  result.rig = calibrated(scan.rig, *scan.board, result.solution);
+  return result;
+}
+
+}  // namespace frangia

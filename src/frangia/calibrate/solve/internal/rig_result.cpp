@@ -1,0 +1,110 @@
+#include "frangia/calibrate/solve/internal/rig_result.h"
+
+#include <algorithm>
+#include <cmath>
+#include <variant>
+#include <vector>
+
+namespace frangia {
+namespace {
+
+CameraModel model_of(const RigParameters::Intrinsics& from, const CameraModel& size) {
+  CameraModel model;
+  model.width_px = size.width_px;
+  model.height_px = size.height_px;
+  model.focal_px = {from[0], from[0] * from[1]};
+  model.principal_point_px = {from[2], from[3]};
+  model.distortion = {from[4], from[5], from[6], from[7], from[8]};
+  return model;
+}
+
+/// Where the residuals of one device go; no list of points is kept for the projector pixels that a
+/// further camera reads.
+struct ResidualSink {
+  ResidualSummary* all = nullptr;
+  std::vector<ResidualSummary>* by_view = nullptr;
+  std::vector<std::vector<Eigen::Vector2d>>* points = nullptr;
+};
+
+ResidualSink sink_of(RigSolution& solution, std::size_t camera, bool by_projector) {
+  if (camera == 0 && by_projector) {
+    return {&solution.projector_residuals,
+            &solution.projector_by_view,
+            &solution.projector_residuals_px};
+  }
+  if (camera == 0)
+    return {&solution.camera_residuals, &solution.camera_by_view, &solution.camera_residuals_px};
+  FurtherCameraSolution& further = solution.more_cameras[camera - 1];
+  if (by_projector) return {&further.projector_residuals, &further.projector_by_view};
+  return {&further.residuals, &further.by_view, &further.residuals_px};
+}
+
+void add_residual(const Eigen::Vector2d& residual, ResidualSummary& summary) {
+  summary.rms_px += residual.squaredNorm();
+  summary.max_px = std::max(summary.max_px, residual.norm());
+  ++summary.points;
+}
+
+void finish(ResidualSummary& summary) {
+  if (summary.points > 0)
+    summary.rms_px = std::sqrt(summary.rms_px / static_cast<double>(summary.points));
+}
+
+}  // namespace
+
+void add_devices(const Rig& known, const RigParameters& parameters, RigSolution& solution) {
+  solution.camera = model_of(parameters.camera, known.camera.model);
+  solution.has_projector = !known.projector.is_label;
+  const auto& projector = std::get<PinholeModel>(known.projector.model);
+  if (solution.has_projector) {
+    solution.projector = model_of(parameters.projector, projector);
+    solution.projector_from_camera = isometry_of(parameters.projector_from_camera);
+  } else {
+    solution.projector = projector;
+  }
+  for (std::size_t i = 0; i < parameters.more.size(); ++i) {
+    const Camera& camera = known.more_cameras[i].camera;
+    FurtherCameraSolution& further = solution.more_cameras.emplace_back();
+    further.name = camera.name;
+    further.model = model_of(parameters.more[i].intrinsics, camera.model);
+    further.camera_from_rig = isometry_of(parameters.more[i].from_reference);
+  }
+  for (const RigParameters::Pose& pose : parameters.camera_from_board)
+    solution.camera_from_board.push_back(isometry_of(pose));
+  solution.board.aspect = parameters.board[0];
+  solution.board.shear = parameters.board[1];
+  std::copy(parameters.board.begin() + 2, parameters.board.end(), solution.board.height_mm.begin());
+}
+
+void add_residuals(std::span<const RigObservation> observations,
+                   std::span<const BoardView> views,
+                   const RigParameters& parameters,
+                   const RigNoise& noise,
+                   RigSolution& solution) {
+  const Eigen::Vector2d none = Eigen::Vector2d::Constant(std::nan(""));
+  std::vector<ResidualSink> sinks;
+  for (std::size_t camera = 0; camera <= solution.more_cameras.size(); ++camera) {
+    for (const bool by_projector : {false, true}) {
+      const ResidualSink& sink = sinks.emplace_back(sink_of(solution, camera, by_projector));
+      sink.by_view->resize(views.size());
+      sink.all->sigma_px = (by_projector ? noise.projector : noise.camera)[camera];
+      if (sink.points == nullptr) continue;
+      for (const BoardView& view : views)
+        sink.points->emplace_back(camera <= view.more.size() ? points_of(view, camera).size() : 0,
+                                  none);
+    }
+  }
+  for (const RigObservation& observation : observations) {
+    const Eigen::Vector2d residual = -residual_of(observation, parameters);
+    const ResidualSink& sink = sinks[2 * observation.camera + (observation.by_projector ? 1 : 0)];
+    if (sink.points != nullptr) (*sink.points)[observation.view][observation.point] = residual;
+    add_residual(residual, *sink.all);
+    add_residual(residual, (*sink.by_view)[observation.view]);
+  }
+  for (const ResidualSink& sink : sinks) {
+    finish(*sink.all);
+    std::for_each(sink.by_view->begin(), sink.by_view->end(), finish);
+  }
+}
+
+}  // namespace frangia

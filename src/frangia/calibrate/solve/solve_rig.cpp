@@ -1,0 +1,179 @@
+#include "frangia/calibrate/solve/solve_rig.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "frangia/calibrate/internal/point_sigma.h"
+#include "frangia/calibrate/internal/rig_bundle.h"
+#include "frangia/calibrate/internal/rig_model.h"
+#include "frangia/calibrate/internal/start_values.h"
+#include "frangia/calibrate/solve/internal/leave_one_out.h"
+#include "frangia/calibrate/solve/internal/rig_covariance.h"
+#include "frangia/calibrate/solve/internal/rig_result.h"
+#include "frangia/calibrate/solve/internal/select_terms.h"
+#include "frangia/rig/rig_covariance.h"
+
+namespace frangia {
+namespace {
+
+/// One state of the adjustment and how well it fits.
+struct Fit {
+  RigParameters parameters;
+  RigFreedom freedom;
+  RigNoise noise;
+  int iterations = 0;
+};
+
+struct SumOfSquares {
+  double weighted = 0.0;  ///< by the observations' own sigma and the robust loss
+  double count = 0.0;     ///< of coordinates
+};
+
+/// Scales the standard deviations of the observations to what is left over, for each camera and for
+/// the projector pixels that it reads. Each set bears its share of the parameters.
+RigNoise noise_of(std::span<const RigObservation> observations, const Fit& fit) {
+  std::vector<SumOfSquares> by_camera(fit.noise.camera.size());
+  std::vector<SumOfSquares> by_projector(fit.noise.camera.size());
+  for (const RigObservation& observation : observations) {
+    SumOfSquares& sum = (observation.by_projector ? by_projector : by_camera)[observation.camera];
+    const double squared = independent_residual_of(observation, fit.parameters)
+                               .cwiseQuotient(observation.sigma_px)
+                               .squaredNorm();
+    // The robust loss is counted from the present scale.
+    sum.weighted += robust_weight(std::sqrt(squared) / observation.scale(fit.noise)) * squared;
+    sum.count += 2.0;
+  }
+  const double parameters = static_cast<double>(fit.freedom.count()) +
+                            6.0 * static_cast<double>(fit.parameters.camera_from_board.size());
+  const double coordinates = 2.0 * static_cast<double>(observations.size());
+  const double left = std::max(1.0 - parameters / coordinates, 0.05);
+  const auto scale_of = [&](const SumOfSquares& sum) {
+    return sum.count > 0.0 ? std::sqrt(sum.weighted / (sum.count * left)) : 1.0;
+  };
+  RigNoise noise(by_camera.size());
+  for (std::size_t i = 0; i < by_camera.size(); ++i) {
+    noise.camera[i] = scale_of(by_camera[i]);
+    noise.projector[i] = scale_of(by_projector[i]);
+  }
+  return noise;
+}
+
+/// Largest relative change of a scale.
+double change_of(const RigNoise& now, const RigNoise& before) {
+  double largest = 0.0;
+  for (std::size_t i = 0; i < now.camera.size(); ++i) {
+    largest = std::max({largest,
+                        std::abs(now.camera[i] / before.camera[i] - 1.0),
+                        std::abs(now.projector[i] / before.projector[i] - 1.0)});
+  }
+  return largest;
+}
+
+/// Adjusts from the parameters of `fit`, with the weights refined to the residuals.
+void adjust(std::span<const RigObservation> observations,
+            const RigSolveOptions& options,
+            Fit& fit,
+            const Run& run) {
+  constexpr int kRounds = 3;         // the weights converge within these
+  constexpr double kSettled = 0.01;  // change of the weights that the result does not feel
+  for (int i = 0; i < kRounds; ++i) {
+    const RigBundleResult result = adjust_rig(
+        observations, fit.freedom, fit.noise, options.max_iterations, fit.parameters, run);
+    if (!result.usable) {
+      throw Error(
+          ErrorKind::Numeric,
+          "the calibration does not converge; check the board's corners and square, and the "
+          "views for one that is swapped or out of step");
+    }
+    fit.iterations += result.iterations;
+    const RigNoise before = fit.noise;
+    for (int k = 0; k < kRounds; ++k)
+      fit.noise = noise_of(observations, fit);
+    if (change_of(fit.noise, before) < kSettled) break;
+  }
+}
+
+/// Adds terms one at a time, the most supported first, as long as one is supported.
+std::vector<std::string> select_terms(std::span<const RigObservation> observations,
+                                      std::span<const ModelTerm> terms,
+                                      const RigSolveOptions& options,
+                                      Fit& fit,
+                                      const Run& run) {
+  std::vector<std::string> chosen;
+  while (const auto term = best_term(
+             observations, terms, fit.freedom, fit.noise, fit.parameters, options.min_gain)) {
+    set_free(terms[*term], fit.freedom);
+    adjust(observations, options, fit, run);
+    chosen.push_back(terms[*term].name);
+  }
+  return chosen;
+}
+
+/// Names of the parameters of all devices, in the order of the layout.
+std::vector<std::string> device_parameters(const Rig& known) {
+  std::vector<std::string> names = rig_parameter_names(known);
+  if (known.projector.is_label)
+    std::erase_if(names, [](const std::string& name) { return name.starts_with("projector."); });
+  return names;
+}
+
+void check_views(std::span<const BoardView> views, const Rig& known) {
+  constexpr std::size_t kFewestViews = 3;
+  require(!known.projector.is_angular(),
+          "projector.model is \"angular\", but a board calibrates a digital projector only");
+  require(!known.projector.is_label || !known.more_cameras.empty(),
+          "projector.model is \"label\", which needs two cameras: add [[more_cameras]], or set "
+          "model = \"pinhole\" to calibrate the projector");
+  if (views.size() >= kFewestViews) return;
+  throw Error(ErrorKind::Input,
+              fmt::format("the board is found in {} of at least {} poses; capture more, each "
+                          "tilted another way",
+                          views.size(),
+                          kFewestViews));
+}
+
+}  // namespace
+
+RigSolution solve_rig(const Board& board,
+                      std::span<const BoardView> views,
+                      const Rig& known,
+                      const RigSolveOptions& options,
+                      const Run& run) {
+  check_board(board);
+  check_views(views, known);
+  const bool has_projector = !known.projector.is_label;
+  const std::vector<RigObservation> observations = observations_of(board, views, has_projector);
+  const bool projected = std::any_of(
+      observations.begin(), observations.end(), [](const auto& one) { return one.by_projector; });
+  require(projected, "no point of the board has a phase in both fringe directions; capture both");
+
+  std::vector<std::string> cameras;
+  for (const PosedCamera& posed : known.more_cameras)
+    cameras.push_back(posed.camera.name);
+  const RigLayout layout{has_projector, cameras.size()};
+  Fit fit{start_values(board, views, known), RigFreedom(layout), RigNoise(1 + cameras.size())};
+  adjust(observations, options, fit, run);
+  RigSolution out;
+  const std::vector<ModelTerm> terms = optional_terms(layout, cameras, options.release_board);
+  out.terms = select_terms(observations, terms, options, fit, run);
+  for (const ModelTerm& term : terms)
+    if (!is_free(term, fit.freedom)) out.held.push_back(term.name);
+  add_devices(known, fit.parameters, out);
+  add_residuals(observations, views, fit.parameters, fit.noise, out);
+  out.iterations = fit.iterations;
+  add_covariance(
+      observations, fit.freedom, fit.noise, fit.parameters, device_parameters(known), out);
+  if (out.undetermined.empty()) {
+    const ShapeResponse shape = shape_response(board, layout, fit.parameters, out);
+    add_point_sigma(shape, out);
+    add_leave_one_out(
+        observations, fit.freedom, fit.noise, fit.parameters, shape.by_parameter, out);
+  }
+  return out;
+}
+
+}  // namespace frangia

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <string>
+
+#include <Eigen/Core>
+
+#include "frangia/core/image.h"
+#include "frangia/decode/decode_view.h"
+#include "frangia/rig/rig.h"
+
+namespace frangia {
+
+/// Whether the phases of a view fit scan.toml and the rig.
+struct ViewFit {
+  bool decided = false;     ///< at least one check has an answer
+  bool uses_first = true;   ///< `DecodedView::phase` is to be triangulated
+  bool uses_second = true;  ///< `DecodedView::second_phase` is to be triangulated
+  bool accepted = false;    ///< nothing fits, and `accept_inconsistent` triangulates it
+  std::string reason{};     ///< what does not fit, and what would, as a clause; empty if all fits
+
+  /// Whether a phase of the view is to be triangulated.
+  [[nodiscard]] bool fits() const { return uses_first || uses_second; }
+};
+
+/// Decides which phases of a view are triangulated: those whose patterns agree with each other and
+/// whose phase rises where the rig makes it rise; all of them with `accept_inconsistent`.
+[[nodiscard]] ViewFit check_view(const DecodedView& decoded,
+                                 const Rig& rig,
+                                 const Image<Eigen::Vector2f>& rays,
+                                 bool accept_inconsistent);
+
+}  // namespace frangia

@@ -1,0 +1,255 @@
+#include "frangia/decode/internal/decode_direction.h"
+
+#include <algorithm>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "frangia/core/error.h"
+#include "frangia/decode/internal/check_code.h"
+#include "frangia/decode/internal/correct_view_orders.h"
+#include "frangia/decode/internal/judge_direction.h"
+#include "frangia/decode/select_stacks.h"
+#include "frangia/fringe_order/check_start_by_sheet.h"
+#include "frangia/phase/gray/decode_gray_alone.h"
+#include "frangia/phase/gray/decode_gray_code.h"
+#include "frangia/phase/temporal/check_indirect_light.h"
+#include "frangia/phase/temporal/unwrap_sequence.h"
+#include "frangia/range/fringe_ray.h"
+#include "frangia/rig/phase_range.h"
+
+namespace frangia {
+namespace {
+
+/// Distance at which the camera's axis crosses the centre of the projected field: x0 of the paper.
+double crossing_distance(const Pattern& pattern, const Rig& rig) {
+  const double middle = phase_range(pattern, rig.projector).center_rad();
+  return intersect_fringe({0.0, 0.0}, middle, pattern, rig.projector).depth_mm;
+}
+
+/// The absolute phase that the caller's function finds.
+AbsolutePhase own_unwrapped(std::span<const WrappedPhase> maps, const DecodeOptions& options) {
+  AbsolutePhase phase = options.own.unwrap(maps);
+  const Image<float>& size = maps.back().phase_rad;
+  require(same_size(phase.phase_rad, size) && same_size(phase.sigma_rad, size) &&
+              same_size(phase.status, size),
+          "the phase of your own unwrapping function has another size than its maps; return images "
+          "of the size "
+          "of the frames");
+  phase.pattern = maps.back().pattern;
+  if (phase.systematic_rad.empty()) phase.systematic_rad = maps.back().systematic_rad;
+  return phase;
+}
+
+/// The relative phase that the caller's function finds.
+RelativePhase own_unwrapped_spatially(const WrappedPhase& map, const DecodeOptions& options) {
+  RelativePhase phase = options.own.unwrap_spatially(map);
+  require(
+      same_size(phase.phase_rad, map.phase_rad) && same_size(phase.sigma_rad, map.phase_rad) &&
+          same_size(phase.region, map.phase_rad) && same_size(phase.status, map.phase_rad),
+      "the phase of your own spatial unwrapping has another size than its map; return images of "
+      "the size of the frames");
+  phase.pattern = map.pattern;
+  if (phase.systematic_rad.empty()) phase.systematic_rad = map.systematic_rad;
+  return phase;
+}
+
+/// Wraps the maps and unwraps the coarsest one in space.
+DirectionMaps unwrap_in_space(const DirectionInput& input) {
+  DirectionMaps maps = wrap_maps(input, fit_maps(input));
+  const WrappedPhase& coarsest = maps.view.wrapped.front();
+  maps.view.relative = input.options.own.unwrap_spatially
+                           ? own_unwrapped_spatially(coarsest, input.options)
+                           : unwrap_spatially(coarsest, input.options.spatial);
+  return maps;
+}
+
+/// Unwraps the finer maps of a direction by the phase of the coarsest one.
+void unwrap_finer(const DirectionInput& input, ResolvedPhase resolved, DecodedView& view) {
+  view.phase = unwrap_finer_levels(
+      std::move(resolved.phase), std::span(view.wrapped).subspan(1), input.options.temporal);
+  view.unresolved = std::move(resolved.unresolved);
+}
+
+/// Corrects regions of a wrong order that several maps show.
+void correct_orders(const DirectionInput& input, DirectionMaps& maps) {
+  if (maps.fringes.size() < 2 || input.options.own.any()) return;
+  correct_view_orders(maps.fringes, maps.fits, input.options, input.run, maps.view);
+}
+
+/// What is left to do with a phase, wherever its orders come from.
+DecodedView finished(const DirectionInput& input, DirectionMaps maps) {
+  DecodedView view = std::move(maps.view);
+  if (input.options.keep_maps && view.checks.front().consistent && !view.relative) {
+    const IndirectLightCheck indirect = check_indirect_light(view.wrapped, view.phase);
+    if (indirect.found) input.run.warn(describe(indirect));
+  }
+  if (!input.options.keep_maps) view.wrapped.clear();
+  fill_enclosed(view.phase, input.options.fill);
+  return view;
+}
+
+DecodedView decode_from(const FromCallers& /*source*/, const DirectionInput& input) {
+  DirectionMaps maps = wrap_maps(input, fit_maps(input));
+  maps.view.phase = own_unwrapped(maps.view.wrapped, input.options);
+  return finished(input, std::move(maps));
+}
+
+DecodedView decode_from(const FromGrayCode& /*source*/, const DirectionInput& input) {
+  DirectionMaps maps = wrap_maps(input, fit_maps(input));
+  DecodedView& view = maps.view;
+  const auto gray = gray_of(input.stacks, input.plan.direction);
+  view.checks = {check_code(input, gray.front(), view)};
+  const WrappedPhase& coarsest = view.wrapped.front();
+  unwrap_finer(
+      input, {decode_gray_code(gray, coarsest, view.noise, input.options.temporal), {}}, view);
+  return finished(input, std::move(maps));
+}
+
+DecodedView decode_from(const FromGrayCodeAlone& /*source*/, const DirectionInput& input) {
+  const auto gray = gray_of(input.stacks, input.plan.direction);
+  require(!gray.empty(), "decode_view: the frames are not those of the plan's patterns");
+  const auto find = [&](PatternKind kind) -> const FrameStack* {
+    const auto found = std::find_if(input.stacks.begin(), input.stacks.end(), [&](const auto& one) {
+      return one.pattern.kind == kind;
+    });
+    return found == input.stacks.end() ? nullptr : &*found;
+  };
+  input.run.check();
+  DecodedView out;
+  out.noise = input.rig.camera.noise ? *input.rig.camera.noise : estimate_gray_noise(gray.front());
+  out.noise.floor_counts2 += input.stacks.front().compression_counts2;
+  Image<float> threshold;
+  if (gray.front().pattern.inverted == InvertedFrames::None)
+    threshold = gray_threshold(gray.front(), find(PatternKind::White), find(PatternKind::Ambient));
+  GrayAloneOptions limits;
+  limits.max_wrong_stripe = input.options.temporal.max_wrong_order;
+  out.phase = decode_gray_alone(gray, threshold, out.noise, limits);
+  out.coarsest = out.phase.pattern;
+  return out;
+}
+
+DecodedView decode_from(const FromCoarserMaps& /*source*/, const DirectionInput& input) {
+  DirectionMaps maps = wrap_maps(input, fit_maps(input), WrappedParts::PhaseOnly);
+  const Projector& projector = input.rig.projector;
+  std::vector<WrappedPhase>& wrapped = maps.view.wrapped;
+  maps.view.phase =
+      input.options.keep_maps
+          ? unwrap_temporally(wrapped, projector, input.options.temporal)
+          : unwrap_temporally_in_place(std::move(wrapped), projector, input.options.temporal);
+  correct_orders(input, maps);
+  return finished(input, std::move(maps));
+}
+
+DecodedView decode_from(const FromSlope& source, const DirectionInput& input) {
+  DirectionMaps maps = fit_maps(input);
+  if (source.safe_for_every_pixel && allow_one_pass(input, maps)) {
+    maps = decode_in_one_pass(input, std::move(maps));
+  } else {
+    maps = wrap_maps(input, std::move(maps));
+    maps.view.phase = unwrap_sequence(
+        maps.view.wrapped, input.rig.projector, source.method, input.options.temporal);
+  }
+  correct_orders(input, maps);
+  return finished(input, std::move(maps));
+}
+
+DecodedView decode_from(const FromLaserSheet& /*source*/, const DirectionInput& input) {
+  DirectionMaps maps = unwrap_in_space(input);
+  DecodedView& view = maps.view;
+  const FrameStack* line = line_of(input.stacks);
+  require(line != nullptr, "decode_view: the frames are not those of the plan's patterns");
+  const WrappedPhase& coarsest = view.wrapped.front();
+  view.profile =
+      laser_profile(*line, coarsest.mean_counts, input.rig, view.noise, input.options.line);
+  const SequenceCheck start = check_start_by_sheet(coarsest, view.profile, input.rig.projector);
+  if (!start.consistent) view.checks = {start};
+  unwrap_finer(input,
+               resolve_by_laser_sheet(
+                   *view.relative, view.profile, input.rig.projector, input.options.fringe_order),
+               view);
+  return finished(input, std::move(maps));
+}
+
+DecodedView decode_from(const FromDistance& /*source*/, const DirectionInput& input) {
+  DirectionMaps maps = unwrap_in_space(input);
+  const RelativePhase& relative = *maps.view.relative;
+  const double depth_mm = crossing_distance(relative.pattern, input.rig);
+  unwrap_finer(input, resolve_by_distance(relative, input.rig, input.rays, depth_mm), maps.view);
+  return finished(input, std::move(maps));
+}
+
+DecodedView decode_from(const Unresolved& /*source*/, const DirectionInput& input) {
+  DirectionMaps maps = unwrap_in_space(input);
+  const RelativePhase& relative = *maps.view.relative;
+  input.run.warn(
+      "the patterns do not determine fringe orders, and the rig has no geometry that does: the "
+      "phase of each region has an offset of its own");
+  unwrap_finer(input,
+               {{relative.pattern,
+                 relative.phase_rad,
+                 relative.sigma_rad,
+                 relative.status,
+                 relative.systematic_rad},
+                {}},
+               maps.view);
+  return finished(input, std::move(maps));
+}
+
+DecodedView decode_as_planned(const DirectionInput& input) {
+  return std::visit([&](const auto& source) { return decode_from(source, input); },
+                    input.plan.orders);
+}
+
+/// The only declaration that fits the frames, if other shifts of one pattern are all that it needs.
+const SequenceFault* remedy_of(const DecodedView& view) {
+  if (view.checks.empty() || view.checks.front().consistent) return nullptr;
+  const SequenceCheck& check = view.checks.front();
+  if (check.fits.size() != 1 || check.fits.front().patterns.size() != 1 ||
+      check.fits.front().shifts_rad.empty())
+    return nullptr;
+  return &check.fits.front();
+}
+
+/// Decodes again with the shifts that fit, and returns that if the same check passes.
+DecodedView remedied(const DirectionInput& input, DecodedView view) {
+  const SequenceFault* fault = remedy_of(view);
+  if (fault == nullptr) return view;
+  if (!input.options.accept_remedy) {
+    view.checks.front().finding =
+        describe(view.checks.front()) + "; `accept_remedy` decodes with the shifts that fit";
+    return view;
+  }
+  std::vector<FrameStack> stacks(input.stacks.begin(), input.stacks.end());
+  for (FrameStack& stack : stacks) {
+    const bool concerned = stack.pattern.name == fault->patterns.front() &&
+                           stack.pattern.shifts_rad.size() == fault->shifts_rad.size();
+    if (concerned) stack.pattern.shifts_rad = fault->shifts_rad;
+  }
+  DirectionInput changed = input;  // its references are those of `input`
+  changed.stacks = stacks;
+  DecodedView again = decode_as_planned(changed);
+  if (!again.checks.front().consistent) return view;
+  input.run.warn(describe(view.checks.front()) + "; decoded with the shifts that fit");
+  return again;
+}
+
+}  // namespace
+
+DecodedView decode_direction(const DirectionInput& all) {
+  JudgedFrames judged = judge_direction(all);
+  const DirectionInput input{judged.stacks.empty() ? all.stacks : judged.stacks,
+                             all.plan,
+                             all.rig,
+                             all.rays,
+                             all.options,
+                             all.run,
+                             judged.noise,
+                             std::move(judged.unexplained_rad)};
+  DecodedView view = remedied(input, decode_as_planned(input));
+  view.frames = std::move(judged.verdicts);
+  report_frames(view.frames, view.checks, input.run);
+  return view;
+}
+
+}  // namespace frangia

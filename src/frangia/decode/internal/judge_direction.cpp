@@ -1,0 +1,121 @@
+#include "frangia/decode/internal/judge_direction.h"
+
+#include <algorithm>
+#include <optional>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "frangia/core/angles.h"
+#include "frangia/decode/explain/find_ceiling.h"
+#include "frangia/decode/select_stacks.h"
+#include "frangia/phase/wrap/estimate_noise.h"
+
+namespace frangia {
+namespace {
+
+/// The camera's noise: from rig.toml, else from the survey of several views, else from this view.
+/// Lossy compression adds its own.
+NoiseModel noise_of(const DirectionInput& input, std::span<const FrameStack> stacks) {
+  NoiseModel noise = input.rig.camera.noise       ? *input.rig.camera.noise
+                     : input.options.survey.noise ? *input.options.survey.noise
+                                                  : estimate_noise(stacks);
+  noise.floor_counts2 += stacks.front().compression_counts2;
+  return noise;
+}
+
+/// Whether the phase may be computed from some of the frames: no algorithm needs all of them.
+bool may_leave_out(const Pattern& pattern, const DecodeOptions& options) {
+  return pattern.fringes_per_degree == 0.0 && !options.own_algorithm && !options.own.any() &&
+         !options.recover_saturated &&
+         (options.algorithm == "auto" || options.algorithm == "least-squares");
+}
+
+/// Marks pixels at a ceiling below the white level as saturated.
+void apply_ceiling(const Ceiling& ceiling, const DirectionInput& input, JudgedFrames& out) {
+  input.run.warn(fmt::format(
+      "the frames are cut off at {} counts, below their white level of {}: {:.1f} % of the samples "
+      "are at it and count as saturated; expose shorter, and set white_level = {} in rig.toml",
+      ceiling.counts,
+      input.stacks.front().white_level,
+      100.0 * ceiling.share,
+      ceiling.counts));
+  out.stacks.assign(input.stacks.begin(), input.stacks.end());
+  for (FrameStack& stack : out.stacks)
+    stack.white_level = ceiling.counts;
+}
+
+std::vector<double> degrees_of(const std::vector<double>& shifts_rad) {
+  std::vector<double> degrees;
+  for (const double shift : shifts_rad)
+    degrees.push_back(deg_from_rad(shift));
+  return degrees;
+}
+
+}  // namespace
+
+JudgedFrames judge_direction(const DirectionInput& input) {
+  JudgedFrames out;
+  if (input.plan.maps.empty()) return out;
+  out.noise = noise_of(input, input.stacks);
+  if (const std::optional<Ceiling> ceiling = find_ceiling(input.stacks, out.noise))
+    apply_ceiling(*ceiling, input, out);
+  const std::span<const FrameStack> stacks =
+      out.stacks.empty() ? input.stacks : std::span<const FrameStack>(out.stacks);
+  const auto fringes = fringes_of(stacks, input.plan.direction);
+  const bool has_other_check = fringes.size() > 1 || !gray_of(stacks, input.plan.direction).empty();
+  bool changed = false;
+  for (const FrameStack* stack : fringes) {
+    if (stack->pattern.exposure_count() > 1) continue;
+    FrameVerdict verdict = judge_frames(
+        *stack, out.noise, {may_leave_out(stack->pattern, input.options), has_other_check});
+    out.unexplained_rad[stack->pattern.name] = verdict.explanation.unexplained_rad;
+    if (!verdict.remedy_rad.empty() && input.options.accept_remedy)
+      verdict.action = FrameAction::Use;
+    changed = changed || verdict.action == FrameAction::LeaveOutFrames ||
+              (verdict.action == FrameAction::Use && !verdict.remedy_rad.empty());
+    out.verdicts.push_back(std::move(verdict));
+  }
+  if (!changed) return out;
+  if (out.stacks.empty()) out.stacks.assign(input.stacks.begin(), input.stacks.end());
+  for (FrameStack& stack : out.stacks) {
+    for (const FrameVerdict& verdict : out.verdicts) {
+      if (verdict.explanation.pattern != stack.pattern.name) continue;
+      if (!verdict.left_out.empty()) stack = without_frames(stack, verdict.left_out);
+      if (verdict.action == FrameAction::Use && !verdict.remedy_rad.empty())
+        stack.pattern.shifts_rad = verdict.remedy_rad;
+    }
+  }
+  out.noise = noise_of(input, out.stacks);
+  return out;
+}
+
+void report_frames(const std::vector<FrameVerdict>& verdicts,
+                   std::vector<SequenceCheck>& checks,
+                   const Run& run) {
+  for (const FrameVerdict& verdict : verdicts) {
+    const FrameExplanation& found = verdict.explanation;
+    if (verdict.action == FrameAction::LeaveOutFrames) {
+      run.warn(fmt::format("{}; it is left out, and the phase is computed from the others; {}",
+                           verdict.finding,
+                           found.explanation.remedy));
+    }
+    if (verdict.action == FrameAction::Use && !verdict.remedy_rad.empty())
+      run.warn(fmt::format("{}; decoded with the shifts that fit", verdict.finding));
+    if (verdict.action != FrameAction::LeaveOutView || checks.empty()) continue;
+    SequenceCheck& check = checks.front();
+    // What the other patterns say about the order of the frames is more than their residuals do.
+    if (found.best.cause == FrameCause::Exchanged && !check.consistent) continue;
+    check = {.decided = true, .consistent = false};
+    check.patterns = {found.pattern};
+    check.finding = verdict.finding;
+    if (!found.explanation.remedy.empty() && found.are_fringes)
+      check.finding += "; " + found.explanation.remedy;
+    if (!verdict.remedy_rad.empty())
+      check.finding += fmt::format(", or set `accept_remedy` to decode with shifts_deg = [{:.6g}]",
+                                   fmt::join(degrees_of(verdict.remedy_rad), ", "));
+    return;
+  }
+}
+
+}  // namespace frangia

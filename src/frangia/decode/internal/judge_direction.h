@@ -1,0 +1,33 @@
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "frangia/decode/explain/judge_frames.h"
+#include "frangia/decode/internal/direction_maps.h"
+#include "frangia/frames/frame_stack.h"
+#include "frangia/phase/temporal/sequence_check.h"
+
+namespace frangia {
+
+/// The frames of a direction, each pattern explained by itself.
+struct JudgedFrames {
+  NoiseModel noise;                    ///< of the camera
+  std::vector<FrameVerdict> verdicts;  ///< of the fringe patterns, coarse to fine
+  /// All stacks of the view without the frames that are left out, and with the white level at
+  /// which they are cut off; empty if they are used as they are.
+  std::vector<FrameStack> stacks;
+  std::map<std::string, double> unexplained_rad;  ///< of the phase, by pattern
+};
+
+/// Explains the fringe patterns of a direction and leaves out the frames at fault.
+[[nodiscard]] JudgedFrames judge_direction(const DirectionInput& input);
+
+/// Reports frames that are left out. A pattern that measures nothing in this view makes the
+/// direction's check, the first of `checks`, inconsistent.
+void report_frames(const std::vector<FrameVerdict>& verdicts,
+                   std::vector<SequenceCheck>& checks,
+                   const Run& run);
+
+}  // namespace frangia

@@ -1,0 +1,133 @@
+#include "frangia/decode/internal/wrap_pattern.h"
+
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "frangia/decode/select_stacks.h"
+#include "frangia/phase/waveform/correct_response.h"
+#include "frangia/phase/waveform/share_waveforms.h"
+#include "frangia/phase/waveform/systematic_phase.h"
+#include "frangia/phase/wrap/merge_exposures.h"
+#include "frangia/phase/wrap/recover_saturated.h"
+
+namespace frangia {
+namespace {
+
+/// The algorithm for one pattern's frames.
+FittedAlgorithm fit(const FrameStack& taken,
+                    const NoiseModel& noise,
+                    const DecodeOptions& options,
+                    const Run& run) {
+  if (options.own_algorithm) return fit_algorithm(*options.own_algorithm, taken, noise);
+  Run warnings = run;  // no notes: the frame assessment names the algorithm
+  warnings.on_note = nullptr;
+  std::optional<double> gain_error;
+  const auto known = options.survey.gain_error.find(taken.pattern.name);
+  if (known != options.survey.gain_error.end()) gain_error = known->second;
+  return fit_algorithm(options.algorithm, taken, noise, warnings, gain_error);
+}
+
+/// The correction of the projector's response for one pattern, if the options ask for one.
+std::optional<ResponseTable> correction_of(const Pattern& pattern,
+                                           const FittedAlgorithm& fitted,
+                                           const DecodeOptions& options) {
+  const PhaseAlgorithm algorithm =
+      pattern.exposure_count() > 1 ? least_squares(fitted.shifts_rad) : fitted.algorithm;
+  if (options.undo_own_response) {
+    if (fitted.waveform.largest_harmonic() == 0) return {};
+    return response_table(fitted.waveform.waveform, algorithm, fitted.shifts_rad);
+  }
+  if (const FringeWaveform* waveform = find_waveform(options.waveforms, pattern))
+    return response_table(*waveform, algorithm, fitted.shifts_rad);
+  if (!options.response) return {};
+  return response_table(*options.response, algorithm, fitted.shifts_rad);
+}
+
+/// Removes the effect of the projector's response from the last wrapped map, where the options ask
+/// for it, and sets its systematic uncertainty.
+void finish_wrapped(const FittedAlgorithm& fitted, const DecodeOptions& options, DecodedView& out) {
+  WrappedPhase& map = out.wrapped.back();
+  if (options.own.wrap && !map.systematic_rad.empty()) return;
+  const auto table = correction_of(map.pattern, fitted, options);
+  if (table) correct_response(*table, map);
+  const ResponseTable* applied = table ? &*table : nullptr;
+  const SystematicPhase systematic = systematic_phase(fitted, applied);
+  map.systematic_rad = uniform_systematic(systematic.rad, map.status);
+  map.differing_share = static_cast<float>(systematic.differing_share);
+  FrameAssessment& assessment = out.assessments.back();
+  assessment.harmonics_corrected = table.has_value();
+  assessment.harmonic_error_rad = harmonic_phase_error(fitted, applied);
+}
+
+/// The wrapped phase that the caller's function finds.
+WrappedPhase own_wrapped(const FrameStack& stack,
+                         const FittedAlgorithm& fitted,
+                         const NoiseModel& noise,
+                         const DecodeOptions& options) {
+  WrappedPhase map = options.own.wrap(stack, fitted, noise);
+  const int width = width_of(stack.frames.front());
+  const int height = height_of(stack.frames.front());
+  const auto fits = [&](const auto& image) {
+    return image.width() == width && image.height() == height;
+  };
+  if (!fits(map.phase_rad) || !fits(map.sigma_rad) || !fits(map.modulation_counts) ||
+      !fits(map.mean_counts) || !fits(map.status)) {
+    throw Error(
+        ErrorKind::Input,
+        fmt::format(
+            "your own wrapping function returned images of {} x {} pixels for pattern \"{}\"; "
+            "return them in the size of the frames, {} x {}",
+            map.phase_rad.width(),
+            map.phase_rad.height(),
+            stack.pattern.name,
+            width,
+            height));
+  }
+  map.pattern = stack.pattern;
+  return map;
+}
+
+}  // namespace
+
+std::vector<FittedAlgorithm> fit_all(std::span<const FrameStack* const> fringes,
+                                     const NoiseModel& noise,
+                                     const DecodeOptions& options,
+                                     const Run& run) {
+  std::vector<FittedAlgorithm> fits;
+  for (const FrameStack* stack : fringes) {
+    run.check();
+    fits.push_back(fit(*stack, noise, options, run));
+  }
+  share_waveforms(fits);
+  return fits;
+}
+
+void wrap_pattern(const FrameStack& taken,
+                  const FittedAlgorithm& fitted,
+                  const DecodeOptions& options,
+                  const Run& run,
+                  DecodedView& out) {
+  if (taken.pattern.exposure_count() > 1 && !options.own.wrap) {
+    out.wrapped.push_back(
+        merge_exposures(exposures_of(&taken), fitted.shifts_rad, out.noise, options.wrap));
+    out.assessments.push_back(assess_frames(taken, fitted, out.wrapped.back(), out.noise));
+    finish_wrapped(fitted, options, out);
+    return;
+  }
+  FrameStack recovered;
+  if (options.recover_saturated) {
+    recovered = taken;
+    const std::size_t pixels = recover_saturated(recovered);
+    run.note(fmt::format(
+        "pattern \"{}\": one saturated frame of {} pixels recovered", taken.pattern.name, pixels));
+  }
+  const FrameStack& stack = options.recover_saturated ? recovered : taken;
+  out.wrapped.push_back(options.own.wrap
+                            ? own_wrapped(stack, fitted, out.noise, options)
+                            : wrap_phase(stack, fitted.algorithm, out.noise, options.wrap));
+  out.assessments.push_back(assess_frames(stack, fitted, out.wrapped.back(), out.noise));
+  finish_wrapped(fitted, options, out);
+}
+
+}  // namespace frangia

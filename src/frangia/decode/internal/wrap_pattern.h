@@ -1,0 +1,26 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "frangia/core/run.h"
+#include "frangia/decode/decode_view.h"
+#include "frangia/frames/frame_stack.h"
+#include "frangia/phase/algorithm/fit_algorithm.h"
+
+namespace frangia {
+
+/// Fits the algorithms for the frames of all patterns, which share their waveforms.
+[[nodiscard]] std::vector<FittedAlgorithm> fit_all(std::span<const FrameStack* const> fringes,
+                                                   const NoiseModel& noise,
+                                                   const DecodeOptions& options,
+                                                   const Run& run);
+
+/// Appends the wrapped phase and the frame assessment of one pattern to `out`.
+void wrap_pattern(const FrameStack& taken,
+                  const FittedAlgorithm& fitted,
+                  const DecodeOptions& options,
+                  const Run& run,
+                  DecodedView& out);
+
+}  // namespace frangia

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "frangia/pattern/pattern.h"
+#include "frangia/phase/temporal/sequence_check.h"
+
+namespace frangia {
+
+/// What the recorded frames and the fringes are supposed to show.
+struct GrayTrial {
+  SequenceFault fault;
+  Pattern code;
+  std::vector<std::size_t> frame_of;  ///< recorded frame of each declared one
+  std::vector<bool> inverted;         ///< recorded frames that show their inverse
+  double start_rad = 0.0;             ///< of the fringes
+  bool reversed = false;              ///< shifts of the fringes
+};
+
+/// The supposition that code and fringes are as declared.
+[[nodiscard]] GrayTrial declared_trial(const Pattern& code);
+
+/// Suppositions about the order of bits and frames, inversions, the code, and the fringes.
+[[nodiscard]] std::vector<GrayTrial> gray_trials(const Pattern& code, const Pattern& fringes);
+
+}  // namespace frangia

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <cstdint>
+
+#include "frangia/phase/wrap/phase_map.h"
+#include "frangia/phase/wrap/smooth_jumps.h"
+
+namespace frangia {
+
+/// Where the phase is cut into regions.
+struct SplitOptions {
+  JumpOptions jumps;  ///< limits of smooth phase differences
+  /// A connection narrower than twice this radius beside a cut does not join two regions, px. A
+  /// depth step of varying height looks smooth where it crosses a whole number of fringes; the
+  /// faster its height varies, the shorter that part. At 0.03 rad of noise 6 px are enough where
+  /// the height changes by 0.05 rad per pixel
+  /// (`UnwrapSpatially.NeverJoinsAcrossAStepOfMoreThanHalfAFringe`; 3 px fail), and 24 px where it
+  /// changes by 0.02. A step that changes more slowly is not detected.
+  int neck_radius_px = 12;
+};
+
+/// Regions within which the phase is smooth and unwrapping is unambiguous.
+struct Regions {
+  Image<std::int32_t> label;         ///< 0, 1, ...; -1 where not measured
+  int count = 0;                     ///< number of regions
+  Image<std::uint8_t> smooth_right;  ///< as `smooth_right` of smooth_jumps.h
+  Image<std::uint8_t> smooth_below;  ///< as `smooth_below` of smooth_jumps.h
+};
+
+/// Cuts the phase wherever it may hide a step of more than half a fringe, within the limits that
+/// `SplitOptions` states. `join_regions` rejoins regions where that is safe.
+///
+/// @shape    w x h in and out
+/// @missing  NaN pixels get the label -1
+[[nodiscard]] Regions split_regions(const WrappedPhase& wrapped, const SplitOptions& options = {});
+
+}  // namespace frangia

@@ -1,0 +1,333 @@
+#include "frangia/phase/temporal/internal/sequence_sample.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "frangia/core/angles.h"
+#include "frangia/core/median.h"
+#include "frangia/core/missing.h"
+#include "frangia/core/random.h"
+#include "frangia/phase/internal/best_frequency.h"
+#include "frangia/phase/internal/fringe_curve.h"
+#include "frangia/phase/internal/is_split.h"
+#include "frangia/phase/internal/sample_columns.h"
+#include "frangia/phase/temporal/unwrap_sequence.h"
+#include "frangia/phase/waveform/frame_samples.h"
+#include "frangia/rig/phase_range.h"
+
+namespace frangia {
+namespace {
+
+double counts_of(const Frame& frame, std::size_t pixel) {
+  return std::visit([&](const auto& image) { return static_cast<double>(image.pixels()[pixel]); },
+                    frame);
+}
+
+float random_phase(std::size_t map, std::size_t pixel) {
+  return static_cast<float>(kTwoPi * uniform_from(hash(hash(map), pixel)) - kPi);
+}
+
+}  // namespace
+
+SequenceSample::SequenceSample(std::span<const SequenceFrames> maps,
+                               const NoiseModel& noise,
+                               const Projector& projector,
+                               const WrapOptions& wrap,
+                               const SequenceCheckOptions& options)
+    : projector_(projector) {
+  for (const SequenceFrames& map : maps) {
+    const bool columns = map.stack->pattern.direction == FringeDirection::Horizontal;
+    patterns_.push_back(map.stack->pattern);
+    frames_.push_back(columns ? sample_columns(*map.stack, options.pixels)
+                              : sample_rows(*map.stack, options.pixels));
+    maps_.push_back(wrap_phase(frames_.back(), map.algorithm, noise, wrap));
+  }
+  const PhaseRange field = phase_range(patterns_.front(), projector);
+  const double per_unit = patterns_.front().fringes_per_unit();
+  first_ = field.min_rad / (kTwoPi * per_unit);
+  last_ = field.max_rad / (kTwoPi * per_unit);
+  choose_pixels(options);
+}
+
+bool SequenceSample::is_measured(std::size_t pixel) const {
+  return std::all_of(maps_.begin(), maps_.end(), [&](const WrappedPhase& map) {
+    return map.status.pixels()[pixel] == PixelStatus::Measured;
+  });
+}
+
+void SequenceSample::choose_pixels(const SequenceCheckOptions& options) {
+  const int width = maps_.front().status.width();
+  std::vector<std::size_t> measured;
+  std::vector<int> lit_lines;
+  constexpr std::size_t kMinLine = 32;  // measured pixels of a line
+  for (int y = 0; y < maps_.front().status.height(); ++y) {
+    const std::size_t before = measured.size();
+    for (int x = 0; x < width; ++x) {
+      const auto pixel = static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
+                         static_cast<std::size_t>(x);
+      if (is_measured(pixel)) measured.push_back(pixel);
+    }
+    if (measured.size() - before >= kMinLine) lit_lines.push_back(y);
+  }
+  const std::size_t compared = std::min(measured.size(), options.compared);
+  for (std::size_t i = 0; i < compared; ++i)
+    compared_.push_back(measured[i * measured.size() / compared]);
+  const std::size_t lines = std::min(lit_lines.size(), options.rows);
+  for (std::size_t i = 0; i < lines; ++i)
+    lines_.push_back(lit_lines[i * lit_lines.size() / lines]);
+}
+
+std::vector<float> SequenceSample::wrapped(const Pattern& pattern,
+                                           std::size_t frames_of,
+                                           std::span<const std::size_t> pixels) const {
+  const PhaseAlgorithm algorithm = least_squares(pattern.shifts_rad);
+  const std::vector<Frame>& frames = frames_[frames_of].frames;
+  std::vector<double> counts(frames.size());
+  std::vector<float> phases;
+  phases.reserve(pixels.size());
+  for (const std::size_t pixel : pixels) {
+    for (std::size_t k = 0; k < frames.size(); ++k)
+      counts[k] = counts_of(frames[k], pixel);
+    phases.push_back(static_cast<float>(phase_of(algorithm, counts)));
+  }
+  return phases;
+}
+
+SequenceSample::Phases SequenceSample::phases_of(const SequenceTrial& trial,
+                                                 std::span<const std::size_t> pixels) const {
+  Phases phases(maps_.size());
+  for (const ChangedPattern& change : trial.changes) {
+    const bool same = change.frames_of == change.map &&
+                      change.pattern.shifts_rad == patterns_[change.map].shifts_rad;
+    if (!same) phases[change.map] = wrapped(change.pattern, change.frames_of, pixels);
+  }
+  for (std::size_t m = 0; m < maps_.size(); ++m) {
+    if (!phases[m].empty()) continue;
+    for (const std::size_t pixel : pixels)
+      phases[m].push_back(maps_[m].phase_rad.pixels()[pixel]);
+  }
+  return phases;
+}
+
+std::vector<double> SequenceSample::frequencies_of(const SequenceTrial& trial) const {
+  std::vector<double> per_unit;
+  for (const Pattern& pattern : patterns_)
+    per_unit.push_back(pattern.fringes_per_unit());
+  for (const ChangedPattern& change : trial.changes)
+    per_unit[change.map] = change.pattern.fringes_per_unit();
+  return per_unit;
+}
+
+double SequenceSample::median_distance(const std::vector<double>& per_unit,
+                                       const Phases& phases) const {
+  FringeCurve curve(per_unit, first_, last_);
+  std::vector<float> distances;
+  std::vector<float> pixel(phases.size());
+  for (std::size_t i = 0; i < phases.front().size(); ++i) {
+    for (std::size_t m = 0; m < phases.size(); ++m)
+      pixel[m] = phases[m][i];
+    distances.push_back(curve.nearest(pixel).distance_rad);
+  }
+  return static_cast<double>(median_in_place(std::span(distances)));
+}
+
+double SequenceSample::misfit(const SequenceTrial& trial) const {
+  return median_distance(frequencies_of(trial), phases_of(trial, compared_));
+}
+
+double SequenceSample::chance(const SequenceTrial& trial) const {
+  const Phases known = phases_of(trial, compared_);
+  std::vector<std::size_t> unrelated;
+  for (const ChangedPattern& change : trial.changes)
+    unrelated.push_back(change.map);
+  if (unrelated.empty()) {
+    for (std::size_t m = 0; m < maps_.size(); ++m)
+      unrelated.push_back(m);
+  }
+  double least = std::numeric_limits<double>::max();
+  for (const std::size_t m : unrelated) {
+    Phases phases = known;
+    for (std::size_t i = 0; i < phases[m].size(); ++i)
+      phases[m][i] = random_phase(m, i);
+    least = std::min(least, median_distance(frequencies_of(trial), phases));
+  }
+  return least;
+}
+
+double SequenceSample::expected_misfit(std::span<const double> systematic_rad) const {
+  const std::vector<double> per_unit = frequencies_of({});
+  Phases phases(maps_.size());
+  for (std::size_t m = 0; m < maps_.size(); ++m) {
+    const double systematic = systematic_rad.empty() ? 0.0 : systematic_rad[m];
+    for (std::size_t i = 0; i < compared_.size(); ++i) {
+      const double unit = first_ + (last_ - first_) * uniform_from(hash(7, i));
+      const double noise = std::hypot(maps_[m].sigma_rad.pixels()[compared_[i]], systematic);
+      const double phase = kTwoPi * per_unit[m] * unit + noise * normal_from(hash(hash(m), i));
+      phases[m].push_back(static_cast<float>(wrap_rad(phase)));
+    }
+  }
+  return median_distance(per_unit, phases);
+}
+
+std::vector<PlacedResiduals> SequenceSample::residuals() const {
+  const std::vector<double> per_unit = frequencies_of({});
+  const Phases phases = phases_of({}, compared_);
+  const auto width = static_cast<std::size_t>(maps_.front().status.width());
+  const auto height = static_cast<double>(maps_.front().status.height());
+  FringeCurve curve(per_unit, first_, last_);
+  std::vector<float> pixel(phases.size());
+  std::vector<PlacedResiduals> out;
+  for (std::size_t i = 0; i < compared_.size(); ++i) {
+    for (std::size_t m = 0; m < phases.size(); ++m)
+      pixel[m] = phases[m][i];
+    const auto unit = static_cast<double>(curve.nearest(pixel).unit);
+    const std::size_t row = compared_[i] / width;
+    PlacedResiduals placed{
+        .x = static_cast<double>(compared_[i] % width) / static_cast<double>(width),
+        .y = static_cast<double>(row) / height,
+        .residuals_rad = {}};
+    for (std::size_t m = 0; m < phases.size(); ++m)
+      placed.residuals_rad.push_back(wrap_rad(pixel[m] - kTwoPi * per_unit[m] * unit));
+    out.push_back(std::move(placed));
+  }
+  return out;
+}
+
+double SequenceSample::split_lines(const SequenceTrial& trial) const {
+  const int width = maps_.front().status.width();
+  const double field = last_ - first_;
+  FringeCurve curve(frequencies_of(trial), first_, last_);
+  std::vector<std::size_t> pixels(static_cast<std::size_t>(width));
+  std::vector<float> pixel(maps_.size());
+  std::size_t split = 0;
+  for (const int y : lines_) {
+    for (std::size_t x = 0; x < pixels.size(); ++x)
+      pixels[x] = static_cast<std::size_t>(y) * pixels.size() + x;
+    const Phases phases = phases_of(trial, pixels);
+    std::vector<double> places(pixels.size(), kMissing);
+    for (std::size_t x = 0; x < pixels.size(); ++x) {
+      if (!is_measured(pixels[x])) continue;
+      for (std::size_t m = 0; m < phases.size(); ++m)
+        pixel[m] = phases[m][x];
+      places[x] = (static_cast<double>(curve.nearest(pixel).unit) - first_) / field;
+    }
+    if (is_split(places)) ++split;
+  }
+  return lines_.empty() ? 0.0 : static_cast<double>(split) / static_cast<double>(lines_.size());
+}
+
+double SequenceSample::fit_residual(const Pattern& pattern, std::size_t frames_of) const {
+  const std::vector<double>& shifts = pattern.shifts_rad;
+  if (shifts.size() < 4) return 0.0;
+  const PhaseAlgorithm fit = least_squares(shifts);
+  const std::vector<Frame>& frames = frames_[frames_of].frames;
+  std::vector<float> residuals;
+  for (const std::size_t pixel : compared_) {
+    double mean = 0.0;
+    double cosine = 0.0;
+    double sine = 0.0;
+    for (std::size_t k = 0; k < shifts.size(); ++k) {
+      const double counts = counts_of(frames[k], pixel);
+      mean += fit.mean[k] * counts;
+      cosine += fit.cosine[k] * counts;
+      sine += fit.sine[k] * counts;
+    }
+    double square = 0.0;
+    for (std::size_t k = 0; k < shifts.size(); ++k) {
+      const double model = mean + cosine * std::cos(shifts[k]) - sine * std::sin(shifts[k]);
+      square += std::pow(counts_of(frames[k], pixel) - model, 2);
+    }
+    // Over the modulation of all frames, which does not depend on their order.
+    const double modulation = maps_[frames_of].modulation_counts.pixels()[pixel];
+    const double size = std::max(modulation, std::hypot(cosine, sine));
+    residuals.push_back(
+        static_cast<float>(std::sqrt(square / static_cast<double>(shifts.size() - 3)) / size));
+  }
+  return static_cast<double>(median_in_place(std::span(residuals)));
+}
+
+std::vector<double> SequenceSample::slope_ratios(std::size_t map, std::size_t reference) const {
+  constexpr int kRun = 8;             // pixels over which slopes are averaged
+  constexpr double kMinChange = 0.8;  // rad over a run, of the reference
+  const auto step = [&](std::size_t m, std::size_t pixel) {
+    const auto phases = maps_[m].phase_rad.pixels();
+    return wrap_rad(static_cast<double>(phases[pixel + 1] - phases[pixel]));
+  };
+  const int width = maps_.front().status.width();
+  std::vector<double> ratios;
+  for (int y = 0; y < maps_.front().status.height(); ++y) {
+    for (int x = 0; x + kRun < width; x += kRun) {
+      const auto first = static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
+                         static_cast<std::size_t>(x);
+      double change = 0.0;
+      double of_reference = 0.0;
+      bool measured = is_measured(first);
+      for (std::size_t pixel = first; measured && pixel < first + kRun; ++pixel) {
+        measured = is_measured(pixel + 1);
+        change += step(map, pixel);
+        of_reference += step(reference, pixel);
+      }
+      if (measured && std::abs(of_reference) > kMinChange) ratios.push_back(change / of_reference);
+    }
+  }
+  return ratios;
+}
+
+double SequenceSample::frequency_by_slopes(std::size_t map) const {
+  constexpr std::size_t kFewest = 100;  // runs
+  constexpr double kUncertain = 0.04;   // of the ratio of slopes
+  std::size_t reference = map == 0 ? 1 : 0;
+  for (std::size_t m = 0; m < maps_.size(); ++m) {
+    if (m != map && patterns_[m].fringes_per_unit() > patterns_[reference].fringes_per_unit())
+      reference = m;
+  }
+  std::vector<double> ratios = slope_ratios(map, reference);
+  if (ratios.size() < kFewest) return 0.0;
+  const double about = median_in_place(std::span(ratios)) * patterns_[reference].fringes_per_unit();
+  if (!(about > 0.0)) return 0.0;
+  // The slopes tell it to some percent, the places within the beat of the other maps to more.
+  double best = 0.0;
+  double least = std::numeric_limits<double>::max();
+  const auto look = [&](double from, double to, double step_per_unit) {
+    const auto steps = static_cast<std::size_t>(std::max((to - from) / step_per_unit, 0.0));
+    for (std::size_t i = 0; i <= steps; ++i) {
+      const double per_unit = from + static_cast<double>(i) * step_per_unit;
+      const double found = misfit(period_trial(patterns_, map, per_unit));
+      if (found >= least) continue;
+      least = found;
+      best = per_unit;
+    }
+  };
+  const double fringe = 1.0 / (last_ - first_);
+  look((1.0 - kUncertain) * about, (1.0 + kUncertain) * about, 0.1 * fringe);
+  look(best - 0.1 * fringe, best + 0.1 * fringe, 0.02 * fringe);
+  return best;
+}
+
+double SequenceSample::shown_frequency(std::size_t map) const {
+  std::vector<Pattern> others;
+  Phases phases;
+  std::vector<double> per_unit;
+  const Phases all = phases_of({}, compared_);
+  for (std::size_t m = 0; m < maps_.size(); ++m) {
+    if (m == map) continue;
+    others.push_back(patterns_[m]);
+    per_unit.push_back(patterns_[m].fringes_per_unit());
+    phases.push_back(all[m]);
+  }
+  if (!find_sequence_method(others, projector_)) return frequency_by_slopes(map);
+  FringeCurve curve(per_unit, first_, last_);
+  std::vector<float> pixel(phases.size());
+  std::vector<double> places;
+  for (std::size_t i = 0; i < compared_.size(); ++i) {
+    for (std::size_t m = 0; m < phases.size(); ++m)
+      pixel[m] = phases[m][i];
+    places.push_back(static_cast<double>(curve.nearest(pixel).unit));
+  }
+  return best_frequency(places, all[map], patterns_[map].fringes_per_unit(), last_ - first_);
+}
+
+}  // namespace frangia

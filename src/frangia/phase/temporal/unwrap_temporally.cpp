@@ -1,0 +1,166 @@
+#include "frangia/phase/temporal/unwrap_temporally.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+
+#include "frangia/core/angles.h"
+#include "frangia/core/error.h"
+#include "frangia/core/missing.h"
+#include "frangia/core/parallel.h"
+#include "frangia/phase/internal/row_smoother.h"
+#include "frangia/rig/phase_range.h"
+
+namespace frangia {
+
+namespace {
+
+constexpr std::size_t kLevelChunk = 1 << 16;
+
+/// The still wrapped phase of a level, in new memory.
+AbsolutePhase start_from(const WrappedPhase& level) {
+  return {level.pattern,
+          level.phase_rad,
+          level.sigma_rad,
+          level.status,
+          level.systematic_rad,
+          level.differing_share};
+}
+
+/// The still wrapped phase of a level, in the level's memory.
+AbsolutePhase start_from(WrappedPhase&& level) {
+  return {std::move(level.pattern),
+          std::move(level.phase_rad),
+          std::move(level.sigma_rad),
+          std::move(level.status),
+          std::move(level.systematic_rad),
+          level.differing_share};
+}
+
+/// Unwraps the coarsest level. Near the ends of the single fringe, noise may wrap the phase to the
+/// other end; such pixels are uncertain.
+void unwrap_single_fringe(const Projector& projector, double min_sigmas, AbsolutePhase& level) {
+  const double center = phase_range(level.pattern, projector).center_rad();
+  parallel_chunks(
+      level.status.pixels().size(), kLevelChunk, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+          if (level.status.pixels()[i] != PixelStatus::Measured) continue;
+          float& phase = level.phase_rad.pixels()[i];
+          float& sigma = level.sigma_rad.pixels()[i];
+          const double from_center = wrap_rad(phase - center);
+          phase = static_cast<float>(center + from_center);
+          if (kPi - std::abs(from_center) > min_sigmas * sigma) continue;
+          level.status.pixels()[i] = PixelStatus::UncertainOrder;
+          phase = sigma = kMissing;
+          if (!level.systematic_rad.empty()) level.systematic_rad.pixels()[i] = kMissing;
+        }
+      });
+}
+
+/// A row of the coarse phase.
+struct CoarseRow {
+  const float* phase_rad;
+  const float* sigma_rad;
+  const PixelStatus* status;
+  double fringes_per_unit;
+};
+
+void unwrap_row(const CoarseRow& coarse, double max_sigma, int y, AbsolutePhase& fine) {
+  const double ratio = fine.pattern.fringes_per_unit() / coarse.fringes_per_unit;
+  for (int x = 0; x < fine.phase_rad.width(); ++x) {
+    if (fine.status(x, y) != PixelStatus::Measured) continue;
+    const double expected = ratio * coarse.phase_rad[x];
+    const double wrapped = fine.phase_rad(x, y);
+    const double sigma = std::hypot(ratio * coarse.sigma_rad[x], fine.sigma_rad(x, y));
+    if (coarse.status[x] == PixelStatus::Measured && sigma <= max_sigma) {
+      fine.phase_rad(x, y) =
+          static_cast<float>(wrapped + kTwoPi * std::round((expected - wrapped) / kTwoPi));
+      continue;
+    }
+    const bool invalid_before = coarse.status[x] != PixelStatus::Measured;
+    fine.status(x, y) = invalid_before ? coarse.status[x] : PixelStatus::UncertainOrder;
+    fine.phase_rad(x, y) = kMissing;
+    fine.sigma_rad(x, y) = kMissing;
+    if (!fine.systematic_rad.empty()) fine.systematic_rad(x, y) = kMissing;
+  }
+}
+
+/// Unwraps a level by the smoothed coarser one, row by row, so that the smoothed rows stay in the
+/// cache.
+void unwrap_level(const AbsolutePhase& coarse,
+                  int smooth_radius_px,
+                  double max_sigma,
+                  AbsolutePhase& fine) {
+  constexpr std::size_t kRows = 16;
+  require(fine.pattern.fringes_per_unit() > coarse.pattern.fringes_per_unit(),
+          "unwrap_finer_levels: the phases must go from coarse to fine");
+  require(same_size(fine.phase_rad, coarse.phase_rad),
+          "unwrap_finer_levels: the phases differ in size");
+  const auto height = static_cast<std::size_t>(fine.status.height());
+  const double fringes_per_unit = coarse.pattern.fringes_per_unit();
+  parallel_chunks(height, kRows, [&](std::size_t begin, std::size_t end) {
+    RowSmoother smoother(coarse, smooth_radius_px);
+    for (std::size_t row = begin; row < end; ++row) {
+      const int y = static_cast<int>(row);
+      const PixelStatus* status = &fine.status(0, y);
+      const PixelStatus* status_end = status + fine.status.width();
+      if (std::find(status, status_end, PixelStatus::Measured) == status_end) continue;
+      smoother.smooth(y);
+      unwrap_row(
+          {smoother.phase_rad(), smoother.sigma_rad(), &coarse.status(0, y), fringes_per_unit},
+          max_sigma,
+          y,
+          fine);
+    }
+  });
+}
+
+/// Unwraps finer levels. Moves out of `finer` unless its elements are constant.
+template <typename Level>
+AbsolutePhase unwrap_levels(AbsolutePhase absolute,
+                            std::span<Level> finer,
+                            const TemporalUnwrapOptions& options) {
+  const double max_sigma = sigma_for_wrong_order_probability(options.max_wrong_order);
+  for (Level& level : finer) {
+    AbsolutePhase unwrapped = start_from(std::move(level));
+    unwrap_level(absolute, options.smooth_radius_px, max_sigma, unwrapped);
+    absolute = std::move(unwrapped);
+  }
+  return absolute;
+}
+
+template <typename Level>
+AbsolutePhase unwrap_all_levels(std::span<Level> coarse_to_fine,
+                                const Projector& projector,
+                                const TemporalUnwrapOptions& options) {
+  require(!coarse_to_fine.empty(), "unwrap_temporally: no phase given");
+  require(is_absolute(coarse_to_fine.front().pattern, projector),
+          "unwrap_temporally: the first level must have at most one fringe over the field");
+  const double sigmas = kPi / sigma_for_wrong_order_probability(options.max_wrong_order);
+  AbsolutePhase coarsest = start_from(std::move(coarse_to_fine.front()));
+  unwrap_single_fringe(projector, sigmas, coarsest);
+  return unwrap_levels(std::move(coarsest), coarse_to_fine.subspan(1), options);
+}
+
+}  // namespace
+
+AbsolutePhase unwrap_finer_levels(AbsolutePhase absolute,
+                                  std::span<const WrappedPhase> finer,
+                                  const TemporalUnwrapOptions& options) {
+  return unwrap_levels(std::move(absolute), finer, options);
+}
+
+AbsolutePhase unwrap_temporally(std::span<const WrappedPhase> coarse_to_fine,
+                                const Projector& projector,
+                                const TemporalUnwrapOptions& options) {
+  return unwrap_all_levels(coarse_to_fine, projector, options);
+}
+
+AbsolutePhase unwrap_temporally_in_place(std::vector<WrappedPhase>&& coarse_to_fine,
+                                         const Projector& projector,
+                                         const TemporalUnwrapOptions& options) {
+  return unwrap_all_levels(std::span(coarse_to_fine), projector, options);
+}
+
+}  // namespace frangia

@@ -1,0 +1,78 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "frangia/frames/frame_stack.h"
+#include "frangia/frames/noise_model.h"
+#include "frangia/phase/algorithm/fit_algorithm.h"
+#include "frangia/phase/wrap/phase_map.h"
+
+namespace frangia {
+
+/// Quality measures of the frames of one pattern.
+struct FrameAssessment {
+  std::string pattern;              ///< name of the pattern
+  std::string algorithm;            ///< name of the algorithm that decoded it
+  int frames = 0;                   ///< number of frames
+  double nominal_deg = 0.0;         ///< nominal step; 0 if the step was not estimated
+  double step_deg = 0.0;            ///< estimated step
+  double step_sigma_deg = 0.0;      ///< standard deviation of `step_deg`
+  double jitter_deg = 0.0;          ///< rms error of single steps; 0 if none is detected
+  double contrast = 0.0;            ///< median of modulation over mean, of the measured pixels
+  double measured_fraction = 0.0;   ///< of all pixels
+  double saturated_fraction = 0.0;  ///< of all pixels
+  /// Residual variance of the fringe fit relative to the camera noise, mean over the measured
+  /// pixels. 1 is expected; 0 for three frames, which leave no residual. For four frames 90 degrees
+  /// apart the residual is I1 - I2 + I3 - I4.
+  double residual_ratio = 0.0;
+  /// `residual_ratio` without the residuals that harmonics and the gains of the frames explain.
+  double unexplained_ratio = 0.0;
+  int harmonic = 0;                  ///< order of the largest significant harmonic; 0 for none
+  double harmonic_share = 0.0;       ///< its amplitude relative to that of the fringes
+  double harmonic_error_rad = 0.0;   ///< rms phase error due to all harmonics; 0 if corrected
+  bool harmonics_corrected = false;  ///< the effect of the harmonics is removed from the phase
+  double flicker = 0.0;              ///< rms gain of the frames, which the algorithm compensates
+  double flicker_error_rad = 0.0;    ///< rms phase error due to flicker that is not compensated
+  bool is_flicker = true;            ///< the frames do not suggest that this is motion instead
+  /// `unexplained_ratio` exceeds the limit: the object or the rig moved between the frames.
+  bool vibration_suspected = false;
+};
+
+/// Limits and sampling of the assessment of frames.
+struct AssessmentOptions {
+  /// Unexplained residual ratio above which motion is suspected. The residuals of good frames give
+  /// 1 with a noise model that is accurate to about 10 %, as an estimated one is.
+  double max_residual_ratio = 1.6;
+  /// Share of the excess residual that harmonics and gains may leave without suspicion: their
+  /// amplitude varies over the image with blur and ambient light.
+  double max_unexplained_share = 0.1;
+  /// A pixel's squared residual counts up to this multiple of its expectation, so that the few
+  /// pixels on depth edges do not decide: (5 sigma)^2.
+  double max_pixel_ratio = 25.0;
+  /// Approximate number of sampled pixels. The mean ratio then has a standard error below 0.5 %.
+  std::size_t samples = 100'000;
+};
+
+/// Assesses the frames of a pattern from its fitted algorithm and wrapped phase. The number of
+/// operations is linear in pixels and frames.
+///
+/// @shape    `stack` and `map` have the same size
+[[nodiscard]] FrameAssessment assess_frames(const FrameStack& stack,
+                                            const FittedAlgorithm& fitted,
+                                            const WrappedPhase& map,
+                                            const NoiseModel& noise,
+                                            const AssessmentOptions& options = {});
+
+/// Returns whether an assessment deserves a warning: motion, flicker that is not compensated,
+/// harmonics that shift the phase, or a contrast above 1.
+[[nodiscard]] bool needs_attention(const FrameAssessment& assessment);
+
+/// Describes harmonics, flicker and an impossible contrast, one clause each, with what to do.
+[[nodiscard]] std::vector<std::string> findings(const FrameAssessment& assessment);
+
+/// Formats an assessment as one sentence.
+[[nodiscard]] std::string describe(const FrameAssessment& assessment);
+
+}  // namespace frangia

@@ -1,0 +1,90 @@
+#include "frangia/phase/waveform/frame_samples.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <type_traits>
+#include <utility>
+
+namespace frangia {
+
+Eigen::ArrayXXf sample_frames(const FrameStack& stack, std::size_t wanted) {
+  const int width = width_of(stack.frames.front());
+  const int height = height_of(stack.frames.front());
+  const double all = static_cast<double>(width) * height;
+  // The same stride along x and y, so that no fringe direction is preferred.
+  const int stride = std::max(
+      1, static_cast<int>(std::sqrt(all / static_cast<double>(std::max<std::size_t>(wanted, 1)))));
+  const auto frames = static_cast<Eigen::Index>(stack.frames.size());
+  const Eigen::Index most =
+      Eigen::Index{(width + stride - 1) / stride} * ((height + stride - 1) / stride);
+  Eigen::ArrayXXf counts(most, frames);
+  Eigen::Array<bool, Eigen::Dynamic, 1> kept =
+      Eigen::Array<bool, Eigen::Dynamic, 1>::Constant(most, true);
+  for (Eigen::Index k = 0; k < frames; ++k) {
+    std::visit(
+        [&](const auto& image) {
+          Eigen::Index row = 0;
+          for (int y = 0; y < height; y += stride) {
+            for (int x = 0; x < width; x += stride, ++row) {
+              counts(row, k) = static_cast<float>(image(x, y));
+              kept(row) = kept(row) && image(x, y) < stack.white_level;
+            }
+          }
+        },
+        stack.frames[static_cast<std::size_t>(k)]);
+  }
+  Eigen::Index rows = 0;
+  for (Eigen::Index row = 0; row < most; ++row) {
+    if (kept(row)) counts.row(rows++) = counts.row(row);
+  }
+  counts.conservativeResize(rows, frames);
+  return counts;
+}
+
+FrameStack sample_rows(const FrameStack& stack, std::size_t wanted) {
+  const int width = width_of(stack.frames.front());
+  const int height = height_of(stack.frames.front());
+  const auto rows = static_cast<std::size_t>(height);
+  const std::size_t most = std::max<std::size_t>(1, wanted / static_cast<std::size_t>(width));
+  const std::size_t stride = std::max<std::size_t>(1, rows / most);
+  FrameStack out{.pattern = stack.pattern,
+                 .frames = {},
+                 .white_level = stack.white_level,
+                 .exposure = stack.exposure};
+  const int kept = static_cast<int>((rows + stride - 1) / stride);
+  for (const Frame& frame : stack.frames) {
+    std::visit(
+        [&](const auto& image) {
+          std::remove_cvref_t<decltype(image)> some(width, kept, Uninitialized{});
+          for (int y = 0; y < kept; ++y) {
+            const auto* row = &image(0, y * static_cast<int>(stride));
+            std::copy(row, row + width, &some(0, y));
+          }
+          out.frames.emplace_back(std::move(some));
+        },
+        frame);
+  }
+  return out;
+}
+
+FrameStack sample_pixels(const FrameStack& stack, std::span<const std::uint32_t> pixels) {
+  FrameStack out{.pattern = stack.pattern,
+                 .frames = {},
+                 .white_level = stack.white_level,
+                 .exposure = stack.exposure};
+  for (const Frame& frame : stack.frames) {
+    std::visit(
+        [&](const auto& image) {
+          std::remove_cvref_t<decltype(image)> some(
+              static_cast<int>(pixels.size()), 1, Uninitialized{});
+          for (std::size_t i = 0; i < pixels.size(); ++i)
+            some.pixels()[i] = image.pixels()[pixels[i]];
+          out.frames.emplace_back(std::move(some));
+        },
+        frame);
+  }
+  return out;
+}
+
+}  // namespace frangia

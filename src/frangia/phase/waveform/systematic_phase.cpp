@@ -1,0 +1,89 @@
+#include "frangia/phase/waveform/systematic_phase.h"
+
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+#include "frangia/core/angles.h"
+#include "frangia/core/missing.h"
+#include "frangia/core/parallel.h"
+#include "frangia/phase/algorithm/phase_algorithm.h"
+
+namespace frangia {
+namespace {
+
+constexpr int kErrorPhases = 360;  ///< phases per fringe
+/// A tenth of the phase noise of bright 8-bit frames after fusion of 100 pixels.
+constexpr double kNegligible_rad = 5e-4;
+
+/// Rms over a fringe of the error of the phase of frames with this waveform and the fitted gains.
+double rms_error(const FittedAlgorithm& fitted,
+                 const FringeWaveform& waveform,
+                 const ResponseTable* table) {
+  const std::vector<double>& shifts = fitted.shifts_rad;
+  std::vector<double> gains = fitted.waveform.gains;
+  gains.resize(shifts.size(), 0.0);
+  std::vector<double> light(shifts.size());
+  double square = 0.0;
+  for (int i = 0; i < kErrorPhases; ++i) {
+    const double phase = kTwoPi * (i + 0.37) / kErrorPhases;
+    for (std::size_t k = 0; k < shifts.size(); ++k) {
+      light[k] = (1.0 + gains[k]) *
+                 (fitted.waveform.mean_over_modulation + waveform.light_at(phase + shifts[k]));
+    }
+    double found = phase_of(fitted.algorithm, light);
+    if (table != nullptr) found += correction_at(*table, found);
+    const double error = wrap_rad(found - phase);
+    square += error * error / kErrorPhases;
+  }
+  return std::sqrt(square);
+}
+
+/// Rms phase error per unit amplitude of a harmonic.
+double harmonic_response(const FittedAlgorithm& fitted, std::size_t index) {
+  constexpr double kProbe = 1e-4;
+  FringeWaveform probe;
+  probe.harmonics.assign(index + 1, 0.0);
+  probe.harmonics[index] = kProbe;
+  return rms_error(fitted, probe, nullptr) / kProbe;
+}
+
+}  // namespace
+
+double harmonic_phase_error(const FittedAlgorithm& fitted, const ResponseTable* table) {
+  if (fitted.waveform.largest_harmonic() == 0) return 0.0;
+  return rms_error(fitted, fitted.waveform.waveform, table);
+}
+
+SystematicPhase systematic_phase(const FittedAlgorithm& fitted, const ResponseTable* table) {
+  double square = std::pow(harmonic_phase_error(fitted, table), 2);
+  for (std::size_t i = 0; i < fitted.waveform.waveform.harmonics.size(); ++i) {
+    if (fitted.waveform.waveform.harmonics[i] == 0.0) continue;
+    square += std::pow(fitted.waveform.sigma[i] * harmonic_response(fitted, i), 2);
+  }
+  square += std::pow(fitted.waveform.flicker_error_rad, 2);
+  square += std::pow(fitted.unexplained_rad, 2);
+  const double differing = square;
+  if (fitted.step.found && fitted.algorithm.name != "aia") {
+    // Independent errors of N shifts change the phase by sqrt(2 / N) of their size.
+    const auto frames = static_cast<double>(fitted.shifts_rad.size());
+    square += std::pow(fitted.step.jitter_rad, 2) * 2.0 / frames;
+  }
+  const double sigma = std::sqrt(square);
+  if (sigma < kNegligible_rad) return {};
+  return {sigma, differing / square};
+}
+
+Image<float> uniform_systematic(double systematic_rad, const Image<PixelStatus>& status) {
+  if (systematic_rad == 0.0) return {};
+  Image<float> out(status.width(), status.height(), Uninitialized{});
+  parallel_rows(status.height(), [&](int y) {
+    for (int x = 0; x < status.width(); ++x) {
+      out(x, y) =
+          status(x, y) == PixelStatus::Measured ? static_cast<float>(systematic_rad) : kMissing;
+    }
+  });
+  return out;
+}
+
+}  // namespace frangia

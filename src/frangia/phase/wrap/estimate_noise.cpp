@@ -1,0 +1,199 @@
+#include "frangia/phase/wrap/estimate_noise.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include <Eigen/LU>
+
+#include "frangia/core/median.h"
+#include "frangia/phase/algorithm/phase_algorithm.h"
+#include "frangia/phase/wrap/internal/noise_row_gatherer.h"
+#include "frangia/phase/wrap/internal/row_rounds.h"
+
+namespace frangia {
+namespace {
+
+constexpr int kBins = NoiseSamples::kBins;
+constexpr double kMinSigma = 0.3;  ///< counts: quantization, 1 / sqrt(12)
+constexpr std::size_t kMinBinSamples =
+    200;  ///< fewest samples of a bin; the variance then has a standard error of 10 %
+/// Pixels of a stack that are sampled in the first round; the variance of one bin of them has a
+/// standard error of 1 %. More rounds follow until the bins are filled, up to the second number.
+constexpr double kFirstSamples = 32'768;
+constexpr double kMostSamples = 400'000;
+
+/// Three frames: their mean is preferred if its apparent variance is below this share of that of
+/// the single frames. Without fine fringes and texture both are equal within a few percent.
+constexpr double kFineFringes = 0.8;
+
+using FrameWeights = std::vector<double>;
+
+/// Each frame alone.
+std::vector<FrameWeights> single_frames(std::size_t count) {
+  std::vector<FrameWeights> combinations;
+  for (std::size_t k = 0; k < count; ++k) {
+    combinations.emplace_back(count, 0.0);
+    combinations.back()[k] = 1.0;
+  }
+  return combinations;
+}
+
+/// The mean of the frames, in which the fringes cancel, with unit norm.
+FrameWeights mean_of_frames(const std::vector<double>& shifts_rad) {
+  FrameWeights mean = least_squares(shifts_rad).mean;
+  double square = 0.0;
+  for (const double weight : mean)
+    square += weight * weight;
+  for (double& weight : mean)
+    weight /= std::sqrt(square);
+  return mean;
+}
+
+/// The combination of four frames or more, of unit norm, that contains noise only.
+FrameWeights noise_combination(const std::vector<double>& shifts_rad) {
+  const std::size_t count = shifts_rad.size();
+  const PhaseAlgorithm fit = least_squares(shifts_rad);
+  // The residual of one frame after the fit of mean, cosine and sine; the frame with the largest
+  // residual is used.
+  FrameWeights best;
+  double best_square = 0.0;
+  for (std::size_t frame = 0; frame < count; ++frame) {
+    FrameWeights left(count);
+    double square = 0.0;
+    for (std::size_t k = 0; k < count; ++k) {
+      const double model = fit.mean[frame] + fit.cosine[frame] * std::cos(shifts_rad[k]) -
+                           fit.sine[frame] * std::sin(shifts_rad[k]);
+      left[k] = (k == frame ? 1.0 : 0.0) - model;
+      square += left[k] * left[k];
+    }
+    if (square <= best_square) continue;
+    best_square = square;
+    best = left;
+  }
+  for (double& weight : best)
+    weight /= std::sqrt(best_square);
+  return best;
+}
+
+/// Robust variance of Gaussian noise from absolute values: a median, refined by three rounds of
+/// 3-sigma clipping because the median of whole counts moves in steps.
+double robust_variance(std::vector<float> magnitudes) {
+  double sigma = std::max(median_in_place(std::span(magnitudes)) / 0.6745, kMinSigma);
+  for (int i = 0; i < 3; ++i) {
+    double sum = 0.0;
+    double count = 0.0;
+    for (const float magnitude : magnitudes) {
+      if (magnitude > 3.0 * sigma) continue;
+      sum += static_cast<double>(magnitude) * magnitude;
+      count += 1.0;
+    }
+    sigma = std::sqrt(sum / std::max(count, 1.0) /
+                      0.9733);  // 0.9733: variance of a Gaussian truncated at 3 sigma
+  }
+  return sigma * sigma;
+}
+
+/// Whether nearly all samples outside of the fullest bin, the background's, lie in bins that are
+/// full enough to be used. A small part needs more rows than a large one.
+bool are_filled(const NoiseBins& bins) {
+  constexpr double kFew = 0.1;
+  constexpr double kStray = 1e-3;  // of all samples: a part that small fills no bin in any case
+  double all = 0.0;
+  double unused = 0.0;
+  double fullest = 0.0;
+  for (const std::vector<float>& bin : bins) {
+    const auto size = static_cast<double>(bin.size());
+    all += size;
+    unused += bin.size() < kMinBinSamples ? size : 0.0;
+    fullest = std::max(fullest, size);
+  }
+  return fullest >= static_cast<double>(kMinBinSamples) &&
+         unused <= std::max(kFew * (all - fullest), kStray * all);
+}
+
+void append(const NoiseBins& from, NoiseBins& to) {
+  for (std::size_t bin = 0; bin < to.size(); ++bin)
+    to[bin].insert(to[bin].end(), from[bin].begin(), from[bin].end());
+}
+
+double pooled_variance(const NoiseBins& bins) {
+  std::vector<float> all;
+  for (const std::vector<float>& bin : bins)
+    all.insert(all.end(), bin.begin(), bin.end());
+  return robust_variance(std::move(all));
+}
+
+}  // namespace
+
+void NoiseSamples::add(const FrameStack& stack) {
+  if (stack.pattern.kind != PatternKind::Fringe || stack.frames.size() < 3) return;
+  white_ = stack.white_level;
+  const std::vector<double>& shifts = stack.pattern.shifts_rad;
+  const RowRounds rounds(
+      width_of(stack.frames.front()), height_of(stack.frames.front()), kFirstSamples, kMostSamples);
+  if (shifts.size() > 3) {
+    const NoiseRowGatherer gatherer(stack, noise_combination(shifts));
+    NoiseBins bins;
+    for (int round = 0; round < rounds.count() && !are_filled(bins); ++round)
+      rounds.for_each_row(round, [&](int y) { gatherer.gather(y, bins); });
+    append(bins, bins_);
+    return;
+  }
+  // Fine fringes add to the apparent noise of single frames, texture to that of their mean.
+  std::vector<NoiseRowGatherer> frames;
+  for (const FrameWeights& weights : single_frames(shifts.size()))
+    frames.emplace_back(stack, weights);
+  const NoiseRowGatherer mean_frame(stack, mean_of_frames(shifts));
+  NoiseBins single;
+  NoiseBins mean;
+  for (int round = 0; round < rounds.count() && !are_filled(mean); ++round) {
+    rounds.for_each_row(round, [&](int y) {
+      for (const NoiseRowGatherer& frame : frames)
+        frame.gather(y, single);
+      mean_frame.gather(y, mean);
+    });
+  }
+  append(pooled_variance(mean) < kFineFringes * pooled_variance(single) ? mean : single, bins_);
+}
+
+NoiseModel NoiseSamples::model() const {
+  // Weighted straight line through the bins; the weight is samples / variance^2.
+  Eigen::Matrix2d normal = Eigen::Matrix2d::Zero();
+  Eigen::Vector2d right = Eigen::Vector2d::Zero();
+  for (int bin = 0; bin < kBins; ++bin) {
+    const auto& magnitudes = bins_[static_cast<std::size_t>(bin)];
+    if (magnitudes.size() < kMinBinSamples) continue;
+    const double variance = std::max(robust_variance(magnitudes), 1.0 / 12.0);
+    const Eigen::Vector2d row(1.0, (bin + 0.5) * white_ / kBins);
+    const double weight = static_cast<double>(magnitudes.size()) / (variance * variance);
+    normal += weight * row * row.transpose();
+    right += weight * row * variance;
+  }
+  NoiseModel model;
+  if (normal(0, 0) == 0.0) return model;
+  Eigen::Vector2d line(right(0) / normal(0, 0), 0.0);
+  if (normal.determinant() > 1e-9 * normal(0, 0) * normal(1, 1)) line = normal.inverse() * right;
+  if (line(1) < 0.0) line = {right(0) / normal(0, 0), 0.0};
+  if (line(0) < model.floor_counts2) {
+    line = {model.floor_counts2,
+            std::max(0.0, (right(1) - model.floor_counts2 * normal(0, 1)) / normal(1, 1))};
+  }
+  model.floor_counts2 = line(0);
+  model.slope_counts = line(1);
+  return model;
+}
+
+NoiseModel estimate_noise(std::span<const FrameStack> stacks) {
+  NoiseSamples samples;
+  for (const FrameStack& stack : stacks)
+    samples.add(stack);
+  return samples.model();
+}
+
+}  // namespace frangia

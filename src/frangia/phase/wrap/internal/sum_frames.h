@@ -1,0 +1,19 @@
+#pragma once
+
+#include <cstddef>
+
+#include "frangia/frames/frame_stack.h"
+#include "frangia/phase/algorithm/phase_algorithm.h"
+#include "frangia/phase/internal/wrap_tile.h"
+
+namespace frangia {
+
+/// Computes the sums over all frames for the pixels [at, at + n), n <= kTilePixels. `brightest`
+/// accumulates; set it to 0 before the first stack.
+void sum_frames(const FrameStack& stack,
+                const PhaseAlgorithm& algorithm,
+                std::size_t at,
+                std::size_t n,
+                WrapTile& tile);
+
+}  // namespace frangia

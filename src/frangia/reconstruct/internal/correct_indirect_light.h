@@ -1,0 +1,35 @@
+#pragma once
+
+#include <optional>
+
+#include "frangia/core/run.h"
+#include "frangia/decode/scan_decoding.h"
+#include "frangia/fusion/fuse_views.h"
+#include "frangia/geometry/mesh.h"
+#include "frangia/indirect_light/indirect_light_report.h"
+#include "frangia/reconstruct/internal/measure_views.h"
+
+namespace frangia {
+
+/// Corrects views that are not registered yet by the indirect light that a coarse surface predicts.
+/// Otherwise views of a concave part contradict the others. Returns whether there is any.
+///
+/// @errors   as fuse_views and indirect_part
+bool correct_before_registration(MeasuredViews& measured,
+                                 const ScanDecoding& decoding,
+                                 FusionOptions coarse,
+                                 const Run& run);
+
+/// Corrects the views by the indirect light that the fused surface predicts, and fuses them again;
+/// twice, because the corrected surface predicts better. `fusion` gets the systematic part of the
+/// prediction. Warns where indirect light matters; returns nothing where there is none.
+///
+/// @errors   as fuse_views and indirect_part
+[[nodiscard]] std::optional<IndirectLightReport> correct_indirect_light(
+    Mesh& fused,
+    MeasuredViews& measured,
+    const ScanDecoding& decoding,
+    FusionOptions& fusion,
+    const Run& run);
+
+}  // namespace frangia

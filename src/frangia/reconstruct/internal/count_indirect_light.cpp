@@ -1,0 +1,55 @@
+#include "frangia/reconstruct/internal/count_indirect_light.h"
+
+#include <cstddef>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "frangia/dataset/scan_of_camera.h"
+#include "frangia/reconstruct/internal/indirect_part.h"
+#include "frangia/reconstruct/internal/tie_cameras.h"
+#include "frangia/rig/rig_of_camera.h"
+
+namespace frangia {
+namespace {
+
+/// Indirect light in the views of one camera, which holds on to the rays of its pixels.
+struct CameraPart {
+  Image<Eigen::Vector2f> rays;
+  std::optional<IndirectPart> part;
+};
+
+}  // namespace
+
+std::optional<IndirectLightReport> count_indirect_light(Mesh& fused,
+                                                        const MeasuredViews& measured,
+                                                        const ScanDecoding& decoding,
+                                                        FusionOptions& fusion,
+                                                        const Run& run) {
+  const auto parts = std::make_shared<std::vector<CameraPart>>(camera_count(decoding.scan.rig));
+  std::optional<IndirectLightReport> report;
+  for (std::size_t camera = 0; camera < parts->size(); ++camera) {
+    CameraPart& own = (*parts)[camera];
+    const Scan scan = scan_of_camera(decoding.scan, camera);
+    own.rays = rays_of(scan.rig.camera.model);
+    own.part = indirect_part({scan, own.rays, decoding.options, decoding.plan},
+                             lit_views(measured, decoding.scan, camera),
+                             fused,
+                             ShiftedPoints::Kept,
+                             run);
+    if (own.part && (!report || own.part->report.largest_mm > report->largest_mm))
+      report = own.part->report;
+  }
+  if (!report) return report;
+  report->corrected = false;
+  fusion.add_systematic = [others = std::move(fusion.add_systematic), parts](View& view,
+                                                                             std::size_t camera) {
+    if (others) others(view, camera);
+    if (const auto& part = parts->at(camera).part) part->add(view);
+  };
+  fused = fuse_views(views_of_cameras(measured, decoding.scan.rig), fusion, run);
+  announce(*report, run);
+  return report;
+}
+
+}  // namespace frangia

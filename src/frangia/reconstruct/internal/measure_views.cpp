@@ -1,0 +1,250 @@
+#include "frangia/reconstruct/internal/measure_views.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "frangia/core/median.h"
+#include "frangia/dataset/scan_of_camera.h"
+#include "frangia/decode/check_view.h"
+#include "frangia/decode/fuse_view_cameras.h"
+#include "frangia/decode/survey_scan.h"
+#include "frangia/decode/view_decoder.h"
+#include "frangia/decode/view_quality.h"
+#include "frangia/rig/rig_of_camera.h"
+
+namespace frangia {
+namespace {
+
+std::size_t count_points(const RangeGrid& range) {
+  const auto depth = range.depth_mm.pixels();
+  return static_cast<std::size_t>(
+      std::count_if(depth.begin(), depth.end(), [](float z) { return !std::isnan(z); }));
+}
+
+double share(const Image<PixelStatus>& status, PixelStatus which) {
+  const auto count = std::count(status.pixels().begin(), status.pixels().end(), which);
+  return 100.0 * static_cast<double>(count) / static_cast<double>(status.pixels().size());
+}
+
+std::string why_empty(const Scan& scan, std::size_t view, const Image<PixelStatus>& status) {
+  return fmt::format(
+      "{}: no point was measured, and the view is left out: {:.1f} % of its pixels are unmodulated "
+      "or less certain than `max_sigma`, and {:.1f} % are saturated",
+      (scan.folder / scan.views[view].folder).string(),
+      share(status, PixelStatus::Unmodulated),
+      share(status, PixelStatus::Saturated));
+}
+
+/// Reports the assessments of the first view, and of the other views only motion and flicker: the
+/// harmonics are those of the first view.
+void report_assessments(const Scan& scan,
+                        std::size_t view,
+                        const std::vector<FrameAssessment>& assessments,
+                        const Run& run) {
+  for (const FrameAssessment& assessment : assessments) {
+    const std::string folder = scan.views[view].folder.string();
+    const bool varies = assessment.vibration_suspected || assessment.flicker_error_rad > 0.0;
+    if (varies || (view == 0 && needs_attention(assessment))) {
+      run.warn(fmt::format("{}: {}", folder, describe(assessment)));
+    } else if (view == 0) {
+      run.note(fmt::format("{}: {}", folder, describe(assessment)));
+    }
+  }
+}
+
+/// The median sigma of the points on every 16th row; NaN without points.
+double median_sigma_mm(const RangeGrid& range) {
+  constexpr int kRows = 16;
+  std::vector<float> sigmas_mm;
+  for (int y = kRows / 2; y < range.sigma_mm.height(); y += kRows) {
+    for (int x = 0; x < range.sigma_mm.width(); ++x) {
+      if (!std::isnan(range.depth_mm(x, y))) sigmas_mm.push_back(range.sigma_mm(x, y));
+    }
+  }
+  return sigmas_mm.empty() ? kMissing : static_cast<double>(median(std::move(sigmas_mm)));
+}
+
+/// Collects what the views say about scan.toml, and ends a scan of which no view fits it.
+class ScanFit {
+ public:
+  ScanFit(const Scan& scan, const Run& run) : scan_(scan), run_(run) {}
+
+  /// Whether the view is to be triangulated; warns if something in it does not fit.
+  bool add(std::size_t view, const ViewFit& fit) {
+    const std::string folder = scan_.views[view].folder.string();
+    if (fit.accepted) {
+      run_.warn(fmt::format(
+          "{}: {}; triangulated because `accept_inconsistent` is set", folder, fit.reason));
+      return true;
+    }
+    if (fit.fits()) {
+      fitting_ = fitting_ || fit.decided;
+      if (!fit.reason.empty())
+        run_.warn(fmt::format("{}: {}; this direction is not used", folder, fit.reason));
+      return true;
+    }
+    if (first_reason_.empty()) first_reason_ = fit.reason;
+    run_.warn(fmt::format("{}: {}; the view is left out", folder, fit.reason));
+    ++unfit_;
+    constexpr std::size_t kEnough = 3;
+    if (unfit_ == kEnough && !fitting_) end();
+    return false;
+  }
+  /// Throws if views do not fit and none does.
+  void finish() const {
+    if (unfit_ > 0 && !fitting_) end();
+    if (!fitting_) {
+      run_.note(
+          "nothing in the frames decides whether the patterns are those of scan.toml: a wrong "
+          "start, "
+          "direction or period would not be noticed");
+    }
+  }
+
+ private:
+  [[noreturn]] void end() const {
+    throw Error(ErrorKind::Numeric,
+                fmt::format("{}: {}; nothing is triangulated: correct scan.toml, or set "
+                            "`accept_inconsistent`",
+                            scan_.folder.string(),
+                            first_reason_));
+  }
+
+  const Scan& scan_;
+  const Run& run_;
+  bool fitting_ = false;
+  std::size_t unfit_ = 0;
+  std::string first_reason_;
+};
+
+/// A camera of the rig, in whose frame its views are decoded.
+struct CameraScan {
+  Scan scan;
+  Image<Eigen::Vector2f> own_rays;  ///< empty for the reference camera
+  const Image<Eigen::Vector2f>& rays;
+  DecodeOptions options;
+  ScanFit fit;
+  std::unique_ptr<ViewDecoder> decoder;
+
+  CameraScan(const Scan& all,
+             std::size_t camera,
+             const Image<Eigen::Vector2f>& reference_rays,
+             const DecodeOptions& decode,
+             const Run& run)
+      : scan(scan_of_camera(all, camera)),
+        own_rays(camera == 0 ? Image<Eigen::Vector2f>() : rays_of(scan.rig.camera.model)),
+        rays(camera == 0 ? reference_rays : own_rays),
+        options(decode),
+        fit(scan, run) {
+    options.survey = survey_scan(scan, run);
+    options.keep_maps = false;
+  }
+};
+
+std::vector<std::unique_ptr<CameraScan>> survey_cameras(const Scan& scan,
+                                                        const Image<Eigen::Vector2f>& rays,
+                                                        const DecodeOptions& decode,
+                                                        const Run& run) {
+  std::vector<std::unique_ptr<CameraScan>> cameras;
+  for (std::size_t i = 0; i < camera_count(scan.rig); ++i)
+    cameras.push_back(std::make_unique<CameraScan>(scan, i, rays, decode, run));
+  return cameras;
+}
+
+/// Decodes a view of a camera and decides which of its phases are used.
+DecodedCamera decode_camera(CameraScan& camera, std::size_t view, const Run& run) {
+  DecodedCamera out{camera.scan.rig, camera.rays, camera.decoder->next()};
+  report_assessments(camera.scan, view, out.decoded.assessments, run);
+  out.fit =
+      check_view(out.decoded, camera.scan.rig, camera.rays, camera.options.accept_inconsistent);
+  out.used = camera.fit.add(view, out.fit);
+  return out;
+}
+
+std::size_t count_points(const MeasuredView& measured) {
+  std::size_t points = 0;
+  for (const MeasuredCamera& camera : measured.cameras)
+    points += count_points(camera.range);
+  return points;
+}
+
+}  // namespace
+
+MeasuredViews measure_views(const Scan& scan,
+                            const Image<Eigen::Vector2f>& rays,
+                            const DecodeOptions& decode,
+                            const MixedPixelOptions& mixed_pixels,
+                            const Run& run) {
+  run.stage("survey");
+  const auto cameras = survey_cameras(scan, rays, decode, run);
+  run.stage("range");
+  for (const auto& camera : cameras) {
+    camera->decoder =
+        std::make_unique<ViewDecoder>(camera->scan, camera->rays, camera->options, run);
+  }
+  MeasuredViews all;
+  all.more.resize(cameras.size() - 1);
+  for (std::size_t i = 0; i < scan.views.size(); ++i) {
+    run.report(static_cast<double>(i) / static_cast<double>(scan.views.size()));
+    std::vector<DecodedCamera> decoded;
+    for (const auto& camera : cameras)
+      decoded.push_back(decode_camera(*camera, i, run));
+    ViewSummary summary{
+        scan.views[i].folder.string(), scan.views[i].angle_rad, scan.views[i].setup};
+    DecodedView& reference = decoded.front().decoded;
+    summary.quality = view_quality(reference.assessments);
+    if (!decoded.front().used) {
+      summary.left_out = true;
+      summary.reason = decoded.front().fit.reason;
+      all.summaries.push_back(summary);
+      continue;
+    }
+    all.coarsest = decoded.front().fit.uses_first ? reference.coarsest : reference.phase.pattern;
+    MeasuredView measured =
+        fuse_view_cameras(scan.rig, decoded, decode.directions, mixed_pixels, run);
+    if (measured.directions.pixels > 0) {
+      all.disagreements_mm.push_back(static_cast<float>(measured.directions.median_mm));
+      all.disagreements_over_sigma.push_back(
+          static_cast<float>(measured.directions.median_over_sigma));
+    }
+    if (measured.between_cameras.pixels > 0) {
+      all.camera_disagreements_mm.push_back(static_cast<float>(measured.between_cameras.median_mm));
+      all.camera_disagreements_over_sigma.push_back(
+          static_cast<float>(measured.between_cameras.median_over_sigma));
+    }
+    summary.points = count_points(measured);
+    summary.sigma_mm = median_sigma_mm(measured.cameras.front().range);
+    summary.left_out = summary.points == 0 && reference.unresolved.empty();
+    all.summaries.push_back(summary);
+    if (summary.left_out) {
+      run.warn(why_empty(scan, i, reference.phase.status));
+      continue;
+    }
+    for (UnresolvedRegion& region : reference.unresolved)
+      all.unresolved.push_back({all.views.size(), std::move(region)});
+    all.unwrapped_spatially = reference.relative.has_value();
+    all.stations.push_back({scan.views[i].angle_rad, scan.views[i].folder.string(), 0});
+    all.setups.push_back(scan.views[i].setup);
+    const Eigen::Isometry3d rig_from_object = scan.rig.rig_from_object(scan.views[i].angle_rad);
+    for (std::size_t camera = 0; camera < cameras.size(); ++camera) {
+      MeasuredCamera& seen = measured.cameras[camera];
+      ViewStore& views = camera == 0 ? all.views : all.more[camera - 1];
+      views.add({std::move(seen.range),
+                 camera_from_rig(scan.rig, camera) * rig_from_object,
+                 std::move(seen.edge_pixels),
+                 std::move(decoded[camera].decoded.color)});
+    }
+    all.points += summary.points;
+  }
+  for (const auto& camera : cameras)
+    camera->fit.finish();
+  return all;
+}
+
+}  // namespace frangia

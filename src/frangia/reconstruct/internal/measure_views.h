@@ -1,0 +1,56 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "frangia/core/image.h"
+#include "frangia/core/run.h"
+#include "frangia/dataset/scan_folder.h"
+#include "frangia/decode/decode_view.h"
+#include "frangia/decode/view_summary.h"
+#include "frangia/fringe_order/resolve_by_views.h"
+#include "frangia/pattern/pattern.h"
+#include "frangia/range/remove_mixed_pixels.h"
+#include "frangia/registration/register_views.h"
+#include "frangia/views/view_store.h"
+
+namespace frangia {
+
+/// The range grids of all views of a scan.
+struct MeasuredViews {
+  ViewStore views;                ///< of the reference camera
+  std::vector<ViewStore> more;    ///< of each further camera, one for each of `views`
+  std::vector<Station> stations;  ///< of the turntable, one per view
+  std::vector<int> setups;        ///< setup numbers, one per view
+  std::vector<UnresolvedViewRegion> unresolved;  ///< regions without a fringe order
+  Pattern coarsest;                              ///< coarsest fringe pattern
+  bool unwrapped_spatially = false;              ///< whole patches may then be wrong by fringes
+  std::size_t points = 0;
+  /// Disagreement of the two directions of fringes, mm and over its noise, one per view that has
+  /// both.
+  std::vector<float> disagreements_mm;
+  std::vector<float> disagreements_over_sigma;
+  /// Disagreement of the cameras, mm and over its noise, one per view in which it is known.
+  std::vector<float> camera_disagreements_mm;
+  std::vector<float> camera_disagreements_over_sigma;
+  std::vector<ViewSummary> summaries;  ///< of all views of the scan, also of those left out
+};
+
+/// Reads, decodes and triangulates all views of a scan. The next view is read and decoded while one
+/// is triangulated, within the memory of two views. The cameras of a view are fused by
+/// `fuse_cameras`; with a projector that is a label, `match_by_phase` finds their common points.
+///
+/// @shape    `rays` of the reference camera
+/// @missing  a view without a lit pixel is left out with a warning, and so is a view whose frames
+/// do
+///           not fit scan.toml or the rig, unless `accept_inconsistent` is set
+/// @errors   as read_frames and decode_view; Error(Numeric) when no view fits
+[[nodiscard]] MeasuredViews measure_views(const Scan& scan,
+                                          const Image<Eigen::Vector2f>& rays,
+                                          const DecodeOptions& decode,
+                                          const MixedPixelOptions& mixed_pixels,
+                                          const Run& run = {});
+
+}  // namespace frangia

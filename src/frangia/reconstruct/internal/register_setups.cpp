@@ -1,0 +1,212 @@
+#include "frangia/reconstruct/internal/register_setups.h"
+
+#include <string>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "frangia/local_fit/make_surfel_maps.h"
+#include "frangia/registration/compare_groups.h"
+#include "frangia/registration/join_by_shape.h"
+
+namespace frangia {
+namespace {
+
+/// The surfel maps of all views of all setups.
+struct MappedSetups {
+  std::vector<SurfelMap> maps;
+  std::vector<std::vector<ViewGroup::Member>> members;  ///< by setup
+};
+
+MappedSetups map_setups(const std::vector<MeasuredSetup>& setups,
+                        const CameraModel& camera,
+                        const Run& run) {
+  MappedSetups all;
+  for (const MeasuredSetup& setup : setups) {
+    const ViewStore& views = setup.measured.views;
+    std::vector<ViewGroup::Member> members;
+    for (SurfelMap& map : make_surfel_maps(views, camera, kSurfelsPerView, run)) {
+      members.push_back({all.maps.size(), views.rig_from_object(members.size())});
+      all.maps.push_back(std::move(map));
+    }
+    all.members.push_back(std::move(members));
+  }
+  return all;
+}
+
+std::string name_of(const MeasuredSetup& setup) {
+  const auto& stations = setup.measured.stations;
+  return fmt::format(
+      "setup {} ({} to {})", setup.number, stations.front().name, stations.back().name);
+}
+
+/// Pose of each setup relative to the reference; none when it is not known.
+struct SetupPoses {
+  std::size_t reference = 0;
+  std::vector<std::optional<Eigen::Isometry3d>> setup_from_reference;
+  std::vector<bool> ambiguous;  ///< empty where the poses are given
+  std::vector<GroupFit> fits;   ///< to the reference, in its pose
+};
+
+/// Refines the part poses of scan.toml. None unless scan.toml has those of all further setups.
+std::optional<SetupPoses> refine_given_poses(const std::vector<MeasuredSetup>& setups,
+                                             const std::vector<ViewGroup>& groups,
+                                             const GroupViews& views,
+                                             const RegisterSetupsOptions& options,
+                                             double spacing_mm) {
+  constexpr double kStart = 4.0;         // spacings: the error of manually measured poses
+  constexpr double kGate = 0.3;          // spacings, as in the pose search
+  constexpr double kMaxViolation = 3.0;  // times that of poses found by shape: these are given
+  SetupPoses setup_poses{0, {Eigen::Isometry3d::Identity()}, {}, {}};
+  for (std::size_t i = 1; i < setups.size(); ++i) {
+    const auto known = options.part_poses.find(setups[i].number);
+    if (known == options.part_poses.end() || setups[0].number != 0) return std::nullopt;
+    const Eigen::Isometry3d reference_from_setup =
+        refine_fit(groups[0],
+                   groups[i],
+                   known->second.inverse(),
+                   views,
+                   {kStart * spacing_mm, kGate * spacing_mm});
+    const GroupFit fit =
+        compare_groups(groups[0], groups[i], reference_from_setup, views, kGate * spacing_mm);
+    const JoinByShapeOptions usual;
+    const bool fits = fit.overlap >= usual.min_overlap &&
+                      fit.free_space_violation() <= kMaxViolation * usual.max_violation;
+    setup_poses.setup_from_reference.push_back(fits ? std::optional(reference_from_setup.inverse())
+                                                    : std::nullopt);
+  }
+  return setup_poses;
+}
+
+SetupPoses find_part_poses(const std::vector<MeasuredSetup>& setups,
+                           const CameraModel& camera,
+                           const RegisterSetupsOptions& options,
+                           const Run& run) {
+  const MappedSetups all = map_setups(setups, camera, run);
+  const double spacing_mm = spacing_for(all.members, all.maps);
+  std::vector<ViewGroup> groups;
+  for (const auto& members : all.members)
+    groups.push_back(make_group(members, all.maps, spacing_mm));
+  const FastCameraModel model(camera);
+  const GroupViews views{all.maps, model};
+  constexpr double kGate = 0.3;  // spacings, as in the pose search
+  const auto with_fits = [&](SetupPoses poses) {
+    for (std::size_t i = 0; i < groups.size(); ++i) {
+      const auto& pose = poses.setup_from_reference[i];
+      poses.fits.push_back(
+          pose && i != poses.reference
+              ? compare_groups(
+                    groups[poses.reference], groups[i], pose->inverse(), views, kGate * spacing_mm)
+              : GroupFit());
+    }
+    return poses;
+  };
+  if (auto given = refine_given_poses(setups, groups, views, options, spacing_mm))
+    return with_fits(std::move(*given));
+  const JoinedGroups joined = join_by_shape(groups, views, {.spacing_mm = spacing_mm}, run);
+  SetupPoses setup_poses{joined.reference, {}, joined.ambiguous, {}};
+  for (const auto& pose : joined.reference_from_group) {
+    setup_poses.setup_from_reference.push_back(pose ? std::optional(pose->inverse())
+                                                    : std::nullopt);
+  }
+  return with_fits(std::move(setup_poses));
+}
+
+/// Appends the views of a setup, as setup `index` of those that are joined.
+void append(MeasuredViews& all, const MeasuredViews& setup, std::size_t index) {
+  all.more.resize(setup.more.size());
+  for (std::size_t i = 0; i < setup.views.size(); ++i) {
+    all.views.add(setup.views.load(i));
+    for (std::size_t camera = 0; camera < setup.more.size(); ++camera)
+      all.more[camera].add(setup.more[camera].load(i));
+    all.stations.push_back(setup.stations[i]);
+    all.stations.back().setup = index;
+  }
+  all.points += setup.points;
+}
+
+/// What is known of the joins before they are refined.
+std::vector<SetupJoin> joins_of(const std::vector<MeasuredSetup>& setups, const SetupPoses& poses) {
+  std::vector<SetupJoin> joins;
+  for (std::size_t i = 0; i < setups.size(); ++i) {
+    SetupJoin join{.number = setups[i].number, .views = setups[i].measured.views.size()};
+    join.joined = poses.setup_from_reference[i].has_value();
+    join.ambiguous = !join.joined && i < poses.ambiguous.size() && poses.ambiguous[i];
+    if (join.joined && i != poses.reference) {
+      join.overlap = poses.fits[i].overlap;
+      join.free_space_violation = poses.fits[i].free_space_violation();
+    }
+    joins.push_back(join);
+  }
+  return joins;
+}
+
+Turntable table_of(const MeasuredSetup& setup, const Rig& rig) {
+  return setup.registration ? setup.registration->table : *rig.turntable;
+}
+
+/// Sets the poses from the part poses, without refinement.
+void set_poses(MeasuredSetup& joined,
+               const Rig& rig,
+               const std::vector<Eigen::Isometry3d>& part_poses) {
+  for (std::size_t i = 0; i < joined.measured.stations.size(); ++i) {
+    const Station& station = joined.measured.stations[i];
+    const Eigen::Isometry3d pose = rig.rig_from_object(station.angle_rad);
+    joined.measured.views.set_rig_from_object(
+        i, station.setup == 0 ? pose : pose * part_poses[station.setup - 1]);
+  }
+}
+
+}  // namespace
+
+MeasuredSetup register_setups(std::vector<MeasuredSetup> setups,
+                              const Rig& rig,
+                              const RegisterSetupsOptions& options,
+                              const Run& run) {
+  const CameraModel& camera = rig.camera.model;
+  const SetupPoses setup_poses = find_part_poses(setups, camera, options, run);
+  MeasuredSetup& reference = setups[setup_poses.reference];
+  const Eigen::Isometry3d given_from_rig = rig.rig_from_object(0.0).inverse();
+  const Eigen::Isometry3d reference_from_rig =
+      table_of(reference, rig).rig_from_object(0.0).inverse();
+  MeasuredSetup joined{reference.number, {}, {}, joins_of(setups, setup_poses)};
+  joined.measured.coarsest = reference.measured.coarsest;
+  append(joined.measured, reference.measured, 0);
+  RegisterOptions registration = options.registration;
+  for (std::size_t i = 0; i < setups.size(); ++i) {
+    if (i == setup_poses.reference) continue;
+    const auto& part_pose = setup_poses.setup_from_reference[i];
+    if (!part_pose) {
+      run.warn(fmt::format(
+          "{} fits the other setups in no unique pose and is left out: add views of the surface "
+          "that both show, or give its approximate part pose in a [[setup]] of scan.toml",
+          name_of(setups[i])));
+      continue;
+    }
+    // Each setup still has a refined table of its own: convert through the rig into the given
+    // table's frame.
+    registration.part_poses.emplace_back(
+        given_from_rig * table_of(setups[i], rig).rig_from_object(0.0) * *part_pose *
+        reference_from_rig * given_from_rig.inverse());
+    append(joined.measured, setups[i].measured, registration.part_poses.size());
+  }
+  if (options.refine) {
+    joined.registration = register_views(joined.measured.views,
+                                         camera,
+                                         {*rig.turntable, joined.measured.stations},
+                                         registration,
+                                         run);
+  } else {
+    set_poses(joined, rig, registration.part_poses);
+  }
+  const auto& found =
+      joined.registration ? joined.registration->part_poses : registration.part_poses;
+  std::size_t next = 0;
+  for (std::size_t i = 0; i < joined.joins.size(); ++i) {
+    if (i != setup_poses.reference && joined.joins[i].joined && next < found.size())
+      joined.joins[i].part_pose = found[next++];
+  }
+  return joined;
+}
+
+}  // namespace frangia

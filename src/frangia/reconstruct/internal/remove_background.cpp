@@ -1,0 +1,78 @@
+#include "frangia/reconstruct/internal/remove_background.h"
+
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+#include <Eigen/Geometry>
+#include <fmt/format.h>
+
+#include "frangia/core/missing.h"
+#include "frangia/reconstruct/internal/tie_cameras.h"
+#include "frangia/views/clip_views.h"
+
+namespace frangia {
+namespace {
+
+/// Clips the views of all cameras; something of the reference camera must be left.
+std::size_t clip_cameras(MeasuredViews& measured,
+                         const Rig& rig,
+                         const Clip& clip,
+                         const Run& run) {
+  std::size_t removed = clip_views(measured.views, rig.camera.model, clip, run);
+  tie_cameras(measured, rig);
+  for (std::size_t i = 0; i < measured.more.size(); ++i) {
+    removed += clip_views_to_nothing(measured.more[i], rig.more_cameras[i].camera.model, clip, run);
+  }
+  return removed;
+}
+
+}  // namespace
+
+void clip_to_volume(MeasuredViews& measured,
+                    const Rig& rig,
+                    const ReconstructOptions& options,
+                    const Run& run) {
+  if (std::isinf(options.clip_below_mm) && std::isinf(options.clip_radius_mm)) return;
+  Clip clip{.max_radius_mm = options.clip_radius_mm};
+  clip.floor.offset() = -options.clip_below_mm;
+  clip_cameras(measured, rig, clip, run);
+}
+
+void clip_on_registered_turntable(MeasuredSetup& setup,
+                                  const Rig& rig,
+                                  const ReconstructOptions& options,
+                                  const Run& run) {
+  ViewStore& views = setup.measured.views;
+  std::vector<Eigen::Isometry3d> poses;
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    poses.push_back(views.rig_from_object(i));
+    if (!setup.registration) continue;
+    views.set_rig_from_object(
+        i, setup.registration->table.rig_from_object(setup.registration->angles_rad[i]));
+  }
+  clip_to_volume(setup.measured, rig, options, run);
+  for (std::size_t i = 0; i < views.size(); ++i)
+    views.set_rig_from_object(i, poses[i]);
+  tie_cameras(setup.measured, rig);
+}
+
+double remove_turntable_top(MeasuredViews& measured,
+                            const Rig& rig,
+                            const TurntableTopOptions& options,
+                            const Run& run) {
+  const auto top = find_turntable_top(measured.views, rig.camera.model, options, run);
+  if (!top) return kMissing;
+  Clip clip;
+  clip.floor = {top->plane.normal(), top->plane.offset() - top->clearance_mm};
+  const std::size_t removed = clip_cameras(measured, rig, clip, run);
+  const double height_mm = top->height_mm();
+  run.note(fmt::format(
+      "{} at a height of {:.2f} mm is removed with {} points; set `keep_turntable_top` to keep it",
+      top->rim_only ? "the rim of the turntable top, which is seen edge-on," : "the turntable top",
+      std::abs(height_mm) < 0.005 ? 0.0 : height_mm,
+      removed));
+  return height_mm;
+}
+
+}  // namespace frangia

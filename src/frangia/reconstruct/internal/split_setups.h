@@ -1,0 +1,27 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "frangia/reconstruct/internal/measure_views.h"
+#include "frangia/reconstruct/setup_join.h"
+#include "frangia/registration/register_views.h"
+
+namespace frangia {
+
+/// The views of one clamping of the part, registered among themselves.
+struct MeasuredSetup {
+  int number = 0;  ///< in scan.toml
+  MeasuredViews measured;
+  std::optional<RegistrationReport> registration;
+  std::vector<SetupJoin> joins;  ///< of all setups, when several were joined to this one
+};
+
+/// Splits the views of a scan by their setups, ordered by number. Properties of the whole scan are
+/// copied to each setup.
+///
+/// @shape    `numbers`: one a view
+[[nodiscard]] std::vector<MeasuredSetup> split_setups(MeasuredViews all,
+                                                      const std::vector<int>& numbers);
+
+}  // namespace frangia

@@ -1,0 +1,56 @@
+#include "frangia/reconstruct/internal/tie_cameras.h"
+
+#include <cstddef>
+
+namespace frangia {
+
+void tie_cameras(MeasuredViews& measured, const Rig& rig) {
+  for (std::size_t camera = 0; camera < measured.more.size(); ++camera) {
+    const Eigen::Isometry3d camera_from_rig = rig.more_cameras[camera].camera_from_rig();
+    for (std::size_t i = 0; i < measured.views.size(); ++i) {
+      measured.more[camera].set_rig_from_object(
+          i, camera_from_rig * measured.views.rig_from_object(i));
+    }
+  }
+}
+
+void clear_outliers_of_cameras(MeasuredSetup& setup) {
+  if (!setup.registration) return;
+  for (ViewStore& views : setup.measured.more) {
+    for (const std::size_t view : setup.registration->outliers)
+      views.clear(view);
+  }
+}
+
+PointCloud collect_points_of_cameras(
+    const MeasuredViews& measured,
+    const Rig& rig,
+    const Run& run,
+    const std::function<void(View&, std::size_t camera)>& add_systematic) {
+  const auto adds = [&](std::size_t camera) -> std::function<void(View&)> {
+    if (!add_systematic) return {};
+    return [&add_systematic, camera](View& view) { add_systematic(view, camera); };
+  };
+  PointCloud all = collect_points(measured.views, rig.camera.model, run, adds(0));
+  for (std::size_t i = 0; i < measured.more.size(); ++i) {
+    const PointCloud points =
+        collect_points(measured.more[i], rig.more_cameras[i].camera.model, run, adds(i + 1));
+    const bool systematic = !all.systematic_mm.empty() || !points.systematic_mm.empty();
+    if (systematic) all.systematic_mm.resize(all.points_mm.size());
+    all.points_mm.insert(all.points_mm.end(), points.points_mm.begin(), points.points_mm.end());
+    all.sigma_mm.insert(all.sigma_mm.end(), points.sigma_mm.begin(), points.sigma_mm.end());
+    all.systematic_mm.insert(
+        all.systematic_mm.end(), points.systematic_mm.begin(), points.systematic_mm.end());
+    if (systematic) all.systematic_mm.resize(all.points_mm.size());
+  }
+  return all;
+}
+
+std::vector<CameraViews> views_of_cameras(const MeasuredViews& measured, const Rig& rig) {
+  std::vector<CameraViews> all{{measured.views, rig.camera.model}};
+  for (std::size_t i = 0; i < measured.more.size(); ++i)
+    all.push_back({measured.more[i], rig.more_cameras[i].camera.model});
+  return all;
+}
+
+}  // namespace frangia

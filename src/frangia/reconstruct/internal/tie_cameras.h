@@ -1,0 +1,32 @@
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "frangia/fusion/fuse_views.h"
+#include "frangia/reconstruct/internal/register_setups.h"
+#include "frangia/rig/rig.h"
+#include "frangia/views/collect_points.h"
+
+namespace frangia {
+
+/// Sets the poses of the further cameras' views from those of the reference camera's and the poses
+/// of the cameras in the rig.
+void tie_cameras(MeasuredViews& measured, const Rig& rig);
+
+/// Empties the further cameras' views of those that the registration of a setup emptied.
+void clear_outliers_of_cameras(MeasuredSetup& setup);
+
+/// Collects the points of all cameras, as `collect_points` does for one. `add_systematic` gets each
+/// view with the index of its camera.
+[[nodiscard]] PointCloud collect_points_of_cameras(
+    const MeasuredViews& measured,
+    const Rig& rig,
+    const Run& run,
+    const std::function<void(View&, std::size_t camera)>& add_systematic);
+
+/// The views of all cameras, the reference camera first. `measured` and `rig` must outlive them.
+[[nodiscard]] std::vector<CameraViews> views_of_cameras(const MeasuredViews& measured,
+                                                        const Rig& rig);
+
+}  // namespace frangia

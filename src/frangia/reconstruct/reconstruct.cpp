@@ -1,0 +1,243 @@
+#include "frangia/reconstruct/reconstruct.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "frangia/core/median.h"
+#include "frangia/core/missing.h"
+#include "frangia/core/release_cached_pixels.h"
+#include "frangia/decode/scan_decoding.h"
+#include "frangia/fusion/color_vertices.h"
+#include "frangia/geometry/vertex_data.h"
+#include "frangia/reconstruct/capabilities.h"
+#include "frangia/reconstruct/internal/calibration_part.h"
+#include "frangia/reconstruct/internal/check_geometry.h"
+#include "frangia/reconstruct/internal/correct_indirect_light.h"
+#include "frangia/reconstruct/internal/count_indirect_light.h"
+#include "frangia/reconstruct/internal/explain_no_surface.h"
+#include "frangia/reconstruct/internal/mark_left_out.h"
+#include "frangia/reconstruct/internal/measure_views.h"
+#include "frangia/reconstruct/internal/points_of_setups.h"
+#include "frangia/reconstruct/internal/register_setups.h"
+#include "frangia/reconstruct/internal/remove_background.h"
+#include "frangia/reconstruct/internal/resolve_fringe_orders.h"
+#include "frangia/reconstruct/internal/split_setups.h"
+#include "frangia/reconstruct/internal/tie_cameras.h"
+#include "frangia/reconstruct/internal/turntable_part.h"
+#include "frangia/reconstruct/refine_scan_rig.h"
+#include "frangia/rig/rig_of_camera.h"
+
+namespace frangia {
+namespace {
+
+void report_disagreement(const MeasuredViews& measured, Reconstruction& out) {
+  if (!measured.disagreements_mm.empty()) {
+    out.disagreement_mm = static_cast<double>(median(measured.disagreements_mm));
+    out.disagreement_over_noise =
+        static_cast<double>(median(measured.disagreements_over_sigma)) / kMedianOfNormal;
+  }
+  if (measured.camera_disagreements_mm.empty()) return;
+  out.camera_disagreement_mm = static_cast<double>(median(measured.camera_disagreements_mm));
+  out.camera_disagreement_over_noise =
+      static_cast<double>(median(measured.camera_disagreements_over_sigma)) / kMedianOfNormal;
+}
+
+/// Removes what is not the part from the views of one setup, corrects them for indirect light, and
+/// registers them on the turntable. False where indirect light was looked for before the
+/// registration and not found.
+bool register_setup(MeasuredSetup& setup,
+                    const ScanDecoding& decoding,
+                    const Capabilities& can,
+                    const ReconstructOptions& options,
+                    double& turntable_top_height_mm,
+                    const Run& run) {
+  MeasuredViews& measured = setup.measured;
+  const Scan& scan = decoding.scan;
+  const CameraModel& camera = scan.rig.camera.model;
+  bool indirect_light = true;
+  if (measured.points == 0) return true;
+  clip_to_volume(measured, scan.rig, options, run);
+  if (can.removes_turntable_top)
+    turntable_top_height_mm = remove_turntable_top(measured, scan.rig, options.turntable_top, run);
+  if (can.registers_views) {
+    if (can.corrects_before_registration)
+      indirect_light = correct_before_registration(measured, decoding, options.fusion, run);
+    setup.registration = register_views(measured.views,
+                                        camera,
+                                        {*scan.rig.turntable, measured.stations},
+                                        options.registration,
+                                        run);
+    clear_outliers_of_cameras(setup);
+  }
+  return indirect_light;
+}
+
+MeasuredSetup join_setups(std::vector<MeasuredSetup> setups,
+                          const Scan& scan,
+                          const ReconstructOptions& options,
+                          const Run& run) {
+  if (setups.size() == 1) return std::move(setups.front());
+  return register_setups(std::move(setups),
+                         scan.rig,
+                         {scan.part_poses, options.register_views, options.registration},
+                         run);
+}
+
+/// How uncertain the poses of the views on the turntable are: as the registration found, or without
+/// one as the rig states.
+ViewMotions motions_of_views(const MeasuredSetup& joined,
+                             const Rig& rig,
+                             const ReconstructOptions& options,
+                             const Run& run) {
+  if (joined.registration) return joined.registration->motions;
+  const std::vector<Station>& stations = joined.measured.stations;
+  const bool one_setup = std::all_of(
+      stations.begin(), stations.end(), [](const Station& station) { return station.setup == 0; });
+  if (!rig.turntable || stations.size() < 2 || !one_setup) return {};
+  RegistrationReport alone;
+  alone.sigma = sigma_of(*rig.turntable, options.registration, rig.turntable->point_mm.norm());
+  run.warn("the views are not registered; " + alone.rig_alone_text());
+  return motions_of_rig({*rig.turntable, stations}, alone.sigma);
+}
+
+/// Brings all setups into the frame of the first one and registers them together. `outliers`: views
+/// that the setups by themselves left out.
+MeasuredSetup register_together(std::vector<MeasuredSetup> setups,
+                                const Scan& scan,
+                                const ReconstructOptions& options,
+                                std::set<std::string> outliers,
+                                Reconstruction& out,
+                                const Run& run) {
+  MeasuredSetup joined = join_setups(std::move(setups), scan, options, run);
+  clear_outliers_of_cameras(joined);
+  if (joined.registration && joined.registration->iterations > 0)
+    run.note(joined.registration->text());
+  add_outliers(outliers, joined);
+  mark_left_out(out.view_summaries, joined, outliers);
+  clip_on_registered_turntable(joined, scan.rig, options, run);
+  tie_cameras(joined.measured, scan.rig);
+  out.registration = joined.registration;
+  release_cached_pixels();
+
+  out.setups = joined.joins;
+  if (options.keep_points_of_setups > 0 && !out.setups.empty())
+    out.setup_points = points_of_setups(joined, scan.rig, options.keep_points_of_setups, run);
+  return joined;
+}
+
+/// What the registered views of all setups form.
+struct RegisteredViews {
+  MeasuredSetup joined;
+  bool indirect_light = false;  ///< was found before the registration
+};
+
+/// Views -> one surface, with its points and colors.
+Mesh fuse_registered(RegisteredViews& registered,
+                     const ScanDecoding& decoding,
+                     const Capabilities& can,
+                     const ReconstructOptions& options,
+                     Reconstruction& out,
+                     const Run& run) {
+  run.stage("surface");
+  const Scan& scan = decoding.scan;
+  MeasuredSetup& joined = registered.joined;
+  const MeasuredViews& all = joined.measured;
+  FusionOptions fusion = options.fusion;
+  fusion.add_systematic = calibration_part(all.views, scan.rig, all.coarsest, decoding.rays);
+  const std::vector<CameraViews> cameras = views_of_cameras(all, scan.rig);
+  Mesh fused = fuse_views(cameras, fusion, run);
+  if (can.indirect_light != IndirectLightUse::Ignored && registered.indirect_light) {
+    out.indirect_light = cameras.size() == 1
+                             ? correct_indirect_light(fused, joined.measured, decoding, fusion, run)
+                             : count_indirect_light(fused, joined.measured, decoding, fusion, run);
+  }
+  const ViewMotions motions = motions_of_views(joined, scan.rig, options, run);
+  const bool turntable_counts = add_turntable_part(fused, cameras, motions, run);
+  if (options.keep_raw) {
+    out.raw = collect_points_of_cameras(all, scan.rig, run, fusion.add_systematic);
+    if (turntable_counts) add_turntable_part(out.raw, cameras, motions, run);
+  }
+  color_vertices(fused, cameras, run);
+  return fused;
+}
+
+/// Refines the rig and reconstructs with it from the frames on.
+Reconstruction reconstruct_with_refined_rig(const Scan& scan,
+                                            ReconstructOptions options,
+                                            const Run& run) {
+  options.refine_rig = false;
+  RigRefinement refinement = refine_scan_rig(scan, options, run);
+  run.note(refinement.text());
+  Scan refined = scan;
+  refined.rig = refinement.rig;
+  Reconstruction out = reconstruct(refined, options, run);
+  out.refinement = std::move(refinement);
+  return out;
+}
+
+}  // namespace
+
+Reconstruction reconstruct(const Scan& scan, const ReconstructOptions& options, const Run& run) {
+  if (options.refine_rig) return reconstruct_with_refined_rig(scan, options, run);
+  const DecodePlan plan = plan_decoding(scan.patterns, scan.rig, options.decode);
+  check_geometry(scan, plan, run);
+  const Capabilities can = capabilities_of(scan.rig, plan, options);
+  report(can, run);
+  const auto rays = rays_of(scan.rig.camera.model);
+  const ScanDecoding decoding{scan, rays, options.decode, plan};
+  Reconstruction out;
+  out.cameras = camera_count(scan.rig);
+
+  // Frames -> phase -> range, view by view. Phase noise: phase/wrap_phase.
+  DecodeOptions decode = options.decode;
+  decode.colors = options.colors;
+  MeasuredViews measured = measure_views(scan, rays, decode, options.mixed_pixels, run);
+  release_cached_pixels();
+  out.views = measured.views.size();
+  out.view_summaries = std::move(measured.summaries);
+  report_disagreement(measured, out);
+
+  // Fringe orders from the other views, and registration, setup by setup.
+  run.stage("views");
+  const std::vector<int> setup_numbers = measured.setups;
+  std::vector<MeasuredSetup> setups = split_setups(std::move(measured), setup_numbers);
+  FringeOrderCorrectionOptions correction = options.fringe_order_correction;
+  correction.mixed_pixels = options.mixed_pixels;
+  std::set<std::string> outliers;
+  bool indirect_light = false;
+  std::size_t unresolved = 0;
+  for (MeasuredSetup& setup : setups) {
+    unresolved += resolve_fringe_orders(
+        setup.measured, scan.rig, rays, options.resolve_by_views, correction, run);
+    indirect_light |=
+        register_setup(setup, decoding, can, options, out.turntable_top_height_mm, run);
+    out.points += setup.measured.points;
+    add_outliers(outliers, setup);
+  }
+  if (out.points == 0) {
+    throw Error(ErrorKind::Input,
+                explain_no_surface(scan, rays, options.decode, {0, unresolved}, run));
+  }
+
+  // All setups in the frame of the first one, then one surface, then the finished mesh.
+  RegisteredViews registered{
+      register_together(std::move(setups), scan, options, std::move(outliers), out, run),
+      indirect_light};
+  Mesh fused = fuse_registered(registered, decoding, can, options, out, run);
+  out.mesh = finish_mesh(std::move(fused), options.finish, run);
+  if (out.mesh.triangles.empty()) {
+    throw Error(ErrorKind::Input,
+                explain_no_surface(scan, rays, options.decode, {out.points, unresolved}, run));
+  }
+  if (out.registration) out.untrusted_reason = out.registration->untrusted_reason();
+  if (!out.untrusted_reason.empty()) discard_sigma(out.mesh);
+  out.sigma = median_sigma(out.mesh);
+  return out;
+}
+
+}  // namespace frangia

@@ -1,0 +1,94 @@
+#pragma once
+
+#include <cstddef>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "frangia/core/run.h"
+#include "frangia/dataset/scan_folder.h"
+#include "frangia/decode/decode_view.h"
+#include "frangia/decode/view_summary.h"
+#include "frangia/fringe_order/correct_fringe_orders.h"
+#include "frangia/fringe_order/resolve_by_views.h"
+#include "frangia/fusion/fuse_views.h"
+#include "frangia/geometry/median_sigma.h"
+#include "frangia/geometry/mesh.h"
+#include "frangia/indirect_light/indirect_light_report.h"
+#include "frangia/range/remove_mixed_pixels.h"
+#include "frangia/reconstruct/finish_mesh.h"
+#include "frangia/reconstruct/setup_join.h"
+#include "frangia/registration/find_turntable_top.h"
+#include "frangia/registration/refine_rig.h"
+#include "frangia/registration/register_views.h"
+#include "frangia/views/collect_points.h"
+
+namespace frangia {
+
+/// Options of all stages from frames to mesh.
+struct ReconstructOptions {
+  DecodeOptions decode;                    ///< frames to absolute phase
+  MixedPixelOptions mixed_pixels;          ///< removal of pixels that see two surfaces
+  ResolveByViewsOptions resolve_by_views;  ///< fringe orders that other views confirm
+  /// Recheck of fringe orders after registration.
+  FringeOrderCorrectionOptions fringe_order_correction;
+  bool register_views = true;    ///< refine the turntable's axis and angles by the overlap of views
+  RegisterOptions registration;  ///< refinement of axis and angles
+  bool refine_rig = false;       ///< refines the rig itself by the surfaces of the views first
+  RefineRigOptions refinement;   ///< prior of the rig's drift
+  bool keep_turntable_top = false;    ///< otherwise it is found and removed
+  TurntableTopOptions turntable_top;  ///< criteria of the turntable top that is removed
+  double clip_below_mm =
+      -std::numeric_limits<double>::infinity();  ///< removes points below this height, object frame
+  double clip_radius_mm =
+      std::numeric_limits<double>::infinity();  ///< removes points farther from the axis
+  FusionOptions fusion;                         ///< fusion of the views
+  FrameColors colors = FrameColors::Linear;     ///< of the vertices
+  bool indirect_light = true;  ///< looks for indirect light, corrects it, counts the rest in sigma
+  FinishOptions finish;        ///< hole filling and decimation
+  bool keep_raw = false;       ///< returns the registered points, too
+  /// Returns about this many registered points of each joined setup, too, where there are several.
+  std::size_t keep_points_of_setups = 0;
+};
+
+/// The reconstructed surface and what the stages report.
+struct Reconstruction {
+  Mesh mesh;               ///< fused surface, object frame; sigma is NaN if it is not trusted
+  MedianSigma sigma;       ///< of the mesh's vertices
+  PointCloud raw;          ///< empty unless `keep_raw`
+  std::size_t points = 0;  ///< in all views
+  std::size_t views = 0;   ///< that hold points
+  std::vector<ViewSummary> view_summaries;         ///< of all views, in the order of the scan
+  std::optional<RegistrationReport> registration;  ///< empty when not done
+  std::vector<SetupJoin> setups;            ///< ordered by number; empty for a scan of one setup
+  std::vector<PointCloud> setup_points{};   ///< of the joined ones of `setups`, in their order
+  std::optional<RigRefinement> refinement;  ///< empty when not done
+  double turntable_top_height_mm =
+      std::numeric_limits<double>::quiet_NaN();  ///< NaN: none was removed
+  /// Median over the views of the median distance between the points of vertical and of horizontal
+  /// fringes along their rays; NaN where no view has both. It checks the rig.
+  double disagreement_mm = std::numeric_limits<double>::quiet_NaN();
+  /// The same over what phase noise explains: about 1 for a sound rig.
+  double disagreement_over_noise = std::numeric_limits<double>::quiet_NaN();
+  /// Median over the views of the median distance between the points of two cameras along their
+  /// rays, or, with a label, between their rays; NaN where no view has it. It checks the rig.
+  double camera_disagreement_mm = std::numeric_limits<double>::quiet_NaN();
+  /// The same over what phase noise explains.
+  double camera_disagreement_over_noise = std::numeric_limits<double>::quiet_NaN();
+  std::size_t cameras = 1;                            ///< of the rig
+  std::optional<IndirectLightReport> indirect_light;  ///< empty: none was found
+  /// Why the mesh must not be trusted, as one clause without a full stop; empty when it can be.
+  std::string untrusted_reason{};
+};
+
+/// Reconstructs a surface from a scan: frames, phase, range, registered views, fused mesh.
+///
+/// @units    mm, object frame
+/// @missing  a view without a lit pixel is left out with a warning
+/// @errors   Error(Input) when no view has a lit pixel, and the errors of all stages
+[[nodiscard]] Reconstruction reconstruct(const Scan& scan,
+                                         const ReconstructOptions& options = {},
+                                         const Run& run = {});
+
+}  // namespace frangia
