@@ -250,6 +250,7 @@ void add_simulate_options(CLI::App& verb, SimulateArguments& arguments) {
   add_projector_faults(verb, arguments);
   add_part_faults(verb, arguments);
   add_turntable_faults(verb, arguments);
+  add_frame_faults(verb, arguments.frame_faults);
   add_allow_memory(verb, arguments.read);
 }
 

@@ -10,6 +10,8 @@
 #include "frangia/simulate/default_patterns.h"
 #include "frangia/simulate/simulate_scan.h"
 
+#include "simulated_frame_faults.h"
+
 namespace frangia {
 
 /// The options of `frangia simulate`. Angles in degrees, as everywhere on screen.
@@ -33,6 +35,7 @@ struct SimulateArguments {
   double square_mm = 0.0;
   const CLI::Option* fringes_per_degree = nullptr;
   ReadOptions read;
+  SimulatedFrameFaults frame_faults;
 };
 
 /// Adds the options to the verb.

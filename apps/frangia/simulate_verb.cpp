@@ -175,6 +175,7 @@ void simulate(SimulateArguments arguments, Terminal& terminal) {
   run.stage("render");
   refuse_label_of_one_camera(arguments, plan.rig);
   Scan scan = simulate_scan(part, plan, options, run);
+  apply_frame_faults(arguments.frame_faults, scan, run);
   state_label(arguments, scan);
   print_result(scan, "truth.ply", terminal);
 }

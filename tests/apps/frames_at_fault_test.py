@@ -247,6 +247,32 @@ class FramesAtFault(unittest.TestCase):
         self.assertEqual(code, 5, text)
         self.assertIn("show no fringes with its shifts", text)
 
+    def test_columns_outside_the_projector_are_not_measured(self):
+        scan = self.scan(4).capture()
+        rig = scan.folder / "rig.toml"
+        rig.write_text(
+            rig.read_text().replace(f"size_px = [{PROJECTOR_WIDTH}, ", f"size_px = [{PROJECTOR_WIDTH // 2}, ")
+        )
+        code, _, text, _, _ = scan.reconstruct()
+        self.assertEqual(code, 0, text)
+        self.assertIn("names columns outside the projector", text)
+        columns = np.concatenate([column[shade > 0] for column, shade in SAMPLES])
+        inside = (columns < PROJECTOR_WIDTH // 2).mean()
+        self.assertLess(len(points_of(scan.folder / "mesh.ply")[0]), 1.05 * inside * WIDTH * HEIGHT)
+
+    def test_simulated_faults_are_explained(self):
+        folder = pathlib.Path(self.folder.name) / "simulated"
+        faults = ("--lose-frame", "0:p160:2", "--repeat-frame", "0:p20:3", "--shifts", "6", "--views", "1")
+        subprocess.run([PROGRAM, "--quiet", "simulate", "plate", *faults, "-o", folder], check=True)
+        view = folder / "views/000"
+        self.assertEqual((view / "p20-3.png").read_bytes(), (view / "p20-2.png").read_bytes())
+        done = subprocess.run(
+            [PROGRAM, "--json", "decode", folder, "-o", folder / "maps"], capture_output=True, text=True, check=True
+        )
+        answer = json.loads(done.stdout)
+        found = {one["pattern"]: (one["cause"], one["left_out"]) for one in answer["explanations"]}
+        self.assertEqual(found, {"p1280": ("as-described", []), "p160": ("lost", [2]), "p20": ("repeated", [3])})
+
     def test_sound_frames_are_not_blamed(self):
         for steps, coarse in ((3, False), (4, True), (6, False)):
             with self.subTest(steps=steps):

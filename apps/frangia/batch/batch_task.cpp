@@ -90,6 +90,8 @@ Json cause_of(const BatchScan& scan, const BatchPlan& plan, const fs::path& fold
 }
 
 constexpr const char* kMark = "done.json";
+/// Exit code of a reconstruction from fewer views: those at fault are left out and named.
+constexpr int kSkippedViews = 4;
 
 /// What the steps left in a folder: everything but the mark, locks and temporary files.
 NamedFiles results_in(const fs::path& folder) {
@@ -241,6 +243,10 @@ BatchRow run_task(const BatchScan& scan,
     row.memory_mb = std::max(row.memory_mb, result.memory_mb);
     take_results(read_json(folder, output.filename()), row);
     if (result.exit_code == 0) continue;
+    if (step.name == "reconstruct" && result.exit_code == kSkippedViews) {
+      row.message = fmt::format("{}: {}", step.name, cause_in(messages));
+      continue;
+    }
     row.state = BatchState::Failed;
     row.exit_code = result.exit_code;
     row.message = fmt::format("{}: {}", step.name, cause_in(messages));

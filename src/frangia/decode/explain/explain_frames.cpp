@@ -147,7 +147,11 @@ std::vector<FrameHypothesis> likely_pairs(const FrameMoments& moments,
         if (one->cause == FrameCause::Gain)
           structural = structural && fit_gain(moments, one->frames.front(), *both);
       }
-      if (!structural) continue;
+      // Two faults that show what one does are that one.
+      const bool known = std::any_of(singles.begin(), singles.end(), [&](const auto& one) {
+        return predict_alike(one, *both);
+      });
+      if (!structural || known) continue;
       const double rough =
           rough_score(moments.moments, moments.means, moments.relative_noise, *both);
       ranked.emplace_back(rough, *std::move(both));
@@ -196,7 +200,7 @@ double log_prior(const FrameHypothesis& hypothesis, const FrameScore& score, dou
 /// Names what a lost frame shows.
 std::string text_of(const FrameHypothesis& hypothesis, const FrameSample& sample, int white_level) {
   std::string text = describe(hypothesis);
-  constexpr double kBlack = 0.15;
+  constexpr double kBlack = 0.25;
   constexpr double kWhite = 0.9;
   for (std::size_t frame = 0; frame < hypothesis.free.size(); ++frame) {
     const std::string clause = fmt::format("frame {} shows no fringes", frame);

@@ -1,11 +1,17 @@
 #include "frangia/decode/internal/decode_direction.h"
 
 #include <algorithm>
+#include <cmath>
+#include <cstddef>
 #include <utility>
 #include <variant>
 #include <vector>
 
+#include <fmt/format.h>
+
+#include "frangia/core/angles.h"
 #include "frangia/core/error.h"
+#include "frangia/core/missing.h"
 #include "frangia/decode/internal/check_code.h"
 #include "frangia/decode/internal/correct_view_orders.h"
 #include "frangia/decode/internal/judge_direction.h"
@@ -77,6 +83,39 @@ void correct_orders(const DirectionInput& input, DirectionMaps& maps) {
   correct_view_orders(maps.fringes, maps.fits, input.options, input.run, maps.view);
 }
 
+/// Discards pixels whose Gray code names columns or rows that the stated projector does not have.
+AbsolutePhase inside_field(const DirectionInput& input, AbsolutePhase phase) {
+  const PhaseRange range = phase_range(phase.pattern, input.rig.projector);
+  if (!(range.width_rad() > 0.0)) return phase;
+  const double margin = kTwoPi * phase.pattern.fringes_per_unit();  // one pixel of the projector
+  std::size_t measured = 0;
+  std::size_t outside = 0;
+  for (std::size_t i = 0; i < phase.phase_rad.pixels().size(); ++i) {
+    const auto found = static_cast<double>(phase.phase_rad.pixels()[i]);
+    if (std::isnan(found)) continue;
+    ++measured;
+    if (found >= range.min_rad - margin && found <= range.max_rad + margin) continue;
+    ++outside;
+    phase.phase_rad.pixels()[i] = kMissing;
+    phase.sigma_rad.pixels()[i] = kMissing;
+    if (!phase.systematic_rad.empty()) phase.systematic_rad.pixels()[i] = kMissing;
+    phase.status.pixels()[i] = PixelStatus::OutOfField;
+  }
+  constexpr double kWarned = 0.02;  // wrong codes in shadows are fewer
+  const double share =
+      static_cast<double>(outside) / static_cast<double>(std::max<std::size_t>(1, measured));
+  if (share > kWarned) {
+    input.run.warn(
+        fmt::format("the Gray code of {:.0f} % of the measured pixels names {} outside the "
+                    "projector of rig.toml, "
+                    "and they are not measured; check size_px there, and bits, stripe_px and "
+                    "offset_px of the code",
+                    100.0 * share,
+                    input.plan.direction == FringeDirection::Vertical ? "columns" : "rows"));
+  }
+  return phase;
+}
+
 /// What is left to do with a phase, wherever its orders come from.
 DecodedView finished(const DirectionInput& input, DirectionMaps maps) {
   DecodedView view = std::move(maps.view);
@@ -102,7 +141,10 @@ DecodedView decode_from(const FromGrayCode& /*source*/, const DirectionInput& in
   view.checks = {check_code(input, gray.front(), view)};
   const WrappedPhase& coarsest = view.wrapped.front();
   unwrap_finer(
-      input, {decode_gray_code(gray, coarsest, view.noise, input.options.temporal), {}}, view);
+      input,
+      {inside_field(input, decode_gray_code(gray, coarsest, view.noise, input.options.temporal)),
+       {}},
+      view);
   return finished(input, std::move(maps));
 }
 
@@ -124,7 +166,7 @@ DecodedView decode_from(const FromGrayCodeAlone& /*source*/, const DirectionInpu
     threshold = gray_threshold(gray.front(), find(PatternKind::White), find(PatternKind::Ambient));
   GrayAloneOptions limits;
   limits.max_wrong_stripe = input.options.temporal.max_wrong_order;
-  out.phase = decode_gray_alone(gray, threshold, out.noise, limits);
+  out.phase = inside_field(input, decode_gray_alone(gray, threshold, out.noise, limits));
   out.coarsest = out.phase.pattern;
   return out;
 }

@@ -140,6 +140,10 @@ class GrayCodeSample {
     const double most = 1.02 / trial.code.stripe_px;
     const double frequency = best_frequency(at.columns, at.phases_rad, most / kFinest, field);
     if (!(frequency > 0.0)) return 0.0;
+    const double declared = 1.0 / fringes_.pattern.period_px;
+    const double odds =
+        log_odds_of_frequency(at.columns, at.phases_rad, frequency, declared, 5.0 * most * field);
+    if (odds < std::log(100.0)) return 0.0;
     constexpr double kSame = 0.1;  // fringes over the field
     for (const double unit : {1.0, 0.5, 0.1, 0.01}) {
       const double rounded = unit * std::round(1.0 / frequency / unit);

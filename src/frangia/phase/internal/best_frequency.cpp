@@ -1,7 +1,10 @@
 #include "frangia/phase/internal/best_frequency.h"
 
+#include <algorithm>
 #include <cmath>
+#include <complex>
 #include <cstddef>
+#include <map>
 
 #include "frangia/core/angles.h"
 
@@ -39,6 +42,29 @@ double best_frequency(std::span<const double> places,
     }
   }
   return most > kMinAgreement ? best : 0.0;
+}
+
+double log_odds_of_frequency(std::span<const double> places,
+                             std::span<const float> phases_rad,
+                             double found,
+                             double declared,
+                             double tried) {
+  constexpr double kPriorFault = 0.01;
+  constexpr double kLeastSpread = 0.01;  // 1 - R^2 of exact borders: blur, harmonics
+  std::map<double, std::complex<double>> sums;
+  for (std::size_t i = 0; i < places.size(); ++i)
+    sums[places[i]] += std::polar(1.0, static_cast<double>(phases_rad[i]));
+  const auto spread = [&](double frequency) {
+    std::complex<double> mean;
+    for (const auto& [place, sum] : sums) {
+      const double size = std::abs(sum);
+      if (size > 0.0) mean += sum / size * std::polar(1.0, -kTwoPi * frequency * place);
+    }
+    mean /= static_cast<double>(sums.size());
+    return std::max(1.0 - std::norm(mean), kLeastSpread);
+  };
+  return static_cast<double>(sums.size()) * std::log(spread(declared) / spread(found)) -
+         std::log(tried) + std::log(kPriorFault);
 }
 
 }  // namespace frangia

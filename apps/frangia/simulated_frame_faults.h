@@ -1,0 +1,28 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+#include "frangia/core/run.h"
+#include "frangia/dataset/scan_folder.h"
+
+namespace frangia {
+
+/// Faults of single frames of a simulated scan, as VIEW:PATTERN:FRAME, each counted from 0.
+struct SimulatedFrameFaults {
+  std::vector<std::string> lost;      ///< black: the camera was out of step
+  std::vector<std::string> repeated;  ///< the frame before was captured again
+  bool video_levels = false;          ///< counts of 16 to 235 of 255, cut off there
+};
+
+/// Adds the options of the faults to the verb.
+void add_frame_faults(CLI::App& verb, SimulatedFrameFaults& faults);
+
+/// Changes the frames of a scan that was written.
+///
+/// @errors   Error(Input) for a view, pattern or frame that the scan does not have
+void apply_frame_faults(const SimulatedFrameFaults& faults, const Scan& scan, const Run& run);
+
+}  // namespace frangia
