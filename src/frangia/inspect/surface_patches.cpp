@@ -240,12 +240,23 @@ void mark_missing(SurfacePatches& patches, const Mesh& mesh, const RayScene& ref
     if (!patches.is_measured(i)) open.push_back(i);
   if (open.empty()) return;
   const RayScene scene(mesh);
+  // A mesh cuts sharp edges off by the distance of its points, half a diameter.
+  const double margin_mm = 2.0 * patches.diameter_mm;
+  std::vector<std::uint8_t> candidate(patches.size(), 0);
   for (const std::uint32_t i : open) {
     const Vector3d center = patches.center_mm[i].cast<double>();
     const Vector3d normal = patches.normal[i].cast<double>();
-    // A mesh cuts sharp edges off by the distance of its points, half a diameter.
-    patches.missing[i] =
-        is_missing(center, normal, scene, reference, 2.0 * patches.diameter_mm) ? 1 : 0;
+    candidate[i] = is_missing(center, normal, scene, reference, margin_mm) ? 1 : 0;
+  }
+  // A single patch may be the end of a rounded edge: all around it the material must be missing.
+  for (const std::uint32_t i : open) {
+    const auto supports = [&](std::uint32_t k) {
+      if (patches.normal[i].dot(patches.normal[k]) < kSameFace || candidate[k] != 0) return true;
+      return static_cast<double>(std::abs(patches.deviation_mm[k])) > margin_mm;
+    };
+    const auto& around = patches.neighbors[i];
+    if (candidate[i] != 0 && std::all_of(around.begin(), around.end(), supports))
+      patches.missing[i] = 1;
   }
 }
 
