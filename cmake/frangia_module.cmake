@@ -1,7 +1,7 @@
 # frangia_module(<name> [GLUE] [USES <module>...] [LIBS <target>...] [PRIVATE_LIBS <target>...]
 #   [PRIVATE_HEADERS <target>...])
 #
-# Static library frangia::<name> from src/frangia/<name>/{,internal/}*.cpp; header-only when there is none.
+# Static library frangia::<name> from src/frangia/<name>/{,*/,*/internal/}*.cpp; header-only when there is none.
 # USES names exactly the modules whose headers the module includes: tools/check_layers.py reads the same statement.
 # Headers directly in the folder are public and installed; those in internal/ are for the module and its tests.
 # PRIVATE_LIBS are included by sources only, so that their headers stay out of ours; PRIVATE_HEADERS likewise, and hold
@@ -17,8 +17,9 @@ set(FRANGIA_COMMON_HEADERS
 function(frangia_module name)
   cmake_parse_arguments(ARG "GLUE" "" "USES;LIBS;PRIVATE_LIBS;PRIVATE_HEADERS" ${ARGN})
   set(dir ${PROJECT_SOURCE_DIR}/src/frangia/${name})
-  file(GLOB sources CONFIGURE_DEPENDS ${dir}/*.cpp ${dir}/internal/*.cpp)
-  file(GLOB headers CONFIGURE_DEPENDS ${dir}/*.h)
+  file(GLOB sources CONFIGURE_DEPENDS ${dir}/*.cpp ${dir}/*/*.cpp ${dir}/*/internal/*.cpp)
+  file(GLOB headers CONFIGURE_DEPENDS ${dir}/*.h ${dir}/*/*.h)
+  list(FILTER headers EXCLUDE REGEX "/internal/")
   if(NOT FRANGIA_CALIBRATION)  # the modules calibrate and exchange, and sources of other modules that need it
     list(FILTER sources EXCLUDE REGEX "/frangia/(calibrate/|exchange/|[a-z_]+/(internal/)?calibrate_)")
   endif()
