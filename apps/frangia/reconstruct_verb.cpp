@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <filesystem>
 #include <map>
 #include <memory>
@@ -9,6 +10,7 @@
 #include "frangia/pipeline/reconstruct.h"
 
 #include "check_can_write.h"
+#include "exit_codes.h"
 #include "option_values.h"
 #include "reconstruct_options.h"
 #include "reconstruct_result.h"
@@ -44,6 +46,13 @@ void write_outputs(const Reconstruction& result,
   write_ply(arguments.raw, points);
 }
 
+/// Whether views with points are not part of the mesh: a warning says why.
+bool leaves_out_measured(const Reconstruction& result) {
+  return std::any_of(result.view_summaries.begin(),
+                     result.view_summaries.end(),
+                     [](const ViewSummary& view) { return view.left_out && view.points > 0; });
+}
+
 void reconstruct_verb(ReconstructArguments& arguments, Terminal& terminal) {
   arguments.outputs.check();
   arguments.options.keep_raw = !arguments.raw.empty();
@@ -62,6 +71,7 @@ void reconstruct_verb(ReconstructArguments& arguments, Terminal& terminal) {
   run.stage("files");
   write_outputs(result, arguments, run);
   terminal.assess(result.untrusted_reason);
+  if (terminal.exit_code == 0 && leaves_out_measured(result)) terminal.exit_code = DeviceFault;
   print_reconstruction(result, arguments.outputs.paths, arguments.raw, terminal);
 }
 
