@@ -44,7 +44,7 @@ struct PoseRound {
     all.tail(rig_at.size()) = rig_at;
     return all;
   }
-  [[nodiscard]] PosePosterior posterior(const PoseHypothesis& of) const {
+  [[nodiscard]] PosePosterior posterior(const CauseHypothesis& of) const {
     return evidence->posterior(motions_of(of, chart.setting, evidence->data().gradient.size()));
   }
   /// Root mean square over the pairs of what a difference of motions changes.
@@ -63,7 +63,7 @@ struct PoseRound {
 
 /// Motions of the richest hypothesis: every view and the rig are elsewhere.
 Eigen::MatrixXd everything(const PoseChart& chart, Eigen::Index unknowns) {
-  const PoseHypothesis free{PoseCause::Unexplained, {}, 0.004 * chart.setting.distance_mm, 0.0};
+  const CauseHypothesis free{PoseCause::Unexplained, {}, 0.004 * chart.setting.distance_mm, 0.0};
   Eigen::MatrixXd own = motions_of(free, chart.setting, unknowns);
   const Eigen::Index rig = 2 * chart.setting.rig_changes;
   own.conservativeResize(Eigen::NoChange, own.cols() + rig);
@@ -175,7 +175,7 @@ std::size_t winner_of(const PoseRound& round) {
 }
 
 /// Whether the pairs of either half of the regions are predicted by what the other half finds.
-bool predicts(const PoseRound& round, const PoseHypothesis& hypothesis) {
+bool predicts(const PoseRound& round, const CauseHypothesis& hypothesis) {
   double gain = 0.0;
   const Eigen::VectorXd at = round.at();
   const Eigen::Index unknowns = at.size();

@@ -128,7 +128,7 @@ Eigen::MatrixXd unit_motions(PoseCause cause,
 /// Collects the hypotheses of all causes.
 class CauseScores {
  public:
-  void add(PoseHypothesis hypothesis) {
+  void add(CauseHypothesis hypothesis) {
     Score& score = scores_[hypothesis.cause];
     score.log_odds.push_back(hypothesis.log_odds);
     if (score.log_odds.size() == 1 || hypothesis.log_odds > score.best.log_odds)
@@ -168,7 +168,7 @@ class CauseScores {
  private:
   struct Score {
     std::vector<double> log_odds;
-    PoseHypothesis best;
+    CauseHypothesis best;
   };
   std::map<PoseCause, Score> scores_;
 };
@@ -258,7 +258,7 @@ void add_independent(CauseScores& scores, const PartEquations& part, double dist
 
 }  // namespace
 
-Eigen::MatrixXd motions_of(const PoseHypothesis& hypothesis,
+Eigen::MatrixXd motions_of(const CauseHypothesis& hypothesis,
                            const PoseSetting& setting,
                            Eigen::Index unknowns) {
   return hypothesis.scale * unit_motions(hypothesis.cause, hypothesis.views, setting, unknowns);

@@ -24,7 +24,7 @@ struct PoseSetting {
 };
 
 /// One hypothesis, with its odds.
-struct PoseHypothesis {
+struct CauseHypothesis {
   PoseCause cause = PoseCause::AsStated;
   std::vector<std::size_t> views;  ///< as `PoseExplanation` has them
   double scale = 0.0;              ///< standard deviation of its changes: mm, or a share
@@ -35,11 +35,11 @@ struct PoseHypothesis {
 struct ScoredCause {
   PoseCause cause = PoseCause::AsStated;
   double log_odds = 0.0;  ///< mean over the hypotheses of this cause: each is as probable
-  PoseHypothesis best;
+  CauseHypothesis best;
 };
 
 /// The motions of a hypothesis by its own changes: U of `PoseEvidence`.
-[[nodiscard]] Eigen::MatrixXd motions_of(const PoseHypothesis& hypothesis,
+[[nodiscard]] Eigen::MatrixXd motions_of(const CauseHypothesis& hypothesis,
                                          const PoseSetting& setting,
                                          Eigen::Index unknowns);
 
