@@ -20,6 +20,28 @@
 namespace frangia {
 namespace {
 
+nlohmann::ordered_json json_of(const PoseExplanation& found) {
+  nlohmann::ordered_json json;
+  json["best"] = name_of(found.best);
+  json["alike"] = nlohmann::ordered_json::array();
+  for (const PoseCause cause : found.alike)
+    json["alike"].push_back(name_of(cause));
+  json["second"] = name_of(found.second);
+  json["log_odds"] = found.log_odds;
+  json["decided"] = found.decided;
+  json["views"] = found.views;
+  json["effect_mm"] = found.effect_mm;
+  json["moved_mm"] = found.moved_mm;  // NaN is written as null
+  json["moved_sigma_mm"] = found.moved_sigma_mm;
+  json["turned_deg"] = deg_from_rad(found.turned_rad);
+  json["scale"] = found.scale;
+  json["terms"] = found.terms;
+  json["unexplained_mm"] = found.unexplained_mm;
+  json["text"] = found.text;
+  json["remedy"] = found.remedy;
+  return json;
+}
+
 nlohmann::ordered_json json_of(const RegistrationReport& report) {
   const auto number = [](double value) {  // JSON has no NaN
     return std::isnan(value) ? nlohmann::ordered_json() : nlohmann::ordered_json(value);
@@ -52,6 +74,7 @@ nlohmann::ordered_json json_of(const RegistrationReport& report) {
   json["rests_on_rig"] = report.rests_on_rig;
   json["not_determined"] = report.undetermined;
   json["left_out"] = report.outliers;
+  json["explanation"] = json_of(report.explanation);
   return json;
 }
 

@@ -46,6 +46,14 @@ void write_outputs(const Reconstruction& result,
   write_ply(arguments.raw, points);
 }
 
+/// Whether views are not part of the mesh for a fault of their frames or poses: a warning says why.
+bool leaves_out_views(const Reconstruction& result) {
+  return std::any_of(
+      result.view_summaries.begin(), result.view_summaries.end(), [](const ViewSummary& view) {
+        return !view.reason.empty() || (view.left_out && view.points > 0);
+      });
+}
+
 void reconstruct_verb(ReconstructArguments& arguments, Terminal& terminal) {
   arguments.outputs.check();
   arguments.options.keep_raw = !arguments.raw.empty();
@@ -64,10 +72,7 @@ void reconstruct_verb(ReconstructArguments& arguments, Terminal& terminal) {
   run.stage("files");
   write_outputs(result, arguments, run);
   terminal.assess(result.untrusted_reason);
-  const bool skipped = std::any_of(result.view_summaries.begin(),
-                                   result.view_summaries.end(),
-                                   [](const ViewSummary& view) { return !view.reason.empty(); });
-  if (skipped && terminal.exit_code == 0) terminal.exit_code = DeviceFault;
+  if (terminal.exit_code == 0 && leaves_out_views(result)) terminal.exit_code = DeviceFault;
   print_reconstruction(result, arguments.outputs.paths, arguments.raw, terminal);
 }
 

@@ -47,6 +47,16 @@ void report_disagreement(const MeasuredViews& measured, Reconstruction& out) {
       static_cast<double>(median(measured.camera_disagreements_over_sigma)) / kMedianOfNormal;
 }
 
+/// The stations of some views. A rig with one camera is itself an explanation of what the views
+/// disagree about; points of several cameras are not those of one drift.
+TurntableStations stations_of(const Rig& rig, const MeasuredViews& measured) {
+  TurntableStations given{*rig.turntable, measured.stations};
+  if (!rig.more_cameras.empty() || rig.projector.is_label) return given;
+  given.rig = &rig;
+  given.pattern = &measured.coarsest;
+  return given;
+}
+
 /// Removes what is not the part from the views of one setup, corrects them for indirect light, and
 /// registers them on the turntable. False where indirect light was looked for before the
 /// registration and not found.
@@ -67,11 +77,8 @@ bool register_setup(MeasuredSetup& setup,
   if (can.registers_views) {
     if (can.corrects_before_registration)
       indirect_light = correct_before_registration(measured, decoding, options.fusion, run);
-    setup.registration = register_views(measured.views,
-                                        camera,
-                                        {*scan.rig.turntable, measured.stations},
-                                        options.registration,
-                                        run);
+    setup.registration = register_views(
+        measured.views, camera, stations_of(scan.rig, measured), options.registration, run);
     clear_outliers_of_cameras(setup);
   }
   return indirect_light;
@@ -166,11 +173,20 @@ Mesh fuse_registered(RegisteredViews& registered,
   return fused;
 }
 
+/// Whether the views say that the rig is not what it states, and nothing else.
+bool blames_rig(const std::vector<MeasuredSetup>& setups) {
+  return std::any_of(setups.begin(), setups.end(), [](const MeasuredSetup& setup) {
+    return setup.registration && setup.registration->explanation.best == PoseCause::Rig &&
+           setup.registration->explanation.decided;
+  });
+}
+
 /// Refines the rig and reconstructs with it from the frames on.
 Reconstruction reconstruct_with_refined_rig(const Scan& scan,
                                             ReconstructOptions options,
                                             const Run& run) {
   options.refine_rig = false;
+  options.explain_rig = false;
   RigRefinement refinement = refine_scan_rig(scan, options, run);
   run.note(refinement.text());
   Scan refined = scan;
@@ -222,6 +238,13 @@ Reconstruction reconstruct(const Scan& scan, const ReconstructOptions& options, 
   if (out.points == 0) {
     throw Error(ErrorKind::Input,
                 explain_no_surface(scan, rays, options.decode, {0, unresolved}, run));
+  }
+
+  if (options.explain_rig && blames_rig(setups)) {
+    run.note(
+        "the rig is refined by the surfaces of the views, because they say that it is not what "
+        "rig.toml states");
+    return reconstruct_with_refined_rig(scan, options, run);
   }
 
   // All setups in the frame of the first one, then one surface, then the finished mesh.

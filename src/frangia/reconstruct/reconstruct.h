@@ -36,7 +36,9 @@ struct ReconstructOptions {
   bool register_views = true;    ///< refine the turntable's axis and angles by the overlap of views
   RegisterOptions registration;  ///< refinement of axis and angles
   bool refine_rig = false;       ///< refines the rig itself by the surfaces of the views first
-  RefineRigOptions refinement;   ///< prior of the rig's drift
+  /// Refines it, too, where the views decide that nothing else explains what they disagree about.
+  bool explain_rig = true;
+  RefineRigOptions refinement;        ///< prior of the rig's drift
   bool keep_turntable_top = false;    ///< otherwise it is found and removed
   TurntableTopOptions turntable_top;  ///< criteria of the turntable top that is removed
   double clip_below_mm =

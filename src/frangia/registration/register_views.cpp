@@ -12,8 +12,11 @@
 #include "frangia/registration/internal/assess_fit.h"
 #include "frangia/registration/internal/assess_observability.h"
 #include "frangia/registration/internal/assess_places.h"
+#include "frangia/registration/internal/explain_angles.h"
+#include "frangia/registration/internal/explain_poses.h"
 #include "frangia/registration/internal/leave_out_views.h"
 #include "frangia/registration/internal/make_bundle.h"
+#include "frangia/registration/internal/retriangulate_views.h"
 #include "frangia/registration/internal/state_motions.h"
 
 namespace frangia {
@@ -113,6 +116,65 @@ void report_sums(RegistrationReport& report, const BundleSums& sums, const Regis
   report.overlap = overlap_of(sums, work.surfels);
 }
 
+/// Explains what the views disagree about. A view that is elsewhere by itself is left out, and the
+/// others are explained again.
+ExplainedPoses explain(RegistrationReport& report,
+                       Registration& work,
+                       const TurntableStations& given,
+                       std::size_t dense) {
+  if (auto angles = explain_angles(work)) {
+    report.explanation = std::move(angles->explanation);
+    work.bundle.given.angles_rad = std::move(angles->angles_rad);
+    work.optimize_again();
+  }
+  for (;;) {
+    ExplainedPoses found = explain_poses(work, given, dense);
+    const PoseExplanation& explanation = found.explanation;
+    if (explanation.best != PoseCause::AsStated) report.explanation = explanation;
+    const bool leaves_out = explanation.best == PoseCause::ViewMoved && explanation.decided &&
+                            2 * (report.outliers.size() + 1) < work.views.size();
+    if (!leaves_out) return found;
+    work.run.warn(explanation.text);
+    const std::size_t view = explanation.views.front();
+    report.outliers.push_back(view);
+    work.leave_out(view);
+    work.optimize_again();
+  }
+}
+
+/// Triangulates the points of each view by the rig as it was while the view was taken, and
+/// registers them again.
+void correct_drift(Registration& work,
+                   const TurntableStations& given,
+                   const std::vector<Rig>& rigs) {
+  for (std::size_t view = 0; view < work.views.size(); ++view) {
+    work.views.replace(
+        view, retriangulate(work.views.load(view), *given.pattern, *given.rig, rigs[view]));
+  }
+  const std::size_t surfels = surfels_per_view(2500, work.views.size());
+  work.bundle =
+      make_bundle(work.views, given.rig->camera.model, work.bundle.given, work.options, work.run);
+  work.surfels = pick_all_surfels(work.bundle.maps, surfels);
+  work.optimize_again();
+}
+
+/// Whether the table alone does not explain the places of the views, which are then corrected.
+bool apply_correction(RegistrationReport& report, ExplainedPoses& found, Registration& work) {
+  if (!found.corrected) return false;
+  CorrectedPoses& poses = *found.corrected;
+  assess_contradiction(report, poses.wide, work);
+  report_fit(report, poses.fit);
+  report.overlap = overlap_of(poses.wide, work.surfels);
+  apply_state(report, work.views, poses.state);
+  for (std::size_t view = 0; view < work.views.size(); ++view)
+    work.views.set_rig_from_object(view, poses.object_from_rig[view].inverse());
+  const double distance_mm = work.bundle.prior_sigma[2] / work.options.relative_shift_sigma;
+  report.sigma = sigma_of(report.given, work.options, distance_mm);
+  report.motions = std::move(poses.motions);
+  report.iterations = work.bundle.iterations;
+  return true;
+}
+
 /// Decides between the given state and the refined one, and assesses the places of the views.
 /// Returns whether the refined one slid, so that the rig alone places them.
 bool keep_better_state(RegistrationReport& report, const BundleSums& refined, Registration& work) {
@@ -181,9 +243,27 @@ RegistrationReport register_views(ViewStore& views,
     return report;
   }
   optimize_bundle(bundle, surfels, options.max_iterations, run);
+  run.report(0.5);
+  ExplainedPoses explained = explain(report, work, given, many_surfels);
+  const PoseExplanation& explanation = report.explanation;
+  if (!explained.rigs.empty() && explained.explanation.decided) {
+    correct_drift(work, given, explained.rigs);
+    explained = {};
+  }
+  if (!explanation.text.empty() && explanation.best != PoseCause::ViewMoved) {
+    run.warn(explanation.remedy.empty() ? explanation.text
+                                        : explanation.text + "; " + explanation.remedy);
+  }
   run.report(0.7);
-  leave_out_outliers(report, work);
-  leave_out_moved(report, work);
+  if (apply_correction(report, explained, work)) {
+    if (!report.untrusted_reason().empty()) run.warn(report.untrusted_reason());
+    return report;
+  }
+  const bool blames_views = explanation.best == PoseCause::Unexplained;
+  if (blames_views || explanation.best == PoseCause::AsStated ||
+      explanation.best == PoseCause::ViewMoved)
+    leave_out_outliers(report, work);
+  if (blames_views) leave_out_moved(report, work);
   surfels = pick_all_surfels(bundle.maps, many_surfels);
   optimize_bundle(bundle, surfels, options.max_iterations, run);
   run.report(0.9);

@@ -7,6 +7,7 @@
 
 #include "frangia/core/angles.h"
 #include "frangia/core/run.h"
+#include "frangia/pattern/pattern.h"
 #include "frangia/registration/registration_report.h"
 #include "frangia/rig/rig.h"
 #include "frangia/views/view_store.h"
@@ -59,6 +60,9 @@ struct Station {
 struct TurntableStations {
   const Turntable& table;             ///< axis as the rig gives it
   std::span<const Station> stations;  ///< one for each view
+  /// With its pattern: a rig that is not what it states is one of the explanations, too.
+  const Rig* rig = nullptr;
+  const Pattern* pattern = nullptr;  ///< any fringe pattern in the direction of the fringes
 };
 
 /// Refines the turntable's axis, the angle of each view and the part pose of each setup but the

@@ -52,7 +52,15 @@ std::string RegistrationReport::untrusted_reason() const {
         disagreement_over_sigma,
         text_of(sigma));
   }
-  if (trustworthy) return {};
+  if (trustworthy) {
+    const std::size_t views = given_angles_rad.size();
+    if (4 * outliers.size() <= views) return {};
+    return fmt::format(
+        "{} of {} views are left out, more than a quarter: what the surface shows is not the whole "
+        "scan",
+        outliers.size(),
+        views);
+  }
   return fmt::format(
       "the views contradict each other, up to {:.0f} % of a view's points lie in front of the "
       "surface that another view measured: either the part moved between views, or the rig's "
@@ -81,6 +89,8 @@ std::string RegistrationReport::rig_alone_text() const {
 
 std::string RegistrationReport::text() const {
   std::string words = residual_text(*this);
+  if (!explanation.text.empty() && untrusted_reason().empty())
+    words = explanation.text + "; " + words;
   if (kept_rig) return words;
   words += fmt::format(
       "; the axis moved by {:.3g} mm and {:.3f} degrees, the angles by up to {:.3f} degrees",

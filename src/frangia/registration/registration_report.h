@@ -7,6 +7,7 @@
 #include <Eigen/Geometry>
 
 #include "frangia/core/missing.h"
+#include "frangia/registration/explain/pose_explanation.h"
 #include "frangia/registration/view_motions.h"
 #include "frangia/rig/rig.h"
 
@@ -51,6 +52,7 @@ struct RegistrationReport {
   double disagreement_mm = kMissing;
   double disagreement_over_noise = kMissing;  ///< median of the distances over their noise
   double disagreement_over_sigma = kMissing;  ///< the same over noise and `sigma`
+  PoseExplanation explanation;                ///< of what the views disagree about, but for noise
 
   /// Distance from `given.point_mm` to `table.point_mm`.
   [[nodiscard]] double axis_moved_mm() const;

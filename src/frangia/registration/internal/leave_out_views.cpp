@@ -21,15 +21,20 @@ void Registration::leave_out(std::size_t view) {
 }
 
 void leave_out_outliers(RegistrationReport& report, Registration& work) {
-  report.outliers = find_outliers(sum(work.bundle, work.surfels), work.options.outlier_overlap);
-  for (const std::size_t view : report.outliers) {
+  const std::vector<std::size_t> outliers =
+      find_outliers(sum(work.bundle, work.surfels), work.options.outlier_overlap);
+  bool some = false;
+  for (const std::size_t view : outliers) {
+    if (work.surfels[view].empty()) continue;  // left out already
+    some = true;
+    report.outliers.push_back(view);
     work.run.warn(
         fmt::format("view {} fits no other view and is left out: check whether the part moved "
                     "before it was taken",
                     work.name_of(view)));
     work.leave_out(view);
   }
-  if (!report.outliers.empty()) work.optimize_again();
+  if (some) work.optimize_again();
 }
 
 void leave_out_moved(RegistrationReport& report, Registration& work) {

@@ -23,18 +23,20 @@ SurfelLists pick_all_surfels(const std::vector<SurfelMap>& maps, std::size_t cou
   return surfels;
 }
 
-BundleSums sum(const Bundle& bundle, const SurfelLists& surfels) {
+double free_space_margin_mm(const Bundle& bundle) {
   // 18 sigmas of a surfel: far in front of a surface even where the views fit badly. Within the
   // gate a point still counts as one on the surface.
   constexpr double kFreeSpaceMargin = 3.0;
-  const double free_space_margin_mm =
-      std::min(bundle.gate_mm, kFreeSpaceMargin * bundle.min_gate_mm);
+  return std::min(bundle.gate_mm, kFreeSpaceMargin * bundle.min_gate_mm);
+}
+
+BundleSums sum(const Bundle& bundle, const SurfelLists& surfels) {
   return sum_bundle(surfels,
                     bundle.maps,
                     bundle.model,
                     bundle.state,
                     bundle.pairs,
-                    {bundle.gate_mm, free_space_margin_mm, bundle.left_out});
+                    {bundle.gate_mm, free_space_margin_mm(bundle), bundle.left_out});
 }
 
 void optimize_bundle(Bundle& bundle,

@@ -34,6 +34,9 @@ using SurfelLists = std::vector<std::vector<SurfelMap::Surfel>>;
 
 [[nodiscard]] SurfelLists pick_all_surfels(const std::vector<SurfelMap>& maps, std::size_t count);
 
+/// Distance in front of another view's surface from which a point contradicts it.
+[[nodiscard]] double free_space_margin_mm(const Bundle& bundle);
+
 /// Compares all views in the state of the bundle, within its gate.
 [[nodiscard]] BundleSums sum(const Bundle& bundle, const SurfelLists& surfels);
 

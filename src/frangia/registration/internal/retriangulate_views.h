@@ -10,12 +10,14 @@ namespace frangia {
 /// Triangulates the points of all views by another rig. Each stays on its camera pixel and on the
 /// absolute phase that the first rig shows there.
 ///
-/// @missing  a point that the other rig does not measure is removed; there are no edge pixels and
-///           no systematic parts
+/// @missing  a point that the other rig does not measure is removed; there are no systematic parts
 [[nodiscard]] ViewStore retriangulate_views(const ViewStore& views,
                                             const Pattern& pattern,
                                             const Rig& from,
                                             const Rig& to,
                                             const Run& run = {});
+
+/// The same for one view.
+[[nodiscard]] View retriangulate(View view, const Pattern& pattern, const Rig& from, const Rig& to);
 
 }  // namespace frangia

@@ -20,7 +20,8 @@ Eigen::Matrix<double, 6, 1> motion_between(const Eigen::Isometry3d& one,
   return motion;
 }
 
-/// The motions of the views by each unknown, for a change of 1.
+}  // namespace
+
 ViewMotions motions_by_unknown(const TableState& state) {
   constexpr double kStep = 1e-6;  // rad, and of the distance
   const std::vector<Eigen::Isometry3d> poses = object_poses(state);
@@ -41,8 +42,6 @@ ViewMotions motions_by_unknown(const TableState& state) {
   }
   return motions;
 }
-
-}  // namespace
 
 std::vector<Eigen::Isometry3d> object_poses(const TableState& state) {
   std::vector<Eigen::Isometry3d> poses;

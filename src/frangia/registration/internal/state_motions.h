@@ -13,6 +13,9 @@ namespace frangia {
 /// Poses of the object in the rig frame, by view.
 [[nodiscard]] std::vector<Eigen::Isometry3d> object_poses(const TableState& state);
 
+/// The motions of the views by each unknown, for a change of 1.
+[[nodiscard]] ViewMotions motions_by_unknown(const TableState& state);
+
 /// Standard deviations of the unknowns, part poses being unknown by `prior_sigma`.
 [[nodiscard]] Eigen::VectorXd sigmas_of(const TableState& state,
                                         const TurntableSigma& sigma,

@@ -1,0 +1,155 @@
+#include "frangia/registration/explain/internal/describe_explanation.h"
+
+#include <cmath>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "frangia/core/angles.h"
+
+namespace frangia {
+namespace {
+
+/// "0.41 ± 0.01 mm".
+std::string text_of_motion(const PoseExplanation& found) {
+  return fmt::format("{:.2g} ± {:.1g} mm", found.moved_mm, found.moved_sigma_mm);
+}
+
+std::string between(std::size_t view, const ViewNames& names) {
+  return fmt::format("between views {} and {}", names(view - 1), names(view));
+}
+
+std::string cause_text(PoseCause cause, const PoseExplanation& found, const ViewNames& names) {
+  switch (cause) {
+    case PoseCause::AsStated:
+      return "rig and table are as stated";
+    case PoseCause::Turntable:
+      return "the turntable's axis or angles are farther from what the rig states than its "
+             "standard "
+             "deviations";
+    case PoseCause::Turned:
+      return fmt::format("the table lost a step or the part turned about the axis, by {:.3f}°, {}",
+                         deg_from_rad(found.turned_rad),
+                         between(found.views.front(), names));
+    case PoseCause::AnglesScaled:
+      return fmt::format("the table turns by {:.4f} times the commanded angles", found.scale);
+    case PoseCause::PartMoved:
+      return fmt::format(
+          "the part slid by {} {}", text_of_motion(found), between(found.views.front(), names));
+    case PoseCause::PartMovedTwice:
+      return fmt::format("the part moved {} and {}",
+                         between(found.views.front(), names),
+                         between(found.views.back(), names));
+    case PoseCause::ViewMoved:
+      return fmt::format("view {} fits no other view: the part was elsewhere in it alone, by {}",
+                         names(found.views.front()),
+                         text_of_motion(found));
+    case PoseCause::PartDrift:
+      return fmt::format("the part or the table moved evenly during the scan, by {}",
+                         text_of_motion(found));
+    case PoseCause::Wobble:
+      return fmt::format(
+          "table or part moved at random from view to view, with a standard "
+          "deviation of {:.2g} mm",
+          found.scale);
+    case PoseCause::Rig:
+      return fmt::format("the rig is not what rig.toml states, all through the scan ({})",
+                         fmt::join(found.terms, ", "));
+    case PoseCause::RigDrift:
+      return fmt::format("projector or camera drifted during the scan ({})",
+                         fmt::join(found.terms, ", "));
+    case PoseCause::Unexplained:
+      break;
+  }
+  return fmt::format("every view is elsewhere, by {:.2g} mm between views", found.effect_mm);
+}
+
+/// The name of a cause, without what it found.
+const char* words_of(PoseCause cause) {
+  switch (cause) {
+    case PoseCause::AsStated:
+      return "rig and table as stated";
+    case PoseCause::Turntable:
+      return "an axis or angles that are not as stated";
+    case PoseCause::Turned:
+      return "a lost step of the table";
+    case PoseCause::AnglesScaled:
+      return "angles in another proportion";
+    case PoseCause::PartMoved:
+      return "a part that slid once";
+    case PoseCause::PartMovedTwice:
+      return "a part that moved twice";
+    case PoseCause::ViewMoved:
+      return "a part that was elsewhere in one view";
+    case PoseCause::PartDrift:
+      return "a part or table that moved evenly";
+    case PoseCause::Wobble:
+      return "a table that wobbles";
+    case PoseCause::Rig:
+      return "a rig that is not as stated";
+    case PoseCause::RigDrift:
+      return "a drift of projector or camera";
+    case PoseCause::Unexplained:
+      break;
+  }
+  return "views that are each elsewhere";
+}
+
+}  // namespace
+
+std::string describe(const PoseExplanation& found, const ViewNames& names) {
+  if (found.best == PoseCause::AsStated) return {};
+  if (!found.decided) {
+    return fmt::format(
+        "the views disagree by {:.2g} mm for a reason that is not decided: {} or {}; their "
+        "difference is in sigma",
+        found.effect_mm,
+        words_of(found.best),
+        words_of(found.second));
+  }
+  std::string words = cause_text(found.best, found, names);
+  for (const PoseCause cause : found.alike)
+    words += fmt::format(", or {}, which moves the views alike", words_of(cause));
+  switch (found.best) {
+    case PoseCause::PartMoved:
+      return words + "; both groups were joined";
+    case PoseCause::PartMovedTwice:
+      return words + "; the groups were joined";
+    case PoseCause::Turned:
+    case PoseCause::AnglesScaled:
+    case PoseCause::PartDrift:
+    case PoseCause::Wobble:
+    case PoseCause::RigDrift:
+      return words + "; the views were corrected for it";
+    case PoseCause::ViewMoved:
+      return words + "; it is left out";
+    default:
+      return words;
+  }
+}
+
+std::string remedy_of(const PoseExplanation& found) {
+  if (!found.decided) return {};
+  switch (found.best) {
+    case PoseCause::Turntable:
+      return "calibrate the turntable, or state its standard deviations";
+    case PoseCause::Turned:
+    case PoseCause::AnglesScaled:
+      return "check the table's steps per turn and its load";
+    case PoseCause::PartMoved:
+    case PoseCause::PartMovedTwice:
+    case PoseCause::ViewMoved:
+      return "clamp the part";
+    case PoseCause::PartDrift:
+    case PoseCause::Wobble:
+      return "check the bearing of the table and how the part stands";
+    case PoseCause::Rig:
+      return "refine the rig by `refine_rig`, or calibrate it";
+    case PoseCause::RigDrift:
+      return "let the projector warm up before a scan";
+    default:
+      return {};
+  }
+}
+
+}  // namespace frangia

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "frangia/registration/explain/internal/pose_sums.h"
+
+namespace frangia {
+
+/// How points move with further changes of a rig that has changed already.
+///
+/// @shape    `at`: constant changes of the rig, then those that grow with time
+[[nodiscard]] RigChanges rig_changes(const DriftModel& model,
+                                     const Pattern& pattern,
+                                     const std::vector<double>& times,
+                                     const Eigen::VectorXd& at);
+
+/// The rig of each view after such changes.
+[[nodiscard]] std::vector<Rig> rigs_of_views(const DriftModel& model,
+                                             const std::vector<double>& times,
+                                             const Eigen::VectorXd& at);
+
+/// Moves all surfels to where the rig of their view measures them, instead of the stated one.
+void displace_views(std::vector<SurfelMap>& maps,
+                    const Rig& stated,
+                    const std::vector<Rig>& rigs,
+                    const Pattern& pattern);
+
+}  // namespace frangia

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "frangia/registration/explain/internal/pose_evidence.h"
+#include "frangia/registration/explain/pose_explanation.h"
+
+namespace frangia {
+
+/// What the hypotheses are made of.
+struct PoseSetting {
+  std::size_t views = 0;
+  std::vector<double> angles_rad;  ///< stated, of each view
+  std::vector<double> times;       ///< of each view, from -0.5 to 0.5
+  Eigen::Vector3d center_mm;       ///< of the part, object frame
+  double radius_mm = 1.0;          ///< of the part: a rotation counts by its arc there
+  double distance_mm = 500.0;      ///< working distance: lengths of priors are shares of it
+  Eigen::MatrixXd beyond_stated;   ///< motions by axis and angles that are farther off than
+                                   ///< stated; empty: nothing is stated
+  Eigen::Index rig_changes = 0;    ///< 0: the rig has no unknowns
+};
+
+/// One hypothesis, with its odds.
+struct CauseHypothesis {
+  PoseCause cause = PoseCause::AsStated;
+  std::vector<std::size_t> views;  ///< as `PoseExplanation` has them
+  double scale = 0.0;              ///< standard deviation of its changes: mm, or a share
+  double log_odds = 0.0;           ///< against what is stated
+};
+
+/// All hypotheses of one cause.
+struct ScoredCause {
+  PoseCause cause = PoseCause::AsStated;
+  double log_odds = 0.0;  ///< mean over the hypotheses of this cause: each is as probable
+  CauseHypothesis best;
+};
+
+/// The motions of a hypothesis by its own changes: U of `PoseEvidence`.
+[[nodiscard]] Eigen::MatrixXd motions_of(const CauseHypothesis& hypothesis,
+                                         const PoseSetting& setting,
+                                         Eigen::Index unknowns);
+
+/// Scores all hypotheses; by cause, the most probable first. What is stated has odds of 1.
+[[nodiscard]] std::vector<ScoredCause> score_causes(const PoseEvidence& evidence,
+                                                    const PoseSetting& setting);
+
+}  // namespace frangia

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include "frangia/registration/internal/drift_model.h"
+#include "frangia/registration/internal/optimize_bundle.h"
+
+namespace frangia {
+
+/// How the measured points move with changes of the rig: constant ones, and others that grow with
+/// time from the first view to the last.
+struct RigChanges {
+  PointDrift drift;
+  Pattern pattern;
+  std::vector<double> times;  ///< of each view, from -0.5 to 0.5
+  Eigen::Index count = 0;     ///< of the changes
+};
+
+/// Views in free poses.
+struct PosedViews {
+  std::vector<Eigen::Isometry3d> object_from_rig;  ///< by view
+  const RigChanges* rig = nullptr;                 ///< none: the rig has no unknowns
+};
+
+/// Sum of w (r + J x)^2 / 2 in x, but for a constant.
+struct NormalEquations {
+  Eigen::MatrixXd hessian;
+  Eigen::VectorXd gradient;
+};
+
+/// All point-to-plane distances between views, in free poses.
+///
+/// @shape    unknowns: six of each view, the rotation (rad) and the translation (mm) of its points
+///           in the object frame; then the constant changes of the rig, then those that grow
+struct PoseSums {
+  /// Of every other region of the views: either half predicts the other.
+  std::array<NormalEquations, 2> halves;
+  double weight = 0.0;   ///< sum of w, per mm^2
+  double squares = 0.0;  ///< sum of w r^2
+  /// Sum of w J of each of `fit.regions`: by the six unknowns of the view, those of the other view,
+  /// and the rig's; empty where no pair agrees.
+  std::vector<Eigen::VectorXd> region_rows;
+  BundleSums fit;  ///< without equations
+
+  [[nodiscard]] NormalEquations all() const;
+  /// Mean distances of the regions with at least `fewest` pairs, after motions x of the views.
+  [[nodiscard]] std::vector<float> region_means_mm(const Eigen::VectorXd& motion,
+                                                   std::size_t fewest) const;
+};
+
+/// Compares the surfels of each view with those of its paired views, within the gate of the bundle.
+///
+/// @source   as `sum_bundle`
+[[nodiscard]] PoseSums sum_poses(const Bundle& bundle,
+                                 const SurfelLists& surfels,
+                                 const PosedViews& views);
+
+}  // namespace frangia

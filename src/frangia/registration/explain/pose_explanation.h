@@ -1,0 +1,54 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "frangia/core/missing.h"
+
+namespace frangia {
+
+/// What can move the surfaces of views against each other.
+enum class PoseCause : std::uint8_t {
+  AsStated,      ///< rig and table are what is stated, within the standard deviations
+  Turntable,     ///< axis or angles are farther from the statement than its standard deviations
+  Turned,        ///< from one view on, the table or the part is turned about the axis
+  AnglesScaled,  ///< the table turns by another angle than was commanded, in proportion
+  PartMoved,     ///< the part moved between two views
+  PartMovedTwice,
+  ViewMoved,   ///< one view alone was taken in another pose
+  PartDrift,   ///< the part, or the table, moves evenly with time
+  Wobble,      ///< table or part move at random from view to view
+  Rig,         ///< projector or camera are not where the rig states, all through the scan
+  RigDrift,    ///< projector or camera drift with time
+  Unexplained  ///< every view is elsewhere
+};
+
+/// The word for a cause in `--json`: "part-moved".
+[[nodiscard]] const char* name_of(PoseCause cause);
+
+/// The explanation of the poses of a scan's views, chosen by evidence.
+///
+/// @units    mm, rad
+struct PoseExplanation {
+  PoseCause best = PoseCause::AsStated;    ///< by evidence, even where it is not decided
+  std::vector<PoseCause> alike;            ///< causes that predict the same as the best
+  PoseCause second = PoseCause::AsStated;  ///< the best of those that predict something else
+  double log_odds = 0.0;                   ///< natural logarithm, of the best against the second
+  double log_odds_stated = 0.0;            ///< the same against what is stated
+  bool decided = true;                     ///< the odds are above 100 : 1
+  /// Views of the best: those before which the part moved, or the one that is elsewhere.
+  std::vector<std::size_t> views;
+  double effect_mm = 0.0;  ///< what the best changes between the views, root mean square of pairs
+  double moved_mm = kMissing;        ///< of the part's centre, where the part moved
+  double moved_sigma_mm = kMissing;  ///< its standard deviation
+  double turned_rad = kMissing;      ///< of the part or the table
+  double scale = kMissing;           ///< of the angles, or the standard deviation of a wobble in mm
+  std::vector<std::string> terms;    ///< of the rig, that changed most
+  double unexplained_mm = 0.0;       ///< what the pairs of two views still have in common
+  std::string text{};                ///< one sentence, empty when all is as stated
+  std::string remedy{};              ///< what to do, empty for nothing
+};
+
+}  // namespace frangia

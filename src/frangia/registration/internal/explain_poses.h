@@ -1,0 +1,43 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include "frangia/registration/explain/pose_explanation.h"
+#include "frangia/registration/internal/leave_out_views.h"
+#include "frangia/registration/register_views.h"
+#include "frangia/registration/view_motions.h"
+#include "frangia/rig/rig.h"
+
+namespace frangia {
+
+/// Poses of views that the table alone does not explain.
+struct CorrectedPoses {
+  TableState state;                                ///< axis and angles that remain
+  std::vector<Eigen::Isometry3d> object_from_rig;  ///< of each view
+  BundleSums fit;                                  ///< of all pairs in these poses
+  BundleSums wide;                                 ///< the same within a wider gate
+  /// By what the explanation leaves open, and by what others say instead.
+  ViewMotions motions;
+};
+
+/// The explanation of a registration, and what follows from it.
+struct ExplainedPoses {
+  PoseExplanation explanation;
+  std::optional<CorrectedPoses> corrected{};
+  std::vector<Rig> rigs{};  ///< of each view, where the rig drifts
+};
+
+/// Explains what the views of a registration disagree about, after its table has been refined.
+///
+/// Where nothing contradicts the table, one pass over the pairs says so. Else every view gets a
+/// free pose, the pairs of that fit are kept, and all hypotheses are scored on them.
+///
+/// @shape    `dense`: the surfels that refine the corrected poses
+[[nodiscard]] ExplainedPoses explain_poses(const Registration& work,
+                                           const TurntableStations& given,
+                                           std::size_t dense);
+
+}  // namespace frangia
