@@ -10,6 +10,7 @@
 #include "frangia/decode/explain/find_ceiling.h"
 #include "frangia/decode/select_stacks.h"
 #include "frangia/phase/wrap/estimate_noise.h"
+#include "frangia/rig/phase_range.h"
 
 namespace frangia {
 namespace {
@@ -31,10 +32,19 @@ bool may_leave_out(const Pattern& pattern, const DecodeOptions& options) {
          (options.algorithm == "auto" || options.algorithm == "least-squares");
 }
 
+/// Three frames leave no residual: a part that is within one coarse fringe may look like any
+/// fault.
+bool may_look_like_a_fault(const Pattern& pattern, const Rig& rig) {
+  constexpr double kFewFringes = 4.0;  // over the field
+  return pattern.shifts_rad.size() <= 3 &&
+         phase_range(pattern, rig.projector).width_rad() < kFewFringes * kTwoPi;
+}
+
 /// Marks pixels at a ceiling below the white level as saturated.
 void apply_ceiling(const Ceiling& ceiling, const DirectionInput& input, JudgedFrames& out) {
   input.run.warn(fmt::format(
-      "the frames are cut off at {} counts, below their white level of {}: {:.1f} % of the samples "
+      "the frames are cut off at {} counts, below their white level of {}: {:.1f} % of the "
+      "samples "
       "are at it and count as saturated; expose shorter, and set white_level = {} in rig.toml",
       ceiling.counts,
       input.stacks.front().white_level,
@@ -66,7 +76,8 @@ JudgedFrames judge_direction(const DirectionInput& input) {
   const bool has_other_check = fringes.size() > 1 || !gray_of(stacks, input.plan.direction).empty();
   bool changed = false;
   for (const FrameStack* stack : fringes) {
-    if (stack->pattern.exposure_count() > 1) continue;
+    if (stack->pattern.exposure_count() > 1 || may_look_like_a_fault(stack->pattern, input.rig))
+      continue;
     FrameVerdict verdict = judge_frames(
         *stack, out.noise, {may_leave_out(stack->pattern, input.options), has_other_check});
     out.unexplained_rad[stack->pattern.name] = verdict.explanation.unexplained_rad;

@@ -10,10 +10,13 @@
 namespace frangia {
 namespace {
 
-constexpr int kBlock = 3;         ///< px along each side of a block
-constexpr int kBlocksAlong = 20;  ///< blocks along the longer side of the image
-constexpr double kLit = 0.25;  ///< least change of a lit pixel over that of the most changing ones
-constexpr double kMinCounts = 4.0;  ///< least scale: less light says nothing
+constexpr int kBlock = 3;              ///< px along each side of a block
+constexpr int kFewestBlocks = 20;      ///< along the longer side of the image
+constexpr int kMostBlocks = 80;        ///< the same where the part is small
+constexpr Eigen::Index kEnough = 900;  ///< pixels
+constexpr double kLit = 0.25;          ///< least change of a pixel over the large changes
+constexpr double kLitSigmas = 8.0;     ///< least change of a lit pixel over the noise
+constexpr double kMinCounts = 4.0;     ///< least scale: less light says nothing
 
 struct Place {
   int x;
@@ -21,8 +24,8 @@ struct Place {
   int block;
 };
 
-std::vector<Place> places_in(int width, int height) {
-  const int step = std::max(kBlock + 1, std::max(width, height) / kBlocksAlong);
+std::vector<Place> places_in(int width, int height, int blocks) {
+  const int step = std::max(kBlock + 1, std::max(width, height) / blocks);
   std::vector<Place> places;
   int block = 0;
   for (int y = step / 2; y + kBlock <= height; y += step) {
@@ -35,24 +38,35 @@ std::vector<Place> places_in(int width, int height) {
   return places;
 }
 
-/// Frames that are saturated nearly everywhere, while most others are not: white ones.
-std::vector<bool> white_frames(const Eigen::ArrayXXd& counts, double white_level) {
-  const Eigen::ArrayXd shares = (counts >= white_level).cast<double>().colwise().mean().transpose();
-  std::vector<double> all(shares.begin(), shares.end());
+/// Whether the light of each pixel changes over the frames by more than noise.
+Eigen::Array<bool, Eigen::Dynamic, 1> lit(const Eigen::ArrayXXd& counts, const NoiseModel& noise) {
+  const Eigen::ArrayXd sigma = counts.rowwise().mean().unaryExpr(
+      [&](double mean) { return std::sqrt(noise.variance(mean)); });
+  return counts.rowwise().maxCoeff() - counts.rowwise().minCoeff() > kLitSigmas * sigma;
+}
+
+/// Frames in which nearly all lit pixels are saturated, while in most others they are not.
+std::vector<bool> white_frames(const Eigen::ArrayXXd& counts,
+                               const Eigen::Array<bool, Eigen::Dynamic, 1>& is_lit,
+                               double white_level) {
+  const double all = std::max(1.0, static_cast<double>(is_lit.count()));
+  std::vector<double> shares;
+  for (Eigen::Index k = 0; k < counts.cols(); ++k) {
+    const auto saturated = (counts.col(k) >= white_level && is_lit).count();
+    shares.push_back(static_cast<double>(saturated) / all);
+  }
   constexpr double kWhite = 0.9;
   constexpr double kOthers = 0.5;
-  const bool others = median(all) < kOthers;
+  const bool others = median(shares) < kOthers;
   std::vector<bool> out;
   for (const double share : shares)
     out.push_back(others && share > kWhite);
   return out;
 }
 
-}  // namespace
-
-FrameSample sample_blocks(const FrameStack& stack, const NoiseModel& noise) {
-  const std::vector<Place> places =
-      places_in(width_of(stack.frames.front()), height_of(stack.frames.front()));
+FrameSample sample_at(const FrameStack& stack,
+                      const NoiseModel& noise,
+                      const std::vector<Place>& places) {
   const Eigen::Index frames = std::ssize(stack.frames);
   Eigen::ArrayXXd counts(std::ssize(places), frames);
   for (Eigen::Index k = 0; k < frames; ++k) {
@@ -64,11 +78,13 @@ FrameSample sample_blocks(const FrameStack& stack, const NoiseModel& noise) {
         },
         stack.frames[static_cast<std::size_t>(k)]);
   }
-  const std::vector<bool> white = white_frames(counts, stack.white_level);
+  const Eigen::Array<bool, Eigen::Dynamic, 1> is_lit = lit(counts, noise);
+  const std::vector<bool> white = white_frames(counts, is_lit, stack.white_level);
   std::vector<Eigen::Index> usable;
   std::vector<double> scales;
   std::vector<double> changes;
   for (Eigen::Index i = 0; i < counts.rows(); ++i) {
+    if (!is_lit(i)) continue;
     double scale = 0.0;
     double least = std::numeric_limits<double>::infinity();
     for (Eigen::Index k = 0; k < frames; ++k) {
@@ -99,6 +115,19 @@ FrameSample sample_blocks(const FrameStack& stack, const NoiseModel& noise) {
   out.scale_counts = Eigen::Map<const Eigen::ArrayXd>(kept_scales.data(), std::ssize(kept_scales));
   out.variance = out.counts.rowwise().mean().unaryExpr(
       [&](double mean) { return noise.variance(mean) + 1e-3; });
+  return out;
+}
+
+}  // namespace
+
+FrameSample sample_blocks(const FrameStack& stack, const NoiseModel& noise) {
+  const int width = width_of(stack.frames.front());
+  const int height = height_of(stack.frames.front());
+  FrameSample out;
+  for (int blocks = kFewestBlocks; blocks <= kMostBlocks; blocks *= 2) {
+    out = sample_at(stack, noise, places_in(width, height, blocks));
+    if (out.counts.rows() >= kEnough) break;
+  }
   return out;
 }
 
