@@ -10,6 +10,7 @@
 
 #include <fmt/format.h>
 
+#include "frangia/core/angles.h"
 #include "frangia/decode/explain/internal/frame_design.h"
 #include "frangia/decode/explain/internal/frame_sample.h"
 #include "frangia/decode/explain/internal/score_frames.h"
@@ -102,6 +103,32 @@ bool show_whole_fringe(const FrameSample& sample, const FrameHypothesis& hypothe
     if (dark.cast<double>().mean() < kLeast) return false;
   }
   return true;
+}
+
+/// Whether the phases of four frames or more cover the fringe: on a part of one coarse fringe, the
+/// plateaus of binary fringes look like lost frames. One lost frame of four leaves half of it.
+bool cover_fringe(const FrameSample& sample, const FrameHypothesis& declared) {
+  if (declared.shifts_rad.size() <= kMinFrames) return true;
+  constexpr Eigen::Index kBins = 12;
+  constexpr Eigen::Index kCovered = 5;
+  constexpr double kLeast = 0.01;  // of the pixels
+  constexpr double kWhite = 0.9;
+  FrameHypothesis others = declared;  // without white frames, which outshine the fringes
+  for (std::size_t k = 0; k < others.free.size(); ++k) {
+    const auto brightest =
+        sample.counts.col(static_cast<Eigen::Index>(k)) >= sample.counts.maxCoeff();
+    others.free[k] = brightest.cast<double>().mean() > kWhite;
+  }
+  const FrameDesign design = design_of(others);
+  if (design.inverse.size() == 0) return true;
+  const Eigen::MatrixXd values =
+      sample.counts(Eigen::all, design.shown).matrix() * design.inverse.transpose();
+  Eigen::ArrayXd bins = Eigen::ArrayXd::Zero(kBins);
+  for (Eigen::Index i = 0; i < values.rows(); ++i) {
+    const double turn = std::atan2(values(i, 2), values(i, 1)) / kTwoPi + 0.5;
+    bins(std::min(kBins - 1, static_cast<Eigen::Index>(turn * kBins))) += 1.0;
+  }
+  return (bins > kLeast * static_cast<double>(values.rows())).count() >= kCovered;
 }
 
 /// The hypotheses with one fault, those that fit roughly best first.
@@ -243,9 +270,10 @@ FrameExplanation explain_frames(const FrameStack& stack, const NoiseModel& noise
   if (frames < kMinFrames || frames > kMaxFrames || frames != stack.frames.size()) return out;
   const FrameSample sample = sample_blocks(stack, noise);
   if (sample.counts.rows() < kMinPixels) return out;
+  const FrameHypothesis declared = frame_hypotheses(stack.pattern).front();
+  if (!cover_fringe(sample, declared)) return out;
   out.decided = true;
 
-  const FrameHypothesis declared = frame_hypotheses(stack.pattern).front();
   std::vector<Candidate> candidates{{declared, score_frames(sample, declared)}};
   const FrameScore& sound = candidates.front().score;
   const bool fits = !sound.residuals.empty() && sound.unexplained < kNegligibleRest &&
