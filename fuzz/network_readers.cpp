@@ -96,8 +96,10 @@ class FuzzServer {
       tcp::socket socket(context_);
       socket.assign(tcp::v4(), ends[0]);
       if (live) {
-        ++shared_->connections;
-        serve_live(beast::tcp_stream(std::move(socket)), upgrade(), shared_);
+        serve_live(beast::tcp_stream(std::move(socket)),
+                   upgrade(),
+                   shared_,
+                   Claim(shared_, &Shared::connections, 1));
       } else {
         serve_http(std::move(socket), shared_);
       }

@@ -13,7 +13,7 @@
 namespace frangia {
 namespace {
 
-constexpr double kFar_mm = testing::kWallsFar_mm;
+constexpr double kCorrectionFar_mm = testing::kWallsFar_mm;
 constexpr double kProjector_mm = -100.0;
 constexpr int kWidth = 101;
 constexpr int kHeight = 9;
@@ -43,7 +43,7 @@ View view_with_gap(const Image<Eigen::Vector2f>& rays, double sign, int first, i
   for (int y = 0; y < kHeight; ++y) {
     for (int x = 0; x < kWidth; ++x) {
       const double slope = std::abs(static_cast<double>(rays(x, y).x()));
-      const double depth = kFar_mm / (1.0 + sign * slope);
+      const double depth = kCorrectionFar_mm / (1.0 + sign * slope);
       const double phase = phase_at(depth * rays(x, y).cast<double>().homogeneous(),
                                     pattern,
                                     testing::far_projector(kProjector_mm));
