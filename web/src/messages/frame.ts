@@ -96,6 +96,7 @@ export const FRAME = {
   'stage.alignment': ['alignment', 'Ausrichtung'],
   'stage.board': ['board', 'Brett'],
   'stage.calibrate': ['calibration', 'Kalibrierung'],
+  'stage.patches': ['patches', 'Flächenstücke'],
   'stage.deviation': ['deviations', 'Abweichungen'],
   'stage.deviations': ['deviations', 'Abweichungen'],
   'stage.devices': ['devices', 'Geräte'],
