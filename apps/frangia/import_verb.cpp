@@ -38,6 +38,7 @@ struct ImportArguments {
   std::string projector;
   std::string raw;
   std::string color;
+  std::string orientation;
   double white_level = 0.0;
   bool yes = false;
 };
@@ -54,6 +55,8 @@ ImportOptions options_of(const ImportArguments& arguments) {
   if (!arguments.projector.empty()) options.projector_px = projector_size_of(arguments.projector);
   if (!arguments.raw.empty()) options.files.raw = parse_raw_format(arguments.raw);
   if (!arguments.color.empty()) options.color = parse_color_choice(arguments.color);
+  if (arguments.orientation == "stored") options.orientation = FrameOrientation::Stored;
+  if (arguments.orientation == "shown") options.orientation = FrameOrientation::Shown;
   options.float_white = arguments.white_level;
   if (arguments.white_level > 0.0) {
     options.white_level =
@@ -183,6 +186,12 @@ void add_pattern_options(CLI::App& verb, ImportArguments& arguments) {
                   arguments.origin_deg,
                   "phase at the centre of the projector's first column, degrees; -90 for sine "
                   "fringes");
+  verb.add_option(
+          "--orientation",
+          arguments.orientation,
+          "of frames with an EXIF orientation: stored, as in the file, or shown, turned; by "
+          "default as fits the rig")
+      ->check(one_of({"stored", "shown"}));
   verb.add_flag("--horizontal",
                 arguments.options.horizontal,
                 "the phase varies with the projector's row instead of its column");

@@ -20,6 +20,13 @@ struct PatternValue {
   double value = 0.0;   ///< the value
 };
 
+/// Which pixels are the camera's, where a file states an orientation other than 1.
+enum class FrameOrientation {
+  ByRig,   ///< those that have the rig's size; refused where both have
+  Stored,  ///< the pixels as the file stores them
+  Shown    ///< the pixels as programs show them, which turn the image
+};
+
 /// How a folder of images is read as a scan.
 struct ImportOptions {
   std::string names;               ///< template of the file names, see NameTemplate; empty: guessed
@@ -40,7 +47,9 @@ struct ImportOptions {
   int white_level = 0;       ///< full scale of the frames; 0: from the frames
   double float_white = 0.0;  ///< full scale of floating-point frames; 0: from the frames
   ColorChoice color;         ///< how colour frames become grey
-  ImageFileOptions files;    ///< raw layout, memory
+  /// Of frames whose EXIF data say that they are to be shown turned.
+  FrameOrientation orientation = FrameOrientation::ByRig;
+  ImageFileOptions files;  ///< raw layout, memory
 };
 
 /// One frame of the scan and where it comes from.
@@ -56,7 +65,8 @@ struct ImportedFrame {
 /// A camera of the images.
 struct ImportedCamera {
   std::string name;  ///< text of {camera}; empty without that field
-  ImageInfo image;   ///< size and type of its images
+  ImageInfo image;   ///< size and type of its images, as they are imported
+  int turned = 1;    ///< orientation by which they are turned; 1: imported as stored
 };
 
 /// What an import will do.

@@ -11,6 +11,7 @@
 #include "frangia/dataset/internal/import_images.h"
 #include "frangia/dataset/internal/import_patterns.h"
 #include "frangia/dataset/name_template.h"
+#include "frangia/frames/turn_image.h"
 #include "frangia/rig/read_rig.h"
 #include "frangia/rig/rig_covariance.h"
 #include "frangia/rig/rig_of_camera.h"
@@ -129,11 +130,52 @@ void check_views(const ImportPlan& plan) {
   }
 }
 
+/// Decides by which orientation the images of a camera are turned, and says so.
+void orient_images(ImportPlan& plan, std::size_t index, const Run& run) {
+  ImportedCamera& camera = plan.cameras[index];
+  ImageInfo& image = camera.image;
+  if (image.orientation == 1) return;
+  const bool exchanged = exchanges_sides(image.orientation);
+  const int shown_width_px = exchanged ? image.height_px : image.width_px;
+  const int shown_height_px = exchanged ? image.width_px : image.height_px;
+  const std::string what =
+      fmt::format("the frames{} have the EXIF orientation {}",
+                  index == 0 ? "" : fmt::format(" of camera \"{}\"", camera.name),
+                  image.orientation);
+  FrameOrientation wanted = plan.options.orientation;
+  if (wanted == FrameOrientation::ByRig && plan.options.rig.empty())
+    wanted = FrameOrientation::Stored;
+  if (wanted == FrameOrientation::ByRig) {
+    const CameraModel& model = model_of_camera(plan.rig, index);
+    const bool stored = model.width_px == image.width_px && model.height_px == image.height_px;
+    const bool shown = model.width_px == shown_width_px && model.height_px == shown_height_px;
+    if (stored && shown) {
+      refuse_import(fmt::format(
+          "{}: programs show them turned, and the rig's size fits both ways; set `orientation` to "
+          "stored if {} was calibrated with the pixels as the files store them, or to shown if "
+          "with "
+          "pictures that were turned, as cv2.imread does",
+          what,
+          plan.options.rig.string()));
+    }
+    wanted = shown ? FrameOrientation::Shown : FrameOrientation::Stored;
+  }
+  if (wanted == FrameOrientation::Stored) {
+    run.note(what + "; they are imported as stored, not turned");
+    return;
+  }
+  camera.turned = image.orientation;
+  image.width_px = shown_width_px;
+  image.height_px = shown_height_px;
+  run.note(what + "; they are imported turned, as programs show them");
+}
+
 /// Opens the images of all cameras. They may differ in size, not in depth.
 void check_cameras(std::vector<std::vector<NamedFile>>& files, ImportPlan& plan, const Run& run) {
   for (std::size_t i = 0; i < files.size(); ++i) {
     check_images(files[i], plan, run);
     plan.cameras[i].image = plan.image;
+    orient_images(plan, i, run);
   }
   plan.image = plan.cameras.front().image;
   for (const ImportedCamera& camera : plan.cameras) {

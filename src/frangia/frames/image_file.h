@@ -41,6 +41,8 @@ struct ImageInfo {
   int bits = 8;           ///< of a sample in memory: 8, 16, or 32 for floating point
   int white_level = 0;    ///< largest value that the file states as possible; 0: none stated
   std::optional<int> jpeg_quality{};  ///< 1 to 100, of a JPEG
+  /// How the image is to be shown: the orientation of EXIF and TIFF, 1 to 8; 1: as it is stored.
+  int orientation = 1;
 };
 
 /// The layout of a file that holds nothing but samples, grey and row by row.

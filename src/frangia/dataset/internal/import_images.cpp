@@ -147,6 +147,15 @@ void check_images(std::vector<NamedFile>& files, ImportPlan& plan, const Run& ru
                       files[first].path.string(),
                       kind_of(plan.image)));
     }
+    if (image.orientation != plan.image.orientation) {
+      refuse_import(fmt::format(
+          "{} has the EXIF orientation {}, but {} has {}; take the frames of a scan with "
+          "one orientation of the camera",
+          files[i].path.string(),
+          image.orientation,
+          files[first].path.string(),
+          plan.image.orientation));
+    }
     if (image.jpeg_quality) {
       const int lowest = plan.jpeg_quality > 0 ? plan.jpeg_quality : *image.jpeg_quality;
       plan.jpeg_quality = std::min(lowest, *image.jpeg_quality);

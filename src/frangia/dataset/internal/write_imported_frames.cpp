@@ -14,6 +14,7 @@
 #include "frangia/core/parallel.h"
 #include "frangia/frames/float_tiff.h"
 #include "frangia/frames/png.h"
+#include "frangia/frames/turn_image.h"
 
 namespace frangia {
 namespace {
@@ -63,7 +64,10 @@ WrittenFrame write_frame(const ImportPlan& plan,
   const ImageFile file(frame.file, plan.options.files);
   const ImageInfo& info = file.info();
   const ImageInfo& planned = plan.cameras[frame.camera].image;
-  if (info.width_px != planned.width_px || info.height_px != planned.height_px) {
+  const int turned = plan.cameras[frame.camera].turned;
+  const bool exchanged = exchanges_sides(turned);
+  if ((exchanged ? info.height_px : info.width_px) != planned.width_px ||
+      (exchanged ? info.width_px : info.height_px) != planned.height_px) {
     throw Error(ErrorKind::Input,
                 fmt::format("{}: changed during the import; import again", frame.file.string()));
   }
@@ -77,6 +81,7 @@ WrittenFrame write_frame(const ImportPlan& plan,
                        .jpeg_quality = info.jpeg_quality,
                        .stated_white = info.white_level};
   RasterImage image = file.read(frame.page);
+  if (turned != 1) image = turn_image(image, turned);
   if (pattern.kind == PatternKind::White || pattern.kind == PatternKind::Ambient) {
     if (const auto color = color_image(image, plan.options.color)) {
       written.is_color = true;

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "frangia/frames/internal/exif_orientation.h"
 #include "frangia/frames/internal/image_decoders.h"
 #include "frangia/frames/internal/jpeg_codec.h"
 
@@ -30,6 +31,7 @@ class JpegDecoder : public ImageDecoder {
     constexpr double kMostPerByte = 64.0 * 8;
     file_->check_size(codec.image_width, codec.image_height, 1, 8 * info_.channels, kMostPerByte);
     info_.jpeg_quality = quality_of(jpeg);
+    info_.orientation = orientation_of_jpeg(file_->bytes);
     if (!info_.jpeg_quality) file_->fail("is a JPEG without a quantization table; copy it again");
   }
   [[nodiscard]] const ImageInfo& info() const override { return info_; }

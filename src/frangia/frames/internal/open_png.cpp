@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <spng.h>
 
+#include "frangia/frames/internal/exif_orientation.h"
 #include "frangia/frames/internal/image_decoders.h"
 
 namespace frangia {
@@ -50,6 +51,7 @@ class PngDecoder : public ImageDecoder {
              .height_px = static_cast<int>(header.height),
              .channels = grey ? 1 : 3,
              .bits = wide ? 16 : 8};
+    info_.orientation = orientation_of_png(file_->bytes);
     constexpr double kMostPerByte = 1032.0 * 8;  // deflate (zlib), and eight pixels of a bit each
     file_->check_size(header.width, header.height, stored_, info_.bits, kMostPerByte);
   }

@@ -95,6 +95,10 @@ class TiffDecoder : public ImageDecoder {
              .height_px = static_cast<int>(page_.height_px),
              .channels = page_.stored >= 3 ? 3 : 1,
              .bits = page_.bits};
+    std::uint16_t orientation = ORIENTATION_TOPLEFT;
+    if (TIFFGetField(tiff_.get(), TIFFTAG_ORIENTATION, &orientation) == 1 && orientation >= 1 &&
+        orientation <= 8)
+      info_.orientation = orientation;
     constexpr double kMostPerByte = 1400.0;  // LZW with codes of 12 bits; deflate reaches 1032
     file_->check_size(page_.width_px, page_.height_px, page_.stored, page_.bits, kMostPerByte);
     info_.pages = TIFFNumberOfDirectories(tiff_.get());
