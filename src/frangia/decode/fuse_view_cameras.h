@@ -21,14 +21,14 @@ namespace frangia {
 struct DecodedCamera {
   const Rig& rig;                      ///< `rig_of_camera`
   const Image<Eigen::Vector2f>& rays;  ///< of its pixels
-  DecodedView decoded;
-  ViewFit fit{};     ///< which of its phases are used
-  bool used = true;  ///< at least one is
+  DecodedView decoded;                 ///< its phases
+  ViewFit fit{};                       ///< which of its phases are used
+  bool used = true;                    ///< at least one is
 };
 
 /// The points of a view in the frame of one camera.
 struct MeasuredCamera {
-  RangeGrid range;
+  RangeGrid range;                      ///< its points
   std::vector<RangePixel> edge_pixels;  ///< as recover_edge_pixels
 };
 

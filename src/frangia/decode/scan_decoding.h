@@ -10,10 +10,10 @@ namespace frangia {
 
 /// How the frames of a scan are decoded. The references must outlive it.
 struct ScanDecoding {
-  const Scan& scan;
+  const Scan& scan;                    ///< whose frames are decoded
   const Image<Eigen::Vector2f>& rays;  ///< of the reference camera
-  const DecodeOptions& options;
-  const DecodePlan& plan;
+  const DecodeOptions& options;        ///< of all views
+  const DecodePlan& plan;              ///< of the scan's patterns
 };
 
 }  // namespace frangia

@@ -259,11 +259,13 @@ RegistrationReport register_views(ViewStore& views,
     if (!report.untrusted_reason().empty()) run.warn(report.untrusted_reason());
     return report;
   }
-  const bool blames_views = explanation.best == PoseCause::Unexplained;
-  if (blames_views || explanation.best == PoseCause::AsStated ||
-      explanation.best == PoseCause::ViewMoved)
+  // Points in front of surfaces that others measured contradict every explanation: a view that has
+  // them is left out, or the result is not trusted.
+  const bool stated = explanation.best == PoseCause::AsStated;
+  const bool unexplained = explanation.best == PoseCause::Unexplained;
+  if (stated || unexplained || explanation.best == PoseCause::ViewMoved)
     leave_out_outliers(report, work);
-  if (blames_views) leave_out_moved(report, work);
+  if (stated || unexplained) leave_out_moved(report, work);
   surfels = pick_all_surfels(bundle.maps, many_surfels);
   optimize_bundle(bundle, surfels, options.max_iterations, run);
   run.report(0.9);

@@ -8,8 +8,8 @@ namespace frangia {
 
 /// Which camera of a rig a figure concerns; it counts as in `rig_of_camera`.
 struct CheckedCamera {
-  const Rig& whole;  ///< the rig with all cameras and its covariance
-  std::size_t camera = 0;
+  const Rig& whole;        ///< the rig with all cameras and its covariance
+  std::size_t camera = 0;  ///< 0: the reference camera
 };
 
 /// Adds the figures of balls of known sizes on the turntable to a check. `scan` and its rig are

@@ -30,15 +30,15 @@ enum class FrameCause {
 /// Frame k has the counts g_k (A + B cos(phi + delta_k)) + L_k with mean A, modulation B and phase
 /// phi of the pixel, or is free of all of them.
 struct FrameHypothesis {
-  FrameCause cause = FrameCause::AsDescribed;
-  std::vector<std::size_t> frames;     ///< which differ
-  std::vector<double> shifts_rad;      ///< delta_k that frame k shows
-  std::vector<double> gains;           ///< g_k, 1 unless the frame's gain differs
-  std::vector<bool> free;              ///< the frame shows no fringes
-  std::optional<std::size_t> lamp_on;  ///< first frame with the light L of another lamp
-  int faults = 0;                      ///< 0 as described, 1, or 2
-  int parameters = 0;                  ///< fitted for all pixels together
-  std::size_t choices = 1;             ///< hypotheses of its kind: "which frame"
+  FrameCause cause = FrameCause::AsDescribed;  ///< of the difference
+  std::vector<std::size_t> frames;             ///< which differ
+  std::vector<double> shifts_rad;              ///< delta_k that frame k shows
+  std::vector<double> gains;                   ///< g_k, 1 unless the frame's gain differs
+  std::vector<bool> free;                      ///< the frame shows no fringes
+  std::optional<std::size_t> lamp_on;          ///< first frame with the light L of another lamp
+  int faults = 0;                              ///< 0 as described, 1, or 2
+  int parameters = 0;                          ///< fitted for all pixels together
+  std::size_t choices = 1;                     ///< hypotheses of its kind: "which frame"
 };
 
 /// All hypotheses with one fault, "as described" first. Gains are 1 until they are fitted.

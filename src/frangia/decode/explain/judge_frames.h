@@ -20,9 +20,9 @@ enum class FrameAction {
 
 /// What follows from the explanation of the frames of a pattern.
 struct FrameVerdict {
-  FrameExplanation explanation;
-  FrameAction action = FrameAction::Use;
-  std::vector<std::size_t> left_out;  ///< frames that are left out
+  FrameExplanation explanation;           ///< of the frames
+  FrameAction action = FrameAction::Use;  ///< what is done with them
+  std::vector<std::size_t> left_out;      ///< frames that are left out
   /// The shifts with which all frames fit, where those of the pattern are wrong; empty otherwise.
   std::vector<double> remedy_rad;
   /// What is wrong with the frames, as a clause: "frame 2 of pattern "f" is black"; empty if

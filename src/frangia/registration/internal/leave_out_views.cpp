@@ -47,14 +47,16 @@ void leave_out_moved(RegistrationReport& report, Registration& work) {
     const std::string name = work.name_of(moved->view);
     work.run.warn(
         moved->alternative
-            ? fmt::format("views {} and {} contradict each other, and the other views fit either: "
-                          "{} is left out; check whether the part moved between the two",
-                          name,
-                          work.name_of(*moved->alternative),
-                          name)
-            : fmt::format("view {} contradicts the others, which agree better without it, and is "
-                          "left out: check whether the part moved before it was taken",
-                          name));
+            ? fmt::format(
+                  "views {} and {} contradict each other, and the other views fit either: "
+                  "{} is left out; the part moved between the two, or fringe orders are wrong",
+                  name,
+                  work.name_of(*moved->alternative),
+                  name)
+            : fmt::format(
+                  "view {} contradicts the others, which agree better without it, and is "
+                  "left out; the part moved before it was taken, or its fringe orders are wrong",
+                  name));
     report.outliers.push_back(moved->view);
     work.leave_out(moved->view);
     work.optimize_again();
