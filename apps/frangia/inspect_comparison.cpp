@@ -170,15 +170,18 @@ void add_deviations(InspectAnswer& answer, const SurfaceInspection& comparison) 
     answer.text +=
         "the mesh has no sigma: its uncertainty is not known, and the limits alone decide\n";
   }
-  answer.text += fmt::format(
-      "means over patches of {:.3g} mm: {} to {} mm; single vertices: {} at {} to {} at {}\n",
-      verdict.rule.min_feature_mm,
-      signed_text(verdict.lowest.deviation_mm, 4),
-      signed_text(verdict.highest.deviation_mm, 4),
-      signed_text(summary.min_mm, 4),
-      place_text(summary.min_at_mm),
-      signed_text(summary.max_mm, 4),
-      place_text(summary.max_at_mm));
+  const bool has_means = std::isfinite(verdict.lowest.deviation_mm);
+  answer.text +=
+      fmt::format("means over patches of {:.3g} mm: {}; single vertices: {} at {} to {} at {}\n",
+                  verdict.rule.min_feature_mm,
+                  has_means ? fmt::format("{} to {} mm",
+                                          signed_text(verdict.lowest.deviation_mm, 4),
+                                          signed_text(verdict.highest.deviation_mm, 4))
+                            : "none was measured well enough to be judged",
+                  signed_text(summary.min_mm, 4),
+                  place_text(summary.min_at_mm),
+                  signed_text(summary.max_mm, 4),
+                  place_text(summary.max_at_mm));
   answer.text += fmt::format("vertices left out: {}\n", left_out_text(summary));
 }
 

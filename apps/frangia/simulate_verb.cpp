@@ -172,6 +172,7 @@ void simulate(SimulateArguments arguments, Terminal& terminal) {
   plan.patterns = default_patterns(plan.rig, arguments.patterns);
   const Mesh part = part_of(arguments.part, arguments.read, run);
   add_setups(plan, part, arguments);
+  check_frame_faults(arguments.frame_faults, plan);
   run.stage("render");
   refuse_label_of_one_camera(arguments, plan.rig);
   Scan scan = simulate_scan(part, plan, options, run);

@@ -101,6 +101,15 @@ void add_frame_faults(CLI::App& verb, SimulatedFrameFaults& faults) {
       ->group(kGroup);
 }
 
+void check_frame_faults(const SimulatedFrameFaults& faults, const Scan& plan) {
+  for (const std::string& text : faults.lost)
+    static_cast<void>(place_of(text, "lose_frame", plan));
+  for (const std::string& text : faults.repeated) {
+    require(place_of(text, "repeat_frame", plan).frame > 0,
+            "`repeat_frame`: frame 0 has none before it; give 1 or more");
+  }
+}
+
 void apply_frame_faults(const SimulatedFrameFaults& faults, const Scan& scan, const Run& run) {
   for (const std::string& text : faults.lost) {
     const FramePlace place = place_of(text, "lose_frame", scan);
@@ -108,7 +117,6 @@ void apply_frame_faults(const SimulatedFrameFaults& faults, const Scan& scan, co
   }
   for (const std::string& text : faults.repeated) {
     const FramePlace place = place_of(text, "repeat_frame", scan);
-    require(place.frame > 0, "`repeat_frame`: frame 0 has none before it; give 1 or more");
     FramePlace before = place;
     --before.frame;
     write_png(place.path(), read_png(before.path()));

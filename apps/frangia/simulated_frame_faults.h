@@ -20,6 +20,9 @@ struct SimulatedFrameFaults {
 /// Adds the options of the faults to the verb.
 void add_frame_faults(CLI::App& verb, SimulatedFrameFaults& faults);
 
+/// Refuses faults that a planned scan cannot have. Errors as below.
+void check_frame_faults(const SimulatedFrameFaults& faults, const Scan& plan);
+
 /// Changes the frames of a scan that was written.
 ///
 /// @errors   Error(Input) for a view, pattern or frame that the scan does not have

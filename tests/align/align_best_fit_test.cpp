@@ -183,7 +183,7 @@ TEST(AlignBestFit, NamesTheFactorByWhichASmallMeshFits) {
   const std::string inches =
       refusal_of(transform_mesh(scaled(make_bracket(), 1.0F / 25.4F), far_pose(7)), make_bracket());
   EXPECT_NE(inches.find("0.0393701 times as large"), std::string::npos) << inches;
-  EXPECT_NE(inches.find("the mesh may be in in"), std::string::npos) << inches;
+  EXPECT_NE(inches.find("the unit of the mesh may be in:"), std::string::npos) << inches;
 }
 
 TEST(RefuseUnitOfPose, ComparesTheOverlapsAndNotTheBoxes) {

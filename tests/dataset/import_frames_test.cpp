@@ -65,7 +65,7 @@ class ImportFrames : public ::testing::Test {
   }
   /// A rig with a digital projector and a camera of this size.
   void use_rig(int width_px, int height_px) {
-    Rig rig = paper_rig();
+    Rig rig = make_paper_rig({});
     rig.projector.model = PinholeModel{.width_px = 1280,
                                        .height_px = 800,
                                        .focal_px = {1900.0, 1900.0},

@@ -174,11 +174,9 @@ Mesh fuse_registered(RegisteredViews& registered,
 }
 
 /// Whether the views say that the rig is not what it states, and nothing else.
-bool blames_rig(const std::vector<MeasuredSetup>& setups) {
-  return std::any_of(setups.begin(), setups.end(), [](const MeasuredSetup& setup) {
-    return setup.registration && setup.registration->explanation.best == PoseCause::Rig &&
-           setup.registration->explanation.decided;
-  });
+bool blames_rig(const std::optional<RegistrationReport>& registration) {
+  return registration && registration->explanation.best == PoseCause::Rig &&
+         registration->explanation.decided;
 }
 
 /// Refines the rig and reconstructs with it from the frames on.
@@ -240,7 +238,10 @@ Reconstruction reconstruct(const Scan& scan, const ReconstructOptions& options, 
                 explain_no_surface(scan, rays, options.decode, {0, unresolved}, run));
   }
 
-  if (options.explain_rig && blames_rig(setups)) {
+  const bool wrong_rig = std::any_of(setups.begin(), setups.end(), [](const MeasuredSetup& setup) {
+    return blames_rig(setup.registration);
+  });
+  if (options.explain_rig && wrong_rig) {
     run.note(
         "the rig is refined by the surfaces of the views, because they say that it is not what "
         "rig.toml states");
@@ -258,6 +259,11 @@ Reconstruction reconstruct(const Scan& scan, const ReconstructOptions& options, 
                 explain_no_surface(scan, rays, options.decode, {out.points, unresolved}, run));
   }
   if (out.registration) out.untrusted_reason = out.registration->untrusted_reason();
+  if (out.untrusted_reason.empty() && blames_rig(out.registration)) {
+    out.untrusted_reason =
+        "the views show that the rig is not what rig.toml states, and do not determine how: "
+        "calibrate the rig again";
+  }
   if (!out.untrusted_reason.empty()) discard_sigma(out.mesh);
   out.sigma = median_sigma(out.mesh);
   return out;

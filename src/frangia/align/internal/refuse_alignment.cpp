@@ -106,7 +106,7 @@ void refuse_unit(const ScaledPose& scaled, const AlignmentPose& as_it_is) {
           scaled.factor * scaled.pose.rms_mm,
           100.0 * as_it_is.overlap,
           larger ? fmt::format("its unit may be {}; state it", scaled.unit)
-                 : fmt::format("the mesh may be in {}: write it in mm, or state {:.6g}mm",
+                 : fmt::format("the unit of the mesh may be {}: write it in mm, or state {:.6g}mm",
                                scaled.unit,
                                scaled.factor)));
 }

@@ -107,8 +107,9 @@ void report_frames(const std::vector<FrameVerdict>& verdicts,
   for (const FrameVerdict& verdict : verdicts) {
     const FrameExplanation& found = verdict.explanation;
     if (verdict.action == FrameAction::LeaveOutFrames) {
-      run.warn(fmt::format("{}; it is left out, and the phase is computed from the others; {}",
+      run.warn(fmt::format("{}; {} left out, and the phase is computed from the others; {}",
                            verdict.finding,
+                           verdict.left_out.size() == 1 ? "it is" : "these frames are",
                            found.explanation.remedy));
     }
     if (verdict.action == FrameAction::Use && !verdict.remedy_rad.empty())
