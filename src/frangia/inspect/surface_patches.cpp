@@ -27,7 +27,17 @@ constexpr float kSameFace = 0.3F;        // cosine: surfaces that differ by less
 constexpr float kSameSide = -0.2F;       // cosine: as the limit of DeviationStatus::OtherSide
 constexpr double kMeasuredShare = 0.25;  // of a patch; vertices at sharp edges are left out
 constexpr std::size_t kMostPatches = 400'000;
+/// Of the reference's size: a mesh that was decimated has triangles larger than its features, and
+/// its flat faces are measured between their corners, too.
+constexpr double kLargestShare = 0.02;
 constexpr double kSamplesPerPatch = 9.0;
+
+double diagonal_of(const Mesh& mesh) {
+  Eigen::AlignedBox3f box;
+  for (const Vector3f& vertex : mesh.vertices_mm)
+    box.extend(vertex);
+  return static_cast<double>(box.diagonal().norm());
+}
 
 double area_of(const Mesh& mesh) {
   const std::vector<double> areas = vertex_areas(mesh);
@@ -298,7 +308,9 @@ SurfacePatches surface_patches(const Mesh& mesh,
                                const std::vector<ExcludedBox>& excluded,
                                const Run& run) {
   run.stage("patches");
-  const double wanted = diameter_mm > 0.0 ? diameter_mm : default_feature_mm(mesh);
+  const double wanted = diameter_mm > 0.0 ? diameter_mm
+                                          : std::min(default_feature_mm(mesh),
+                                                     kLargestShare * diagonal_of(reference.mesh()));
   const double nominal_area = area_of(reference.mesh());
   require(nominal_area > 0.0,
           "the reference has no triangles, only points; give a mesh with triangles");

@@ -17,8 +17,9 @@ namespace frangia {
 
 /// How the deviations of a surface are decided.
 struct SurfaceRule {
-  ToleranceLimits limits{-0.1, 0.1};    ///< of the deviation, mm
-  double min_feature_mm = 0.0;          ///< diameter of the patches; 0: twice the sampling
+  ToleranceLimits limits{-0.1, 0.1};  ///< of the deviation, mm
+  /// Diameter of the patches; 0: twice the mean spacing of the vertices, 2 % of the size at most.
+  double min_feature_mm = 0.0;
   double max_uncertainty_share = 0.25;  ///< largest U95 that proves "in", of the half-width
   double min_coverage = 0.9;            ///< least share of the nominal area that is decided
   double max_gap_mm = 0.0;              ///< widest gap; 0: a tenth of the reference's diagonal

@@ -265,7 +265,11 @@ RegistrationReport register_views(ViewStore& views,
   const bool unexplained = explanation.best == PoseCause::Unexplained;
   if (stated || unexplained || explanation.best == PoseCause::ViewMoved)
     leave_out_outliers(report, work);
-  if (stated || unexplained) leave_out_moved(report, work);
+  const auto is_contradicted = [&] {
+    const auto many = pick_all_surfels(bundle.maps, many_surfels);
+    return contradiction_of(sum(bundle, many), many) > options.max_contradiction;
+  };
+  if (unexplained || (stated && is_contradicted())) leave_out_moved(report, work);
   surfels = pick_all_surfels(bundle.maps, many_surfels);
   optimize_bundle(bundle, surfels, options.max_iterations, run);
   run.report(0.9);
