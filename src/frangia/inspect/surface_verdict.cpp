@@ -258,7 +258,7 @@ void SurfaceRule::check() const {
 }
 
 double SurfaceVerdict::share_of(PatchDecision decision) const {
-  return share.at(static_cast<std::size_t>(decision));
+  return std::min(1.0, share.at(static_cast<std::size_t>(decision)));  // a sum that is rounded
 }
 
 SurfaceVerdict judge_surface(const SurfacePatches& patches, const SurfaceRule& rule) {
