@@ -119,7 +119,8 @@ struct TwoCameras {
     return rest > 0.0 && b > 0.0 ? b - std::sqrt(rest) : kNone;
   }
 
-  /// The depth of the ball, or of the bead, on the ray of a camera; NaN beside them.
+  /// The depth of the ball, or of the bead, on the ray of a camera; NaN where the ray meets
+  /// neither.
   [[nodiscard]] double depth_of(const Eigen::Vector2d& ray, const Eigen::Isometry3d& camera) const {
     const double ball = distance_to(camera * center_mm, radius_mm, ray.homogeneous());
     const double bead = distance_to(camera * bead_mm, bead_radius_mm, ray.homogeneous());

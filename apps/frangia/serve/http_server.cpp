@@ -96,7 +96,7 @@ struct HttpServer::Implementation {
         try {
           if (with_state) changed(true);
           if (with_picture) changed(false);
-        } catch (const std::exception& thrown) {  // the others are told all the same
+        } catch (const std::exception& thrown) {  // the other connections still get it
           report(thrown.what());
         }
       }

@@ -65,7 +65,7 @@ struct HttpApp {
   std::function<HttpPicture(int channel, std::uint64_t after)> picture;
   /// Content-Security-Policy of all answers, for the port of the server.
   std::string content_security_policy;
-  /// Is told the words of an exception that ended a connection.
+  /// Called with the message of an exception that ended a connection.
   std::function<void(const std::string&)> on_exception;
 };
 

@@ -33,7 +33,8 @@ class PasswordGuard {
   static constexpr int kFreeTries = 5;                      ///< wrong ones before the first pause
   static constexpr std::chrono::seconds kFirstPause{1};     ///< after them
   static constexpr std::chrono::seconds kLongestPause{60};  ///< after many more
-  static constexpr std::chrono::hours kMemory{1};  ///< without a wrong one, an address begins anew
+  /// After which a wrong password of an address is forgotten.
+  static constexpr std::chrono::hours kMemory{1};
   static constexpr std::size_t kMostAddresses = 1000;  ///< known; the one longest quiet is dropped
   static constexpr std::size_t kLeastBytes = 10;       ///< of a password
   static constexpr std::size_t kMostBytes = 1024;      ///< of a password; longer ones are wrong

@@ -74,7 +74,7 @@ Service::Implementation::Implementation(ServiceOptions options, std::function<vo
       on_change_([told = std::move(on_change)]() noexcept {
         try {
           told();
-        } catch (...) {  // NOLINT(bugprone-empty-catch): the next change is told
+        } catch (...) {  // NOLINT(bugprone-empty-catch): listeners get the next change
         }
       }),
       projects_(library_.list()),

@@ -38,7 +38,7 @@ class SessionKeys {
   /// Keys of browsers that outlive this object: `file` holds their SHA-256, from which nobody gets
   /// 256 random bits back, with mode 0600. Those of an earlier object hold, unless they are older
   /// than kKeyLife, another password was set since, or the file is not this user's alone. Where it
-  /// cannot be written, `warn` is told and the keys end with this object.
+  /// cannot be written, `warn` gets a sentence and the keys end with this object.
   ///
   /// `password_hash`: as hash_password returns it; empty without one
   SessionKeys(std::filesystem::path file,

@@ -12,7 +12,7 @@ namespace frangia {
 namespace {
 
 /// Standard deviations of a motion, as shares of the working distance: 5 um to 5 mm at 500 mm. Each
-/// is as probable as the others, since nobody knows how far a part slides.
+/// is as probable as the others, since the size of a slide is not known before.
 constexpr std::array<double, 7> kMotions{1e-5, 3e-5, 1e-4, 3e-4, 1e-3, 3e-3, 1e-2};
 /// Of a table's play: 2.5 um to 0.05 mm at 500 mm.
 constexpr std::array<double, 4> kPlay{5e-6, 1.5e-5, 5e-5, 1e-4};
