@@ -11,6 +11,7 @@
 
 #include "frangia/core/missing.h"
 #include "frangia/range/fringe_ray.h"
+#include "frangia/rig/camera_model.h"
 #include "frangia/rig/paper_rig.h"
 #include "frangia/rig/rig_covariance.h"
 #include "frangia/rig/rig_of_camera.h"
@@ -144,7 +145,7 @@ void expect_scatter(const Rig& rig,
                     const SeenBy& seen_by,
                     std::size_t camera = 0) {
   const std::vector<Vector3d> points = measured_points();
-  const CalibrationUncertainty stated(rig, pattern, points, camera);
+  const CalibrationUncertainty stated(rig, pattern, {.points_mm = points, .shared = {}}, camera);
   const Eigen::Isometry3d camera_from = camera_from_rig(rig, camera);
   const CameraModel& model = model_of_camera(rig, camera);
   const std::vector<double> scatter =
@@ -154,7 +155,7 @@ void expect_scatter(const Rig& rig,
   for (std::size_t i = 0; i < points.size(); ++i) {
     const Vector3d point = camera_from * points[i];
     const Eigen::Vector2d pixel = model.project(point);
-    const double sigma = stated.along_ray_mm(pixel.x(), pixel.y(), point.z());
+    const double sigma = stated.along_ray_mm(point, pixel);
     EXPECT_NEAR(sigma / scatter[i], 1.0, 0.1) << points[i].transpose();
     stated_squares += sigma * sigma;
     scatter_squares += scatter[i] * scatter[i];
@@ -231,8 +232,9 @@ TEST(CalibrationUncertainty, IsZeroForAChangeThatLeavesThePlanesOfLightWhereThey
   std::get<PinholeModel>(rig.projector.model).distortion = {};
   rig.calibration =
       Calibration{.covariance = {{"projector.y_mm"}, Eigen::MatrixXd::Constant(1, 1, 4.0)}};
-  const CalibrationUncertainty none(rig, kColumns, measured_points());
-  EXPECT_LT(none.along_ray_mm(256.0, 256.0, 490.0), 1e-6);
+  const CalibrationUncertainty none(rig, kColumns, {.points_mm = measured_points(), .shared = {}});
+  EXPECT_LT(none.along_ray_mm({0.0, 0.0, 490.0}, rig.camera.model.project({0.0, 0.0, 490.0})),
+            1e-6);
 }
 
 TEST(CalibrationUncertainty, ExcludesTheRigidMotionOfThePart) {
@@ -245,11 +247,11 @@ TEST(CalibrationUncertainty, ExcludesTheRigidMotionOfThePart) {
     std::vector<Vector3d> points = measured_points();
     for (Vector3d& point : points)
       point = center + scale * (point - center);
-    const CalibrationUncertainty stated(rig, kColumns, points);
+    const CalibrationUncertainty stated(rig, kColumns, {.points_mm = points, .shared = {}});
     double largest = 0.0;
     for (const Vector3d& point : points) {
       const Eigen::Vector2d pixel = rig.camera.model.project(point);
-      largest = std::max(largest, stated.along_ray_mm(pixel.x(), pixel.y(), point.z()));
+      largest = std::max(largest, stated.along_ray_mm(point, pixel));
     }
     return largest;
   };
@@ -258,25 +260,103 @@ TEST(CalibrationUncertainty, ExcludesTheRigidMotionOfThePart) {
   EXPECT_LT(largest_mm(0.02), 0.04 * of_large);
 }
 
+/// A ball of 30 mm radius on the axis, seen at eight stations.
+MeasuredVolume ball_at_eight_stations(const Vector3d& center) {
+  MeasuredVolume volume;
+  const auto seen = [&](const Vector3d& direction, int station) {
+    return Vector3d(Eigen::AngleAxisd(station * M_PI / 4.0, Vector3d::UnitY()) * direction);
+  };
+  const auto faces = [&](const Vector3d& normal) {
+    return -normal.dot((center + 30.0 * normal).normalized()) > 0.2;
+  };
+  for (int i = 0; i < 400; ++i) {
+    const double y = (i + 0.5) / 200.0 - 1.0;  // Fibonacci's lattice
+    const double turn = 2.399963 * i;
+    const double across = std::sqrt(1.0 - y * y);
+    const Vector3d direction(across * std::cos(turn), y, across * std::sin(turn));
+    for (int station = 0; station < 8; ++station) {
+      const Vector3d first = seen(direction, station);
+      const Vector3d second = seen(direction, station + 1);
+      if (!faces(first)) continue;
+      volume.points_mm.emplace_back(center + 30.0 * first);
+      if (faces(second))
+        volume.shared.push_back({center + 30.0 * first, first, center + 30.0 * second, second});
+    }
+  }
+  return volume;
+}
+
+TEST(CalibrationUncertainty, HoldsTheSizeOfAPartWhoseViewsAgreeAboutTheAxis) {
+  // A longer baseline enlarges everything about the camera's centre. The views agree when the axis
+  // moves along, and the part has become larger about the axis: by 0.2 % of 30 mm.
+  Rig rig = digital_rig();
+  const Vector3d baseline = rig.projector.rotation * rig.projector.position_mm;
+  constexpr double kScale = 0.002;
+  rig.calibration =
+      Calibration{.covariance = {{"projector.x_mm", "projector.y_mm", "projector.z_mm"},
+                                 kScale * kScale * baseline * baseline.transpose()}};
+  const Vector3d center(0.0, 0.0, 490.0);
+  MeasuredVolume volume = ball_at_eight_stations(center);
+  const auto nearest_mm = [&] {
+    const CalibrationUncertainty stated(rig, kColumns, volume);
+    const Eigen::Vector2d pixel = rig.camera.model.project(center);
+    return stated.along_ray_mm({0.0, 0.0, 460.0}, pixel);
+  };
+  EXPECT_NEAR(nearest_mm(), kScale * 30.0, 0.05 * kScale * 30.0);
+  // All of the ball has become larger: along inclined rays the surface moves further.
+  const Image<Eigen::Vector2f> rays = rays_of(rig.camera.model);
+  RangeGrid range{Image<float>(rays.width(), rays.height(), kMissing),
+                  Image<float>(rays.width(), rays.height(), 0.01F)};
+  Image<double> cosines(rays.width(), rays.height(), 0.0);
+  for (int y = 0; y < rays.height(); ++y) {
+    for (int x = 0; x < rays.width(); ++x) {
+      const Vector3d ray = rays(x, y).cast<double>().homogeneous().normalized();
+      const double nearest = ray.dot(center);
+      const double inside = 900.0 - (center - nearest * ray).squaredNorm();
+      if (!(inside > 0.0)) continue;
+      const Vector3d point = (nearest - std::sqrt(inside)) * ray;
+      range.depth_mm(x, y) = static_cast<float>(point.z());
+      cosines(x, y) = -ray.dot((point - center).normalized());
+    }
+  }
+  CalibrationUncertainty(rig, kColumns, volume).add_to(range, rays);
+  for (int y = 0; y < rays.height(); y += 5) {
+    for (int x = 0; x < rays.width(); x += 5) {
+      if (cosines(x, y) < 0.4) continue;
+      EXPECT_NEAR(range.systematic_mm(x, y) * cosines(x, y), kScale * 30.0, 0.1 * kScale * 30.0)
+          << x << " " << y << " " << cosines(x, y);
+    }
+  }
+  // A single view has no axis: its displacement is that relative to the rest of what it sees.
+  volume.shared.clear();
+  EXPECT_LT(nearest_mm(), 0.6 * kScale * 30.0);
+}
+
 TEST(CalibrationUncertainty, AddsToTheSystematicPartOfEachPoint) {
   Rig rig = digital_rig();
   rig.calibration = Calibration{.covariance = digital_covariance()};
-  const CalibrationUncertainty stated(rig, kColumns, measured_points());
+  const CalibrationUncertainty stated(
+      rig, kColumns, {.points_mm = measured_points(), .shared = {}});
   RangeGrid range{Image<float>(512, 512, 495.0F), Image<float>(512, 512, 0.01F)};
   range.depth_mm(100, 200) = kMissing;
-  stated.add_to(range);
+  const Image<Eigen::Vector2f> rays = rays_of(rig.camera.model);
+  stated.add_to(range, rays);
   EXPECT_TRUE(std::isnan(range.systematic_mm(100, 200)));
-  for (const auto& [x, y] : {std::pair{0, 0}, {256, 256}, {301, 207}, {511, 511}})
-    EXPECT_NEAR(range.systematic_mm(x, y), stated.along_ray_mm(x, y, 495.0), 1e-6) << x << " " << y;
-  const float once = range.systematic_mm(256, 256);
+  // A plane across the axis of the camera: there, the ray is the normal.
+  const Eigen::Vector2d middle = rig.camera.model.project({0.0, 0.0, 495.0});
+  const auto x = static_cast<int>(std::lround(middle.x()));
+  const auto y = static_cast<int>(std::lround(middle.y()));
+  const float once = range.systematic_mm(x, y);
+  EXPECT_NEAR(once, stated.along_ray_mm({0.0, 0.0, 495.0}, middle), 0.01F * once);
   EXPECT_GT(once, 0.001F);
-  stated.add_to(range);
-  EXPECT_FLOAT_EQ(range.systematic_mm(256, 256), std::sqrt(2.0F) * once);
+  stated.add_to(range, rays);
+  EXPECT_FLOAT_EQ(range.systematic_mm(x, y), std::sqrt(2.0F) * once);
 }
 
 TEST(CalibrationUncertainty, IsNotAddedWithoutACovariance) {
   RangeGrid range{Image<float>(8, 8, 495.0F), Image<float>(8, 8, 0.01F)};
-  CalibrationUncertainty(digital_rig(), kColumns, measured_points()).add_to(range);
+  CalibrationUncertainty(digital_rig(), kColumns, {.points_mm = measured_points(), .shared = {}})
+      .add_to(range, Image<Eigen::Vector2f>(8, 8, Eigen::Vector2f::Zero()));
   EXPECT_TRUE(range.systematic_mm.empty());
 }
 

@@ -15,17 +15,17 @@
 namespace frangia {
 CalibrationUncertainty::CalibrationUncertainty(const Rig& rig,
                                                const Pattern& pattern,
-                                               std::span<const Eigen::Vector3d> volume_mm,
+                                               const MeasuredVolume& volume,
                                                std::size_t camera) {
-  if (!rig.calibration || rig.calibration->covariance.empty() || volume_mm.empty()) return;
+  if (!rig.calibration || rig.calibration->covariance.empty() || volume.points_mm.empty()) return;
   const ChangedRigs rigs(rig, pattern, camera);
   if (rigs.changes() == 0) return;
-  const RigidMotions rigid = fit_rigid(volume_mm, rigs);
+  const RigidMotions rigid = fit_rigid(volume, rigs);
   const Eigen::Isometry3d rig_from_camera = camera_from_rig(rig, camera).inverse();
   const CameraModel& model = model_of_camera(rig, camera);
   low_.setConstant(std::numeric_limits<double>::infinity());
   Eigen::Array3d high = -low_;
-  for (const Eigen::Vector3d& in_rig : volume_mm) {
+  for (const Eigen::Vector3d& in_rig : volume.points_mm) {
     const Eigen::Vector3d point = rig_from_camera.inverse() * in_rig;
     const Eigen::Vector2d pixel = model.project(point);
     const Eigen::Array3d at(pixel.x(), pixel.y(), point.z());
@@ -35,7 +35,7 @@ CalibrationUncertainty::CalibrationUncertainty(const Rig& rig,
   constexpr double kLeastStep = 1e-9;  // px or mm; keeps the step of a flat volume above zero
   step_ = ((high - low_) / (node_counts() - 1.0)).max(kLeastStep);
   constexpr int kCount = kNodes[0] * kNodes[1] * kNodes[2];
-  Eigen::MatrixXd nodes(rigs.changes(), kCount);
+  Eigen::MatrixXd nodes(3 * rigs.changes(), kCount);
   parallel_chunks(kCount, 16, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const auto index = static_cast<int>(i);
@@ -44,36 +44,64 @@ CalibrationUncertainty::CalibrationUncertainty(const Rig& rig,
       const Eigen::Array3d at = low_ + step_ * place.cast<double>();
       const Eigen::Vector3d in_camera = at.z() * model.ray({at.x(), at.y()}).homogeneous();
       const Eigen::Vector3d point = rig_from_camera * in_camera;
-      const Eigen::Vector3d ray = rig_from_camera.linear() * in_camera;
       const Displacements rest = rigs.displacements_of(point) - rigid.design(point) * rigid.motions;
-      nodes.col(index) = rest.transpose() * ray.normalized();
+      nodes.col(index) = (rig_from_camera.linear().transpose() * rest).reshaped();
     }
   });
   fill_missing(nodes, kNodes);
-  along_ray_mm_ = principal_components(nodes);
+  displacements_mm_ = principal_displacements(nodes);
 }
 
 Eigen::Array3d CalibrationUncertainty::place_of(double x_px, double y_px, double depth_mm) const {
   return ((Eigen::Array3d(x_px, y_px, depth_mm) - low_) / step_).max(0.0).min(node_counts() - 1.0);
 }
 
-double CalibrationUncertainty::along_ray_mm(double x_px, double y_px, double depth_mm) const {
-  if (along_ray_mm_.size() == 0) return 0.0;
-  const Eigen::Array3d place = place_of(x_px, y_px, depth_mm);
+double CalibrationUncertainty::along_ray_mm(const Eigen::Vector3d& point_mm,
+                                            const Eigen::Vector2d& pixel) const {
+  if (displacements_mm_.size() == 0) return 0.0;
+  const Eigen::Array3d place = place_of(pixel.x(), pixel.y(), point_mm.z());
   const Eigen::Array3d first = place.floor().min(node_counts() - 2.0);
   const Eigen::Array3d along = place - first;
-  Eigen::VectorXf sum = Eigen::VectorXf::Zero(along_ray_mm_.rows());
+  Eigen::MatrixXf sum = Eigen::MatrixXf::Zero(displacements_mm_.rows(), 3);
   for (int corner = 0; corner < 8; ++corner) {
     const Eigen::Array3d upper(corner & 1, corner >> 1 & 1, corner >> 2 & 1);
     const Eigen::Array3i at = (first + upper).cast<int>();
     const double share = (upper * along + (1.0 - upper) * (1.0 - along)).prod();
-    sum += static_cast<float>(share) * along_ray_mm_.col(node(at.x(), at.y(), at.z()));
+    sum += static_cast<float>(share) *
+           displacements_mm_.middleCols(3 * node(at.x(), at.y(), at.z()), 3);
   }
-  return static_cast<double>(sum.norm());
+  return static_cast<double>((sum * point_mm.normalized().cast<float>()).norm());
 }
 
-void CalibrationUncertainty::add_to(RangeGrid& range) const {
-  if (along_ray_mm_.size() == 0) return;
+namespace {
+
+/// What a displacement of the surface is multiplied with to yield the distance along the ray by
+/// which the surface moves there: n / (n . r), with n the normal and r the unit ray. Without a
+/// normal, the ray itself.
+Eigen::Vector3f along_ray_by(const RangeGrid& range,
+                             const Image<Eigen::Vector2f>& rays,
+                             int x,
+                             int y) {
+  constexpr int kReach = 2;             // pixels: across the noise of one
+  constexpr float kLeastCosine = 0.1F;  // of ray and normal; steeper, the two pixels see two faces
+  const Eigen::Vector3f ray = rays(x, y).homogeneous().normalized();
+  if (x < kReach || y < kReach || x + kReach >= rays.width() || y + kReach >= rays.height())
+    return ray;
+  const auto point = [&](int column, int row) -> Eigen::Vector3f {
+    return range.depth_mm(column, row) * rays(column, row).homogeneous();
+  };
+  const Eigen::Vector3f normal = (point(x + kReach, y) - point(x - kReach, y))
+                                     .cross(point(x, y + kReach) - point(x, y - kReach))
+                                     .normalized();
+  const float cosine = normal.dot(ray);
+  if (!(std::abs(cosine) > kLeastCosine)) return ray;
+  return normal / cosine;
+}
+
+}  // namespace
+
+void CalibrationUncertainty::add_to(RangeGrid& range, const Image<Eigen::Vector2f>& rays) const {
+  if (displacements_mm_.size() == 0) return;
   const int width = range.depth_mm.width();
   range.differing_share = 0.0F;  // the rig is that of all views
   if (range.systematic_mm.empty()) {
@@ -83,38 +111,37 @@ void CalibrationUncertainty::add_to(RangeGrid& range) const {
         range.systematic_mm(x, y) = std::isnan(range.depth_mm(x, y)) ? kMissing : 0.0F;
     });
   }
-  const Eigen::Index components = along_ray_mm_.rows();
+  const Eigen::Index components = displacements_mm_.rows();
   parallel_rows(range.depth_mm.height(), [&](int y) {
     const double row = place_of(0.0, y, 0.0).y();
     const int upper = std::min(static_cast<int>(row), kNodes[1] - 2);
     const auto down = static_cast<float>(row - upper);
     // The nodes interpolated at this row, with those along depth side by side.
-    Eigen::MatrixXf nodes(components, kNodes[0] * kNodes[2]);
+    Eigen::MatrixXf nodes(components, 3 * kNodes[0] * kNodes[2]);
     for (int z = 0; z < kNodes[2]; ++z) {
       for (int x = 0; x < kNodes[0]; ++x) {
-        nodes.col(x * kNodes[2] + z) = (1.0F - down) * along_ray_mm_.col(node(x, upper, z)) +
-                                       down * along_ray_mm_.col(node(x, upper + 1, z));
+        nodes.middleCols<3>(3 * (x * kNodes[2] + z)) =
+            (1.0F - down) * displacements_mm_.middleCols<3>(3 * node(x, upper, z)) +
+            down * displacements_mm_.middleCols<3>(3 * node(x, upper + 1, z));
       }
     }
     for (int x = 0; x < width; ++x) {
       const float depth = range.depth_mm(x, y);
       if (std::isnan(depth)) continue;
+      const Eigen::Vector3f by = along_ray_by(range, rays, x, y);
       const Eigen::Array3d place = place_of(x, y, static_cast<double>(depth));
       const int left = std::min(static_cast<int>(place.x()), kNodes[0] - 2);
       const int near = std::min(static_cast<int>(place.z()), kNodes[2] - 2);
       const auto right = static_cast<float>(place.x() - left);
       const auto far = static_cast<float>(place.z() - near);
-      const float* front = &nodes(0, left * kNodes[2] + near);
-      const float* back = front + kNodes[2] * components;
-      float squares = 0.0F;
-      for (Eigen::Index i = 0; i < components; ++i) {
-        const float here = front[i] + far * (front[i + components] - front[i]);
-        const float next = back[i] + far * (back[i + components] - back[i]);
-        const float moved = here + right * (next - here);
-        squares += moved * moved;
-      }
+      const auto moved_at = [&](int column, int layer) -> Eigen::VectorXf {
+        return nodes.middleCols<3>(3 * (column * kNodes[2] + layer)) * by;
+      };
+      const Eigen::VectorXf moved =
+          (1.0F - right) * ((1.0F - far) * moved_at(left, near) + far * moved_at(left, near + 1)) +
+          right * ((1.0F - far) * moved_at(left + 1, near) + far * moved_at(left + 1, near + 1));
       float& systematic = range.systematic_mm(x, y);
-      systematic = combined_sigma(systematic, std::sqrt(squares));
+      systematic = combined_sigma(systematic, moved.norm());
     }
   });
 }

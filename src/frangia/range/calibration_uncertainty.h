@@ -2,48 +2,52 @@
 
 #include <array>
 #include <cstddef>
-#include <span>
 
 #include <Eigen/Core>
 
 #include "frangia/pattern/pattern.h"
+#include "frangia/range/measured_volume.h"
 #include "frangia/range/range_grid.h"
 #include "frangia/rig/rig.h"
 
 namespace frangia {
 
-/// The standard uncertainty of measured points, along their viewing rays, that the covariance of
+/// The standard uncertainty of the measured surface, along the viewing rays, that the covariance of
 /// the rig's parameters causes.
 ///
-/// Each independent change of the parameters displaces the triangulated points. The rigid motion
-/// that fits the displacements of the measured volume best is removed first, because it moves the
-/// part and leaves its shape and size as they are. The rest, along the ray, is smooth: it is
-/// computed at the nodes of a coarse grid of pixels and depths, reduced to its few principal
-/// components, and interpolated. Its root sum of squares is the uncertainty. Displacements across
-/// the ray do not enter.
+/// Each independent change of the parameters displaces the triangulated points. A rigid motion in
+/// the rig frame is removed first, because the axis of the turntable moves along with it: the one
+/// by which the views agree best where they share surface, and, as far as these do not tell, the
+/// one that fits the displacements of the measured volume. The rest, along the ray, is smooth: it
+/// is computed at the nodes of a coarse grid of pixels and depths, reduced to its few principal
+/// components, and interpolated. The root sum of squares of what it moves the surface by, along the
+/// ray, is the uncertainty.
 class CalibrationUncertainty {
  public:
-  /// Linearizes the triangulation about the rig. `volume_mm` are points that represent the measured
-  /// volume: some hundreds, on all surfaces and from all views. `camera` counts as in
+  /// Linearizes the triangulation about the rig. `camera` counts as in
   /// `rig_of_camera`; its points are those of its own ray and the projector's phase, or, where the
   /// projector is a label, the ray of the reference camera, or of the first other one.
   ///
   /// @units    mm, rig frame
-  /// @missing  zero everywhere when the rig has no covariance or `volume_mm` is empty
+  /// @missing  zero everywhere when the rig has no covariance or the volume is empty
   /// @source   GUM (JCGM 100:2008), 5.2; derivatives by central differences along the principal
   ///           axes of the covariance
   CalibrationUncertainty(const Rig& rig,
                          const Pattern& pattern,
-                         std::span<const Eigen::Vector3d> volume_mm,
+                         const MeasuredVolume& volume,
                          std::size_t camera = 0);
 
-  /// Returns the standard uncertainty of the point that pixel (x, y) of the camera sees at a depth
-  /// in its frame. Beyond the
+  /// Returns the standard uncertainty of a point of this camera's frame along its ray. Beyond the
   /// measured volume it is that at the volume's boundary.
-  [[nodiscard]] double along_ray_mm(double x_px, double y_px, double depth_mm) const;
+  [[nodiscard]] double along_ray_mm(const Eigen::Vector3d& point_mm,
+                                    const Eigen::Vector2d& pixel) const;
 
-  /// Adds the uncertainty to the systematic parts of all points of a grid.
-  void add_to(RangeGrid& range) const;
+  /// Adds the uncertainty to the systematic parts of all points of a grid: the distance along the
+  /// ray by which the surface moves there, so that displacements across the ray count on surface
+  /// that is inclined to it.
+  ///
+  /// @shape    rays: as the grid; x and y at a depth of 1, in the camera's frame
+  void add_to(RangeGrid& range, const Image<Eigen::Vector2f>& rays) const;
 
  private:
   static constexpr std::array<int, 3> kNodes{17, 17, 9};  ///< along x, y and depth
@@ -56,8 +60,9 @@ class CalibrationUncertainty {
 
   Eigen::Array3d low_ = Eigen::Array3d::Zero();   ///< x px, y px, depth mm of the first node
   Eigen::Array3d step_ = Eigen::Array3d::Ones();  ///< distance of nodes
-  /// Displacements along the ray by each principal component; one column for each node.
-  Eigen::MatrixXf along_ray_mm_;
+  /// Displacements in the camera's frame: a row for each principal component; three columns, x, y,
+  /// z, for each node.
+  Eigen::MatrixXf displacements_mm_;
 };
 
 }  // namespace frangia

@@ -17,17 +17,15 @@ Eigen::Array3d grid_place(const Rig& rig, const Eigen::Vector3d& point_mm) {
 
 }  // namespace
 
-RigChangeField::RigChangeField(const Rig& rig,
-                               const Pattern& pattern,
-                               std::span<const Eigen::Vector3d> volume_mm)
+RigChangeField::RigChangeField(const Rig& rig, const Pattern& pattern, const MeasuredVolume& volume)
     : rig_(rig) {
-  if (!rig.calibration || rig.calibration->covariance.empty() || volume_mm.empty()) return;
+  if (!rig.calibration || rig.calibration->covariance.empty() || volume.points_mm.empty()) return;
   const ChangedRigs rigs(rig, pattern);
   if (rigs.changes() == 0) return;
-  const RigidMotions rigid = fit_rigid(volume_mm, rigs);
+  const RigidMotions rigid = fit_rigid(volume, rigs);
   low_.setConstant(std::numeric_limits<double>::infinity());
   Eigen::Array3d high = -low_;
-  for (const Eigen::Vector3d& point : volume_mm) {
+  for (const Eigen::Vector3d& point : volume.points_mm) {
     const Eigen::Array3d at = grid_place(rig, point);
     low_ = low_.min(at);
     high = high.max(at);
@@ -51,11 +49,7 @@ RigChangeField::RigChangeField(const Rig& rig,
     }
   });
   fill_missing(nodes, kNodes);
-  // One row for each change, so that its principal components mix changes alone.
-  Eigen::MatrixXd rows(changes, 3 * kCount);
-  for (Eigen::Index i = 0; i < kCount; ++i)
-    rows.middleCols(3 * i, 3) = nodes.col(i).reshaped(3, changes).transpose();
-  values_ = principal_components(rows);
+  values_ = principal_displacements(nodes);
   components_ = values_.rows();
 }
 

@@ -1,32 +1,29 @@
 #pragma once
 
 #include <array>
-#include <span>
 
 #include <Eigen/Core>
 
 #include "frangia/pattern/pattern.h"
+#include "frangia/range/measured_volume.h"
 #include "frangia/rig/rig.h"
 
 namespace frangia {
 
 /// How the independent changes of a rig's parameters, of one standard deviation each, displace the
-/// points that it measures. The rigid motion that fits the displacements of the measured volume
-/// best is removed, because it moves the part and leaves its shape and size as they are.
+/// points that it measures. The rigid motion by which the views agree best is removed, as in
+/// `CalibrationUncertainty`.
 ///
 /// The field is smooth: it is computed at the nodes of a coarse grid of pixels and depths, reduced
 /// to its principal components, and interpolated.
 class RigChangeField {
  public:
-  /// Linearizes the triangulation about the rig. `volume_mm` are points that represent the measured
-  /// volume: some hundreds, on all surfaces and from all views.
+  /// Linearizes the triangulation about the rig.
   ///
   /// @units    mm, rig frame
-  /// @missing  no components when the rig has no covariance or `volume_mm` is empty
+  /// @missing  no components when the rig has no covariance or the volume is empty
   /// @source   GUM (JCGM 100:2008), 5.2
-  RigChangeField(const Rig& rig,
-                 const Pattern& pattern,
-                 std::span<const Eigen::Vector3d> volume_mm);
+  RigChangeField(const Rig& rig, const Pattern& pattern, const MeasuredVolume& volume);
 
   /// Number of independent components.
   [[nodiscard]] Eigen::Index components() const { return components_; }

@@ -128,11 +128,11 @@ void set_point_sigma(const std::vector<ArtifactCapture>& captures, Rig& rig) {
   if (points.empty()) return;
   Pattern pattern;
   (rig.projector.is_angular() ? pattern.fringes_per_degree : pattern.period_px) = 1.0;
-  const CalibrationUncertainty uncertainty(rig, pattern, points);
+  const CalibrationUncertainty uncertainty(rig, pattern, {.points_mm = points, .shared = {}});
   double square = 0.0;
   double distance = 0.0;
   for (std::size_t i = 0; i < points.size(); ++i) {
-    square += std::pow(uncertainty.along_ray_mm(pixels[i].x(), pixels[i].y(), points[i].z()), 2);
+    square += std::pow(uncertainty.along_ray_mm(points[i], pixels[i]), 2);
     distance += points[i].norm();
   }
   const auto count = static_cast<double>(points.size());

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Geometry>
@@ -11,6 +12,8 @@
 
 namespace frangia {
 namespace {
+
+constexpr double kGrazing = 0.2;  // cosine below which a view measures nothing
 
 /// The pose of the object in each view of a scan.
 std::vector<Eigen::Isometry3d> poses_of(const Scan& scan) {
@@ -30,22 +33,32 @@ double cosine_to_camera(const Eigen::Vector3d& point, const Eigen::Vector3d& nor
 }
 
 /// Vertices, in the rig frame, of views that they face.
-std::vector<Eigen::Vector3d> facing_points(const Mesh& mesh,
-                                           const std::vector<Eigen::Vector3f>& normals,
-                                           const std::vector<Eigen::Isometry3d>& poses) {
+MeasuredVolume facing_points(const Mesh& mesh,
+                             const std::vector<Eigen::Vector3f>& normals,
+                             const std::vector<Eigen::Isometry3d>& poses) {
   constexpr std::size_t kMost = 600;
-  std::vector<Eigen::Vector3d> points;
+  MeasuredVolume volume;
   const std::size_t pairs = mesh.vertices_mm.size() * poses.size();
   const std::size_t step = pairs / (2 * kMost) + 1;  // half of the surface faces a camera
   for (std::size_t i = 0; i < pairs; i += step) {
     const std::size_t vertex = i / poses.size();
-    const Eigen::Isometry3d& pose = poses[i % poses.size()];
     if (!mesh.vertices_mm[vertex].allFinite()) continue;
-    const Eigen::Vector3d point = pose * mesh.vertices_mm[vertex].cast<double>();
-    if (cosine_to_camera(point, pose.linear() * normals[vertex].cast<double>()) > 0.0)
-      points.push_back(point);
+    const auto seen_at = [&](const Eigen::Isometry3d& pose) {
+      return std::pair<Eigen::Vector3d, Eigen::Vector3d>(
+          pose * mesh.vertices_mm[vertex].cast<double>(),
+          pose.linear() * normals[vertex].cast<double>());
+    };
+    const auto [point, normal] = seen_at(poses[i % poses.size()]);
+    if (!(cosine_to_camera(point, normal) > kGrazing)) continue;
+    volume.points_mm.push_back(point);
+    for (std::size_t next = 1; next < poses.size(); ++next) {
+      const auto [there, turned] = seen_at(poses[(i + next) % poses.size()]);
+      if (!(cosine_to_camera(there, turned) > kGrazing)) continue;
+      volume.shared.push_back({point, normal, there, turned});
+      break;
+    }
   }
-  return points;
+  return volume;
 }
 
 }  // namespace
@@ -59,7 +72,6 @@ Eigen::MatrixXf calibration_displacements(const Mesh& mesh, const Scan& scan, co
   const std::vector<Eigen::Vector3f> normals = vertex_normals(mesh);
   const std::vector<Eigen::Isometry3d> poses = poses_of(scan);
   const RigChangeField field(scan.rig, *fringes, facing_points(mesh, normals, poses));
-  constexpr double kGrazing = 0.2;  // cosine below which a view measures nothing
   constexpr std::size_t kChunk = 1024;
   const auto count = mesh.vertices_mm.size();
   Eigen::MatrixXf out = Eigen::MatrixXf::Zero(field.components(), static_cast<Eigen::Index>(count));

@@ -1,5 +1,6 @@
 #include "frangia/range/internal/changed_rigs.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 
@@ -53,6 +54,46 @@ Eigen::Vector3d seen_nearest(const RigRay& ray,
   return ray.origin + along * ray.direction;
 }
 
+/// Normal equations of a motion for each change.
+struct MotionSums {
+  Eigen::Matrix<double, 6, 6> normal = Eigen::Matrix<double, 6, 6>::Zero();
+  Eigen::Matrix<double, 6, Eigen::Dynamic> right;
+  double rows = 0.0;
+
+  explicit MotionSums(Eigen::Index changes) : right(6, changes) { right.setZero(); }
+
+  /// Leaves out what a changed rig does not measure.
+  void add(const Eigen::Matrix<double, Eigen::Dynamic, 6, 0, 3, 6>& design,
+           const Eigen::MatrixXd& moved) {
+    if (!moved.allFinite()) return;
+    normal += design.transpose() * design;
+    right += design.transpose() * moved;
+    rows += 1.0;
+  }
+};
+
+/// How far two views contradict each other at shared places, along the normal.
+MotionSums sum_agreement(const RigidMotions& motions,
+                         const std::vector<SharedPlace>& shared,
+                         const ChangedRigs& rigs) {
+  std::vector<Eigen::RowVectorXd> apart(shared.size());
+  parallel_chunks(shared.size(), 16, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const SharedPlace& place = shared[i];
+      apart[i] = place.first_normal.transpose() * rigs.displacements_of(place.first_mm) -
+                 place.second_normal.transpose() * rigs.displacements_of(place.second_mm);
+    }
+  });
+  MotionSums sums(rigs.changes());
+  for (std::size_t i = 0; i < shared.size(); ++i) {
+    const SharedPlace& place = shared[i];
+    sums.add(place.first_normal.transpose() * motions.design(place.first_mm) -
+                 place.second_normal.transpose() * motions.design(place.second_mm),
+             apart[i]);
+  }
+  return sums;
+}
+
 }  // namespace
 
 ChangedRigs::ChangedRigs(const Rig& rig, const Pattern& pattern, std::size_t camera)
@@ -96,7 +137,8 @@ Displacements ChangedRigs::displacements_of(const Eigen::Vector3d& point_mm) con
   return moved;
 }
 
-RigidMotions fit_rigid(std::span<const Eigen::Vector3d> points, const ChangedRigs& rigs) {
+RigidMotions fit_rigid(const MeasuredVolume& volume, const ChangedRigs& rigs) {
+  const std::vector<Eigen::Vector3d>& points = volume.points_mm;
   RigidMotions fit;
   for (const Eigen::Vector3d& point : points)
     fit.center += point / static_cast<double>(points.size());
@@ -109,14 +151,19 @@ RigidMotions fit_rigid(std::span<const Eigen::Vector3d> points, const ChangedRig
     for (std::size_t i = begin; i < end; ++i)
       moved[i] = rigs.displacements_of(points[i]);
   });
-  Eigen::Matrix<double, 6, 6> normal = Eigen::Matrix<double, 6, 6>::Zero();
-  Eigen::Matrix<double, 6, Eigen::Dynamic> right(6, rigs.changes());
-  right.setZero();
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    if (!moved[i].allFinite()) continue;
-    const auto rows = fit.design(points[i]);
-    normal += rows.transpose() * rows;
-    right += rows.transpose() * moved[i];
+  MotionSums sums(rigs.changes());
+  for (std::size_t i = 0; i < points.size(); ++i)
+    sums.add(fit.design(points[i]), moved[i]);
+  const MotionSums agreement = sum_agreement(fit, volume.shared, rigs);
+  // Views that are turned by 45 degrees determine the motion across the axis a hundred times as
+  // well.
+  constexpr double kShareOfFit = 1e-3;
+  Eigen::Matrix<double, 6, 6> normal = sums.normal;
+  Eigen::Matrix<double, 6, Eigen::Dynamic> right = sums.right;
+  if (agreement.rows > 0) {
+    const double weight = kShareOfFit * agreement.rows / std::max(1.0, sums.rows);
+    normal = agreement.normal + weight * sums.normal;
+    right = agreement.right + weight * sums.right;
   }
   fit.motions = normal.completeOrthogonalDecomposition().solve(right);
   return fit;

@@ -1,12 +1,12 @@
 #pragma once
 
 #include <cstddef>
-#include <span>
 #include <vector>
 
 #include <Eigen/Core>
 
 #include "frangia/pattern/pattern.h"
+#include "frangia/range/measured_volume.h"
 #include "frangia/rig/rig.h"
 
 namespace frangia {
@@ -54,8 +54,9 @@ struct RigidMotions {
   }
 };
 
-/// Fits a rigid motion to the displacements of points by least squares, for each change.
-[[nodiscard]] RigidMotions fit_rigid(std::span<const Eigen::Vector3d> points,
-                                     const ChangedRigs& rigs);
+/// The rigid motion of the rig frame, for each change, that the axis of a turntable follows: by
+/// least squares, that by which the displaced views agree along the normals of shared places. What
+/// they do not determine (everything, for a single view) fits the displacements of the points.
+[[nodiscard]] RigidMotions fit_rigid(const MeasuredVolume& volume, const ChangedRigs& rigs);
 
 }  // namespace frangia

@@ -39,4 +39,12 @@ Eigen::MatrixXf principal_components(const Eigen::MatrixXd& rows) {
   return (eigen.vectors.rightCols(kept).transpose() * rows).cast<float>();
 }
 
+Eigen::MatrixXf principal_displacements(const Eigen::MatrixXd& nodes) {
+  const Eigen::Index changes = nodes.rows() / 3;
+  Eigen::MatrixXd rows(changes, 3 * nodes.cols());
+  for (Eigen::Index i = 0; i < nodes.cols(); ++i)
+    rows.middleCols(3 * i, 3) = nodes.col(i).reshaped(3, changes).transpose();
+  return principal_components(rows);
+}
+
 }  // namespace frangia

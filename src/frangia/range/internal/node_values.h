@@ -16,4 +16,9 @@ void fill_missing(Eigen::MatrixXd& nodes, const std::array<int, 3>& counts);
 /// the original ones to within 1e-4 of their mean.
 [[nodiscard]] Eigen::MatrixXf principal_components(const Eigen::MatrixXd& rows);
 
+/// The principal components of displacement fields: of three rows, x, y and z, for each change and
+/// a column for each node, it makes a row for each component and three columns for each node. A
+/// component mixes changes alone.
+[[nodiscard]] Eigen::MatrixXf principal_displacements(const Eigen::MatrixXd& nodes);
+
 }  // namespace frangia

@@ -28,18 +28,17 @@ CheckLimits::CheckLimits(const CheckedCamera& camera,
   (rig.projector.is_angular() ? pattern.fringes_per_degree : pattern.period_px) = 1.0;
   const Eigen::Isometry3d rig_from_camera = camera_from_rig(rig, camera.camera).inverse();
   std::vector<Eigen::Vector3d> own;  // in the frame of the camera
-  std::vector<Eigen::Vector3d> volume;
+  MeasuredVolume volume;
   constexpr std::size_t kMost = 500;
   for (std::size_t i = 0; i < points.size(); i += points.size() / kMost + 1) {
     own.push_back(points[i]);
-    volume.emplace_back(rig_from_camera * points[i]);
+    volume.points_mm.emplace_back(rig_from_camera * points[i]);
   }
   const CalibrationUncertainty uncertainty(rig, pattern, volume, camera.camera);
   const CameraModel& model = model_of_camera(rig, camera.camera);
   double square = 0.0;
   for (const Eigen::Vector3d& point : own) {
-    const Eigen::Vector2d pixel = model.project(point);
-    square += std::pow(uncertainty.along_ray_mm(pixel.x(), pixel.y(), point.z()), 2);
+    square += std::pow(uncertainty.along_ray_mm(point, model.project(point)), 2);
   }
   calibration_sigma_mm_ = std::sqrt(square / static_cast<double>(own.size()));
   check.calibration_sigma_mm = std::max(check.calibration_sigma_mm, calibration_sigma_mm_);

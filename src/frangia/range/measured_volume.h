@@ -1,0 +1,26 @@
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace frangia {
+
+/// A place of the surface as the rig has it before it at two stations of the turntable. The normals
+/// are one direction of the part.
+struct SharedPlace {
+  Eigen::Vector3d first_mm;
+  Eigen::Vector3d first_normal;
+  Eigen::Vector3d second_mm;
+  Eigen::Vector3d second_normal;
+};
+
+/// What a scan measured, by some hundreds of places; all in the rig frame.
+struct MeasuredVolume {
+  std::vector<Eigen::Vector3d> points_mm;  ///< on all surfaces and from all views
+  /// Empty for a single view. Registration places the axis of the turntable so that views agree
+  /// there, whatever the rig does.
+  std::vector<SharedPlace> shared;
+};
+
+}  // namespace frangia
