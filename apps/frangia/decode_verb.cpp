@@ -43,9 +43,9 @@ struct DecodeArguments {
 Scan choose_camera(const Scan& scan, const std::string& name) {
   if (name.empty()) return scan_of_camera(scan, 0);
   std::vector<std::string> names;
-  for (const PosedCamera& posed : scan.rig.more_cameras) {
-    names.push_back(posed.camera.name);
-    if (names.back() == name) return scan_of_camera(scan, names.size());
+  for (std::size_t i = 1; i < scan.rig.cameras.size(); ++i) {
+    names.push_back(scan.rig.cameras[i].camera.name);
+    if (names.back() == name) return scan_of_camera(scan, i);
   }
   throw Error(ErrorKind::Input,
               fmt::format("{} has no `camera` \"{}\" in its rig.toml; {}",
@@ -139,7 +139,7 @@ void decode_verb(const DecodeArguments& arguments, Terminal& terminal) {
   make_folder(arguments.folder);
   check_can_write(arguments.folder / "index.html");
   if (has_geometry(scan.rig)) {
-    task.rays = rays_of(scan.rig.camera.model);
+    task.rays = rays_of(scan.rig.reference().model);
     if (!is_absolute(task.plan)) {
       run.warn(
           "the scan holds neither an absolute pattern nor the laser sheet: phases and depths are "

@@ -80,7 +80,7 @@ DecodedView decode_stacks(const std::vector<FrameStack>& stacks,
                           const Rig& rig,
                           const DecodeOptions& options,
                           const Run& run) {
-  const auto rays = has_geometry(rig) ? rays_of(rig.camera.model) : Image<Eigen::Vector2f>();
+  const auto rays = has_geometry(rig) ? rays_of(rig.reference().model) : Image<Eigen::Vector2f>();
   return decode_view(stacks, rig, rays, options, run);
 }
 

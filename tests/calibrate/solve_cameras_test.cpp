@@ -35,13 +35,13 @@ TrueRig with_left_camera() {
 Rig known_cameras() {
   Rig rig = known_rig();
   PosedCamera left;
-  left.camera = rig.camera;
+  left.camera = rig.reference();
   left.camera.name = "left";
   left.camera.model.width_px = 960;
   left.camera.model.height_px = 768;
   left.position_mm.setConstant(std::nan(""));
   left.rotation.setConstant(std::nan(""));
-  rig.more_cameras.push_back(left);
+  rig.cameras.push_back(left);
   return rig;
 }
 
@@ -90,11 +90,11 @@ Rig true_cameras() {
   const TrueRig right;
   const TrueRig left = with_left_camera();
   Rig rig = known_cameras();
-  rig.camera.model = model_of(right.camera, right.camera_distortion, 1280, 1024);
+  rig.reference().model = model_of(right.camera, right.camera_distortion, 1280, 1024);
   rig.projector.model = model_of(right.projector, right.projector_distortion, 1280, 800);
   place(right, rig.projector.rotation, rig.projector.position_mm);
-  rig.more_cameras[0].camera.model = model_of(left.projector, left.projector_distortion, 960, 768);
-  place(left, rig.more_cameras[0].rotation, rig.more_cameras[0].position_mm);
+  rig.cameras[1].camera.model = model_of(left.projector, left.projector_distortion, 960, 768);
+  place(left, rig.cameras[1].rotation, rig.cameras[1].position_mm);
   return rig;
 }
 
@@ -117,16 +117,16 @@ Eigen::VectorXd errors_of(const RigSolution& found, const Rig& truth) {
   projector.translation() = -(truth.projector.rotation * truth.projector.position_mm);
   const bool lit = found.has_projector;
   Eigen::VectorXd out(lit ? 39 : 24);
-  out.head<9>() = intrinsics(found.camera) - intrinsics(truth.camera.model);
+  out.head<9>() = intrinsics(found.camera) - intrinsics(truth.reference().model);
   if (lit) {
     out.segment<9>(9) =
         intrinsics(found.projector) - intrinsics(std::get<PinholeModel>(truth.projector.model));
     out.segment<6>(18) = pose(found.projector_from_camera) - pose(projector);
   }
   out.segment<9>(lit ? 24 : 9) =
-      intrinsics(found.more_cameras[0].model) - intrinsics(truth.more_cameras[0].camera.model);
+      intrinsics(found.more_cameras[0].model) - intrinsics(truth.cameras[1].camera.model);
   out.tail<6>() =
-      pose(found.more_cameras[0].camera_from_rig) - pose(truth.more_cameras[0].camera_from_rig());
+      pose(found.more_cameras[0].camera_from_rig) - pose(truth.cameras[1].camera_from_rig());
   return out;
 }
 
@@ -165,9 +165,9 @@ TEST(SolveCameras, NamesTheParametersOfEachCamera) {
   EXPECT_EQ(found.parameters.back(), "camera-left.z_mm");
   const Rig moved = change_parameters(
       true_cameras(), {"camera-left.z_mm", "camera-left.focal_px"}, Eigen::Vector2d(2.0, 5.0));
-  EXPECT_NEAR(moved.more_cameras[0].camera_from_rig().translation().z(), 92.0, 1e-9);
-  EXPECT_NEAR(moved.more_cameras[0].camera.model.focal_px.y(), 2305.0, 1e-9);
-  EXPECT_EQ(moved.camera.model.focal_px, true_cameras().camera.model.focal_px);
+  EXPECT_NEAR(moved.cameras[1].camera_from_rig().translation().z(), 92.0, 1e-9);
+  EXPECT_NEAR(moved.cameras[1].camera.model.focal_px.y(), 2305.0, 1e-9);
+  EXPECT_EQ(moved.reference().model.focal_px, true_cameras().reference().model.focal_px);
 }
 
 TEST(SolveCameras, APoseThatOneCameraMissesStillServesTheOthers) {

@@ -284,8 +284,8 @@ TEST(SolveRig, AllowsForTheEllipsesThatCirclesShow) {
 
 TEST(SolveRig, StartsFromTheGivenFocalLengthsButDoesNotTrustWrongOnes) {
   Rig wrong = known_rig();
-  wrong.camera.model.focal_px.setConstant(700.0);
-  wrong.camera.model.principal_point_px = {640.0, 512.0};
+  wrong.reference().model.focal_px.setConstant(700.0);
+  wrong.reference().model.principal_point_px = {640.0, 512.0};
   const RigSolution found = solve_rig(kBoard, make_views({}, 12, 1e-4, 1), wrong);
   EXPECT_NEAR(found.camera.focal_px.x(), 2400.0, 0.05);
 }

@@ -21,8 +21,8 @@ constexpr int kFlatFrame_px = 64;
 /// Four frames of fringes of 16 pixels, decoded without a rig.
 std::string reason_of(double mean, double amplitude) {
   Rig rig;
-  rig.camera.model.width_px = kFlatFrame_px;
-  rig.camera.model.height_px = kFlatFrame_px;
+  rig.reference().model.width_px = kFlatFrame_px;
+  rig.reference().model.height_px = kFlatFrame_px;
   rig.projector.model = PinholeModel{};
   FrameStack stack;
   stack.pattern.name = "fine";

@@ -14,7 +14,7 @@ namespace {
 
 struct DecodedPlate {
   Rig rig = testing::small_rig("digital", 4);
-  Image<Eigen::Vector2f> rays = rays_of(rig.camera.model);
+  Image<Eigen::Vector2f> rays = rays_of(rig.reference().model);
   std::vector<FrameStack> stacks;
 
   DecodedPlate(const PatternPlan& plan, double gamma) {

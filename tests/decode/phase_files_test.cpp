@@ -23,7 +23,7 @@ class PhaseFilesOfAScan : public ::testing::Test {
   PhaseFilesOfAScan()
       : scan_(testing::small_scan(
             folder_.path() / "scan", "plate", "digital", 2, {.samples_per_px = 4}, 4)),
-        rays_(rays_of(scan_.rig.camera.model)) {
+        rays_(rays_of(scan_.rig.reference().model)) {
     options_.indirect_light = false;
     options_.register_views = false;
     options_.decode.survey = survey_scan(scan_);

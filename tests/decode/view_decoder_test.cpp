@@ -20,7 +20,7 @@ using testing::TemporaryFolder;
 
 class DecodesAhead : public ::testing::Test {
  protected:
-  [[nodiscard]] Image<Eigen::Vector2f> rays() const { return rays_of(scan_.rig.camera.model); }
+  [[nodiscard]] Image<Eigen::Vector2f> rays() const { return rays_of(scan_.rig.reference().model); }
   [[nodiscard]] std::filesystem::path frame(int view) const {
     return scan_.folder / "views" / std::to_string(view) / frame_file_name(scan_.patterns[0], 0);
   }

@@ -31,7 +31,7 @@ struct Setups {
   Run run;
 
   Setups() {
-    rig.camera.model = small_camera_model(160, 800.0);
+    rig.reference().model = small_camera_model(160, 800.0);
     rig.turntable = Turntable{{2.0, 8.0, 650.0}, Eigen::Vector3d(0.03, -0.9, -0.4).normalized()};
     run.on_warning = [&](const std::string& sentence) { warnings.push_back(sentence); };
   }
@@ -43,7 +43,7 @@ struct Setups {
       const double angle_rad = kTwoPi * i / kViews;
       setup.measured.views.add(
           testing::snapshot([&](const Eigen::Vector3d& p) { return shape(back * p); },
-                            rig.camera.model,
+                            rig.reference().model,
                             rig.rig_from_object(angle_rad),
                             {.seed = static_cast<std::uint32_t>(10 * setup.number + i + 1)}));
       setup.measured.stations.push_back({angle_rad, "views/" + std::to_string(i), 0});

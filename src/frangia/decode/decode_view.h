@@ -50,7 +50,7 @@ struct DecodedView {
 /// caller decides whether a phase that does not fit is used.
 ///
 /// @shape    `stacks` as read_frames returns them, of the patterns of `plan`; `rays` as
-///           rays_of(rig.camera.model), or empty for a rig without geometry
+///           rays_of(rig.reference().model), or empty for a rig without geometry
 /// @units    rad, counts
 /// @missing  NaN in a phase; `status` gives the reason
 /// @errors   Error(Input) when a function of `options.own` returns images of another size, or when

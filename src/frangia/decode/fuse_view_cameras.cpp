@@ -9,7 +9,6 @@
 #include "frangia/decode/triangulate_view.h"
 #include "frangia/range/match_by_phase.h"
 #include "frangia/range/recover_edge_pixels.h"
-#include "frangia/rig/rig_of_camera.h"
 
 namespace frangia {
 namespace {
@@ -41,7 +40,7 @@ CommonPhases common_phases(const Rig& rig, std::span<const DecodedCamera> all) {
     const auto phases = used_phases(all[i]);
     if (phases.empty()) continue;
     out.indices.push_back(i);
-    out.cameras.push_back({all[i].rig, all[i].rays, camera_from_rig(rig, i), phases});
+    out.cameras.push_back({all[i].rig, all[i].rays, rig.cameras[i].camera_from_rig(), phases});
   }
   for (CameraPhases& camera : out.cameras) {
     std::erase_if(camera.phases, [&](const AbsolutePhase* phase) {

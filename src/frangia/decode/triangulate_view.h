@@ -21,7 +21,7 @@ struct TriangulatedView {
 ///
 /// If only the second direction fits, it replaces `decoded.phase`.
 ///
-/// @shape    `rays` as rays_of(rig.camera.model)
+/// @shape    `rays` as rays_of(rig.reference().model)
 /// @units    mm, rig frame
 /// @missing  as `triangulate` and `fuse_directions`; `decoded.phase.status` gives the reason
 [[nodiscard]] TriangulatedView triangulate_view(DecodedView& decoded,

@@ -30,7 +30,6 @@
 #include "frangia/reconstruct/internal/tie_cameras.h"
 #include "frangia/reconstruct/internal/turntable_part.h"
 #include "frangia/reconstruct/refine_scan_rig.h"
-#include "frangia/rig/rig_of_camera.h"
 
 namespace frangia {
 namespace {
@@ -51,7 +50,7 @@ void report_disagreement(const MeasuredViews& measured, Reconstruction& out) {
 /// disagree about; points of several cameras are not those of one drift.
 TurntableStations stations_of(const Rig& rig, const MeasuredViews& measured) {
   TurntableStations given{*rig.turntable, measured.stations};
-  if (!rig.more_cameras.empty() || rig.projector.is_label) return given;
+  if (rig.cameras.size() > 1 || rig.projector.is_label) return given;
   given.rig = &rig;
   given.pattern = &measured.coarsest;
   return given;
@@ -68,7 +67,7 @@ bool register_setup(MeasuredSetup& setup,
                     const Run& run) {
   MeasuredViews& measured = setup.measured;
   const Scan& scan = decoding.scan;
-  const CameraModel& camera = scan.rig.camera.model;
+  const CameraModel& camera = scan.rig.reference().model;
   bool indirect_light = true;
   if (measured.points == 0) return true;
   clip_to_volume(measured, scan.rig, options, run);
@@ -202,10 +201,10 @@ Reconstruction reconstruct(const Scan& scan, const ReconstructOptions& options, 
   check_geometry(scan, plan, run);
   const Capabilities can = capabilities_of(scan.rig, plan, options);
   report(can, run);
-  const auto rays = rays_of(scan.rig.camera.model);
+  const auto rays = rays_of(scan.rig.reference().model);
   const ScanDecoding decoding{scan, rays, options.decode, plan};
   Reconstruction out;
-  out.cameras = camera_count(scan.rig);
+  out.cameras = scan.rig.cameras.size();
 
   // Frames -> phase -> range, view by view. Phase noise: phase/wrap_phase.
   DecodeOptions decode = options.decode;

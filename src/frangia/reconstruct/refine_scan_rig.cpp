@@ -74,7 +74,7 @@ void measure_direction(std::list<MeasuredSurface>& surfaces,
 
 /// Warns when a further camera does not measure what the refined rig measures.
 void compare_cameras(const Scan& scan, const Rig& refined, const Run& run) {
-  if (refined.more_cameras.empty()) return;
+  if (refined.cameras.size() == 1) return;
 #ifdef FRANGIA_WITH_CALIBRATION
   Scan own = scan;
   own.rig = refined;
@@ -108,8 +108,8 @@ RigRefinement refine_scan_rig(const Scan& scan, const ReconstructOptions& option
                     "reconstruct without refining the rig");
   }
   Scan reference = scan;  // the drift is found from the reference camera alone
-  reference.rig.more_cameras.clear();
-  const auto rays = rays_of(scan.rig.camera.model);
+  reference.rig.cameras.resize(1);
+  const auto rays = rays_of(scan.rig.reference().model);
   std::list<MeasuredSurface> measured;
   for (const DirectionChoice direction : directions_of(scan, options.decode.directions)) {
     ReconstructOptions one = options;

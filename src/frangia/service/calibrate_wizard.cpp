@@ -96,10 +96,10 @@ bool CalibrationWizard::wait_for_answer(RigDevices& devices,
   constexpr std::chrono::milliseconds kPause{200};
   for (int attempt = 0;; ++attempt) {
     run.check();
-    CapturedFrame seen = devices.camera->capture(
+    CapturedFrame seen = devices.reference()->capture(
         {.view = static_cast<int>(number) - 1, .pattern = "white", .attempt = attempt},
         Deadline::in(kTimeout_s, run.stop));
-    if (seen.complete) show(std::move(seen.frame), devices.camera->info().white_level, board);
+    if (seen.complete) show(std::move(seen.frame), devices.reference()->info().white_level, board);
     std::unique_lock lock(mutex_);
     answered_.wait_for(lock, kPause, [&] { return answer_ != Answer::None; });
     if (answer_ != Answer::None) return std::exchange(answer_, Answer::None) == Answer::Capture;

@@ -147,7 +147,7 @@ void add_points(const LiveDecode& decode, const Rig& rig, ArrayPacker& packer) {
   for (int y = 0; y < depth.height(); ++y) {
     for (int x = 0; x < depth.width(); ++x) {
       if (std::isnan(depth(x, y)) || number++ % step != 0) continue;
-      const Eigen::Vector2d ray = rig.camera.model.ray(Eigen::Vector2d(x, y));
+      const Eigen::Vector2d ray = rig.reference().model.ray(Eigen::Vector2d(x, y));
       const Eigen::Vector3f point =
           (object_from_rig * (Eigen::Vector3d(ray.x(), ray.y(), 1.0) * depth(x, y))).cast<float>();
       positions.insert(positions.end(), {point.x(), point.y(), point.z()});

@@ -100,7 +100,7 @@ LiveDecode decode_live(std::span<const FrameStack> stacks,
 LivePreview::LivePreview(Rig rig, LiveSettings settings, std::function<void()> on_change)
     : rig_(std::move(rig)),
       calibrated_(has_geometry(rig_)),
-      rays_(calibrated_ ? rays_of(rig_.camera.model) : Image<Eigen::Vector2f>()),
+      rays_(calibrated_ ? rays_of(rig_.reference().model) : Image<Eigen::Vector2f>()),
       on_change_(std::move(on_change)),
       settings_(std::move(settings)) {}
 
@@ -183,7 +183,8 @@ void LivePreview::run(RigDevices& devices, const Run& run) {
     watched_ = Clock::now();
     changed_ = true;
   }
-  const int white_level = devices.camera ? devices.camera->info().white_level : 0;
+  const int white_level =
+      devices.reference() != nullptr ? devices.reference()->info().white_level : 0;
   PreviewEvents events;
   events.next_settings = [this] {
     {

@@ -35,7 +35,7 @@ ViewAssessor::ViewAssessor(const Scan& plan,
                            const std::function<void(const ViewAssessment&)>& on_view,
                            const Run& run)
     : plan_(plan), on_view_(on_view), run_(run) {
-  if (has_geometry(plan.rig)) rays_ = rays_of(plan.rig.camera.model);
+  if (has_geometry(plan.rig)) rays_ = rays_of(plan.rig.reference().model);
 }
 
 void ViewAssessor::begin(std::size_t view, std::vector<std::shared_ptr<const Frame>> frames) {
@@ -61,7 +61,7 @@ std::string ViewAssessor::decode(std::size_t view,
   std::size_t next = 0;
   for (const Pattern& pattern : plan_.patterns) {
     for (int exposure = 0; exposure < pattern.exposure_count(); ++exposure) {
-      FrameStack stack{pattern, {}, plan_.rig.camera.white_level, exposure};
+      FrameStack stack{pattern, {}, plan_.rig.reference().white_level, exposure};
       for (int frame = 0; frame < pattern.frame_count(); ++frame)
         stack.frames.push_back(*frames.at(next++));
       stacks.push_back(std::move(stack));

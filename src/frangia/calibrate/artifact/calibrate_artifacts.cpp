@@ -40,7 +40,7 @@ CameraSolution camera_from_screens(std::span<const Scan> scans,
     std::vector<ScreenView> more = measure_screen(scan, options, run);
     std::move(more.begin(), more.end(), std::back_inserter(views));
   }
-  const CameraModel& model = first->rig.camera.model;
+  const CameraModel& model = first->rig.reference().model;
   CameraSolution solution = solve_camera(std::get<Screen>(*first->artifact),
                                          views,
                                          model.width_px,
@@ -59,7 +59,7 @@ CameraSolution camera_from_screens(std::span<const Scan> scans,
 }
 
 void take_camera(const CameraSolution& solution, Rig& rig) {
-  rig.camera.model = solution.camera;
+  rig.reference().model = solution.camera;
   Calibration calibration;
   calibration.covariance = {solution.parameters, solution.covariance};
   rig.calibration = calibration;
@@ -67,10 +67,11 @@ void take_camera(const CameraSolution& solution, Rig& rig) {
 
 void check_start(const Rig& rig) {
   const bool complete = rig.projector.position_mm.allFinite() &&
-                        rig.projector.rotation.allFinite() && rig.camera.model.focal_px.allFinite();
+                        rig.projector.rotation.allFinite() &&
+                        rig.reference().model.focal_px.allFinite();
   if (complete) return;
   throw Error(ErrorKind::Input,
-              rig.camera.model.focal_px.allFinite()
+              rig.reference().model.focal_px.allFinite()
                   ? "rig.toml does not state where the projector is; add projector.position_mm and "
                     "projector.rotation, within a few degrees and 10 %"
                   : "rig.toml does not state the intrinsics of the camera; add them, or calibrate "
@@ -222,7 +223,7 @@ void calibrate_by_balls(std::span<const Scan> scans,
   const Rig& start = result.rig;
   Rig rig = result.table ? result.table->rig : start;
   rig.calibration = start.calibration;
-  rig.camera = start.camera;
+  rig.reference() = start.camera;
   if (!start.projector.is_angular()) rig.projector = start.projector;
   const std::size_t plates = result.captures.size();
   for (const Scan& scan : scans) {

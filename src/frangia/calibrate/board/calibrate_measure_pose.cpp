@@ -167,7 +167,7 @@ PoseCapture calibrate_measure_pose(std::span<const FrameStack> stacks,
   }
   pose.image = measure_image_sharpness(image);
   if (options.keep_picture) pose.picture = picture_of(image);
-  measure_light(stacks, image, known.camera.white_level, pose);
+  measure_light(stacks, image, known.reference().white_level, pose);
   if (pose.view.points.empty()) {
     if (board.kind == BoardKind::Checkerboard) pose.counted = count_corners(image);
     return pose;

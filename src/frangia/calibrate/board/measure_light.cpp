@@ -41,7 +41,7 @@ void add_direction(std::span<const FrameStack> all,
   Image<Eigen::Vector2f> rays;
   if (!absolute && options.use_laser_line && display.laser_sheet) {
     stacks.assign(all.begin(), all.end());
-    rays = rays_of(display.camera.model);
+    rays = rays_of(display.reference().model);
   } else if (!absolute) {
     throw Error(ErrorKind::Input,
                 fmt::format("the {} fringes have no absolute phase, which calibration needs; add "
@@ -76,8 +76,8 @@ std::vector<LightSite> measure_light(std::span<const FrameStack> stacks,
                                      const Run& run) {
   std::vector<LightSite> sites;
   const int half = options.step_px / 2;
-  for (int y = half; y < display.camera.model.height_px; y += options.step_px) {
-    for (int x = half; x < display.camera.model.width_px; x += options.step_px) {
+  for (int y = half; y < display.reference().model.height_px; y += options.step_px) {
+    for (int x = half; x < display.reference().model.width_px; x += options.step_px) {
       sites.emplace_back();
       sites.back().camera_px = Eigen::Vector2d(x, y);
     }

@@ -10,7 +10,6 @@
 #include "frangia/calibrate/check/check_kinds.h"
 #include "frangia/core/error.h"
 #include "frangia/dataset/scan_of_camera.h"
-#include "frangia/rig/rig_of_camera.h"
 
 namespace frangia {
 namespace {
@@ -57,7 +56,7 @@ RigCheck calibrate_check(const Scan& scan,
   }
   Scan checked = scan;
   checked.rig = rig;
-  for (std::size_t camera = 0; camera < camera_count(rig); ++camera) {
+  for (std::size_t camera = 0; camera < rig.cameras.size(); ++camera) {
     const Scan own = scan_of_camera(checked, camera);
     if (!scan.artifact) {
       check_part_of(own, options, {rig, camera}, run, check);

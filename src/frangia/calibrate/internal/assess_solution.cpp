@@ -150,7 +150,7 @@ void warn_of_scale(const Scan& scan,
     const bool stated =
         compare_distance(in_quotes(solution.more_cameras[i].name).c_str(),
                          fmt::format("more_cameras[{}].position_mm", i).c_str(),
-                         scan.rig.more_cameras[i].position_mm,
+                         scan.rig.cameras[i + 1].position_mm,
                          solution.more_cameras[i].camera_from_rig.translation().norm(),
                          *scan.board,
                          max_error,

@@ -199,7 +199,7 @@ RigParameters start_by_opencv(const Board& board,
     require_enough_points(view, by_camera.back());
   }
   RigParameters parameters;
-  const cv::Mat camera = better_matrix(by_camera, known.camera.model);
+  const cv::Mat camera = better_matrix(by_camera, known.reference().model);
   parameters.camera = intrinsics_of(camera);
   for (const SeenPoints& seen : by_camera)
     parameters.camera_from_board.push_back(pose_of(seen, camera));
@@ -210,12 +210,12 @@ RigParameters start_by_opencv(const Board& board,
                  parameters.projector,
                  parameters.projector_from_camera);
   }
-  for (std::size_t i = 0; i < known.more_cameras.size(); ++i) {
+  for (std::size_t i = 0; i + 1 < known.cameras.size(); ++i) {
     std::vector<SeenPoints> seen;
     for (const BoardView& view : views) {
       seen.push_back(i < view.more.size() ? seen_points(board, view.more[i], false) : SeenPoints{});
     }
-    const Camera& further = known.more_cameras[i].camera;
+    const Camera& further = known.cameras[i + 1].camera;
     require_enough_views(seen, further.name);
     RigParameters::FurtherCamera& start = parameters.more.emplace_back();
     start_device(

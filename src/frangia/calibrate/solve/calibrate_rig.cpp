@@ -90,7 +90,7 @@ void check_scan(const Scan& scan) {
                     "projector, model = \"pinhole\"",
                     (scan.folder / "rig.toml").string()));
   }
-  if (scan.rig.projector.is_label && scan.rig.more_cameras.empty()) {
+  if (scan.rig.projector.is_label && scan.rig.cameras.size() == 1) {
     fail_calibration(
         fmt::format("{}: projector.model is \"label\", which needs two cameras: add "
                     "[[more_cameras]], or set model = \"pinhole\" to calibrate the projector",
@@ -108,7 +108,7 @@ std::string today() {
 
 Rig calibrated(const Rig& known, const Board& board, const RigSolution& solution) {
   Rig rig = known;
-  rig.camera.model = solution.camera;
+  rig.reference().model = solution.camera;
   if (solution.has_projector) {
     rig.projector.model = solution.projector;
     rig.projector.rotation = solution.projector_from_camera.linear();
@@ -117,7 +117,7 @@ Rig calibrated(const Rig& known, const Board& board, const RigSolution& solution
   }
   for (std::size_t i = 0; i < solution.more_cameras.size(); ++i) {
     const FurtherCameraSolution& found = solution.more_cameras[i];
-    PosedCamera& posed = rig.more_cameras[i];
+    PosedCamera& posed = rig.cameras[i + 1];
     posed.camera.model = found.model;
     posed.rotation = found.camera_from_rig.linear();
     posed.position_mm = -(posed.rotation.transpose() * found.camera_from_rig.translation());

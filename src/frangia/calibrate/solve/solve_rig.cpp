@@ -125,7 +125,7 @@ void check_views(std::span<const BoardView> views, const Rig& known) {
   constexpr std::size_t kFewestViews = 3;
   require(!known.projector.is_angular(),
           "projector.model is \"angular\", but a board calibrates a digital projector only");
-  require(!known.projector.is_label || !known.more_cameras.empty(),
+  require(!known.projector.is_label || known.cameras.size() > 1,
           "projector.model is \"label\", which needs two cameras: add [[more_cameras]], or set "
           "model = \"pinhole\" to calibrate the projector");
   if (views.size() >= kFewestViews) return;
@@ -152,8 +152,8 @@ RigSolution solve_rig(const Board& board,
   require(projected, "no point of the board has a phase in both fringe directions; capture both");
 
   std::vector<std::string> cameras;
-  for (const PosedCamera& posed : known.more_cameras)
-    cameras.push_back(posed.camera.name);
+  for (std::size_t i = 1; i < known.cameras.size(); ++i)
+    cameras.push_back(known.cameras[i].camera.name);
   const RigLayout layout{has_projector, cameras.size()};
   Fit fit{start_values(board, views, known), RigFreedom(layout), RigNoise(1 + cameras.size())};
   adjust(observations, options, fit, run);

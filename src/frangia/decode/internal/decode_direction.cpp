@@ -159,7 +159,8 @@ DecodedView decode_from(const FromGrayCodeAlone& /*source*/, const DirectionInpu
   };
   input.run.check();
   DecodedView out;
-  out.noise = input.rig.camera.noise ? *input.rig.camera.noise : estimate_gray_noise(gray.front());
+  out.noise = input.rig.reference().noise ? *input.rig.reference().noise
+                                          : estimate_gray_noise(gray.front());
   out.noise.floor_counts2 += input.stacks.front().compression_counts2;
   Image<float> threshold;
   if (gray.front().pattern.inverted == InvertedFrames::None)

@@ -18,7 +18,7 @@ namespace {
 /// The camera's noise: from rig.toml, else from the survey of several views, else from this view.
 /// Lossy compression adds its own.
 NoiseModel noise_of(const DirectionInput& input, std::span<const FrameStack> stacks) {
-  NoiseModel noise = input.rig.camera.noise       ? *input.rig.camera.noise
+  NoiseModel noise = input.rig.reference().noise  ? *input.rig.reference().noise
                      : input.options.survey.noise ? *input.options.survey.noise
                                                   : estimate_noise(stacks);
   noise.floor_counts2 += stacks.front().compression_counts2;

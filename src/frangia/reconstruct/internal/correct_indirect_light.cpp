@@ -63,7 +63,7 @@ bool shows_indirect_light(const MeasuredViews& measured,
                           const ScanDecoding& decoding,
                           const FusionOptions& fusion,
                           const Run& run) {
-  const CameraModel camera = subsample(decoding.scan.rig.camera.model, step_px);
+  const CameraModel camera = subsample(decoding.scan.rig.reference().model, step_px);
   ViewStore thinned;
   for (std::size_t i = 0; i < measured.views.size(); ++i) {
     run.check();
@@ -81,7 +81,7 @@ std::optional<IndirectPart> predict(const MeasuredViews& measured,
                                     const Run& run) {
   auto first = part_of(measured, surface, decoding, run);
   if (!first) return first;
-  const CameraModel& camera = decoding.scan.rig.camera.model;
+  const CameraModel& camera = decoding.scan.rig.reference().model;
   const Mesh continued = surface_or_none(
       [&] { return continued_surface(measured, *first, camera, decoding.rays, coarse, run); });
   auto second = part_of(measured, continued, decoding, run);
@@ -100,7 +100,7 @@ bool correct_before_registration(MeasuredViews& measured,
   constexpr int kPasses = 2;
   if (measured.points == 0) return false;
   coarse = coarse_fusion(measured, decoding.rays, std::move(coarse));
-  const CameraModel& camera = decoding.scan.rig.camera.model;
+  const CameraModel& camera = decoding.scan.rig.reference().model;
   Run quiet;
   quiet.stop = run.stop;
   // A coarser surface is smoother where indirect light has torn the points apart.
@@ -137,7 +137,7 @@ std::optional<IndirectLightReport> correct_indirect_light(Mesh& fused,
       if (others) others(view, camera);
       add(view);
     };
-    fused = fuse_views(measured.views, decoding.scan.rig.camera.model, fusion, run);
+    fused = fuse_views(measured.views, decoding.scan.rig.reference().model, fusion, run);
   }
   if (!report) return report;
   report->corrected = shifted_points(decoding.plan) == ShiftedPoints::Moved;

@@ -16,7 +16,6 @@
 #include "frangia/decode/survey_scan.h"
 #include "frangia/decode/view_decoder.h"
 #include "frangia/decode/view_quality.h"
-#include "frangia/rig/rig_of_camera.h"
 
 namespace frangia {
 namespace {
@@ -138,7 +137,7 @@ struct CameraScan {
              const DecodeOptions& decode,
              const Run& run)
       : scan(scan_of_camera(all, camera)),
-        own_rays(camera == 0 ? Image<Eigen::Vector2f>() : rays_of(scan.rig.camera.model)),
+        own_rays(camera == 0 ? Image<Eigen::Vector2f>() : rays_of(scan.rig.reference().model)),
         rays(camera == 0 ? reference_rays : own_rays),
         options(decode),
         fit(scan, run) {
@@ -152,7 +151,7 @@ std::vector<std::unique_ptr<CameraScan>> survey_cameras(const Scan& scan,
                                                         const DecodeOptions& decode,
                                                         const Run& run) {
   std::vector<std::unique_ptr<CameraScan>> cameras;
-  for (std::size_t i = 0; i < camera_count(scan.rig); ++i)
+  for (std::size_t i = 0; i < scan.rig.cameras.size(); ++i)
     cameras.push_back(std::make_unique<CameraScan>(scan, i, rays, decode, run));
   return cameras;
 }
@@ -236,7 +235,7 @@ MeasuredViews measure_views(const Scan& scan,
       MeasuredCamera& seen = measured.cameras[camera];
       ViewStore& views = camera == 0 ? all.views : all.more[camera - 1];
       views.add({std::move(seen.range),
-                 camera_from_rig(scan.rig, camera) * rig_from_object,
+                 scan.rig.cameras[camera].camera_from_rig() * rig_from_object,
                  std::move(seen.edge_pixels),
                  std::move(decoded[camera].decoded.color)});
     }

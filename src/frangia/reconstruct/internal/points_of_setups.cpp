@@ -32,7 +32,7 @@ std::vector<PointCloud> points_of_setups(const MeasuredSetup& joined,
                                          std::size_t most,
                                          const Run& run) {
   const MeasuredViews& measured = joined.measured;
-  const auto rays = measured.views.rays(rig.camera.model);
+  const auto rays = measured.views.rays(rig.reference().model);
   std::map<int, PointCloud> clouds;
   for (const SetupJoin& join : joined.joins)
     if (join.joined) clouds[join.number];

@@ -163,7 +163,7 @@ MeasuredSetup register_setups(std::vector<MeasuredSetup> setups,
                               const Rig& rig,
                               const RegisterSetupsOptions& options,
                               const Run& run) {
-  const CameraModel& camera = rig.camera.model;
+  const CameraModel& camera = rig.reference().model;
   const SetupPoses setup_poses = find_part_poses(setups, camera, options, run);
   MeasuredSetup& reference = setups[setup_poses.reference];
   const Eigen::Isometry3d given_from_rig = rig.rig_from_object(0.0).inverse();

@@ -19,10 +19,10 @@ std::size_t clip_cameras(MeasuredViews& measured,
                          const Rig& rig,
                          const Clip& clip,
                          const Run& run) {
-  std::size_t removed = clip_views(measured.views, rig.camera.model, clip, run);
+  std::size_t removed = clip_views(measured.views, rig.reference().model, clip, run);
   tie_cameras(measured, rig);
   for (std::size_t i = 0; i < measured.more.size(); ++i) {
-    removed += clip_views_to_nothing(measured.more[i], rig.more_cameras[i].camera.model, clip, run);
+    removed += clip_views_to_nothing(measured.more[i], rig.cameras[i + 1].camera.model, clip, run);
   }
   return removed;
 }
@@ -61,7 +61,7 @@ double remove_turntable_top(MeasuredViews& measured,
                             const Rig& rig,
                             const TurntableTopOptions& options,
                             const Run& run) {
-  const auto top = find_turntable_top(measured.views, rig.camera.model, options, run);
+  const auto top = find_turntable_top(measured.views, rig.reference().model, options, run);
   if (!top) return kMissing;
   Clip clip;
   clip.floor = {top->plane.normal(), top->plane.offset() - top->clearance_mm};

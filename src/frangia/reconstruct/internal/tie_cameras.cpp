@@ -6,7 +6,7 @@ namespace frangia {
 
 void tie_cameras(MeasuredViews& measured, const Rig& rig) {
   for (std::size_t camera = 0; camera < measured.more.size(); ++camera) {
-    const Eigen::Isometry3d camera_from_rig = rig.more_cameras[camera].camera_from_rig();
+    const Eigen::Isometry3d camera_from_rig = rig.cameras[camera + 1].camera_from_rig();
     for (std::size_t i = 0; i < measured.views.size(); ++i) {
       measured.more[camera].set_rig_from_object(
           i, camera_from_rig * measured.views.rig_from_object(i));
@@ -31,10 +31,10 @@ PointCloud collect_points_of_cameras(
     if (!add_systematic) return {};
     return [&add_systematic, camera](View& view) { add_systematic(view, camera); };
   };
-  PointCloud all = collect_points(measured.views, rig.camera.model, run, adds(0));
+  PointCloud all = collect_points(measured.views, rig.reference().model, run, adds(0));
   for (std::size_t i = 0; i < measured.more.size(); ++i) {
     const PointCloud points =
-        collect_points(measured.more[i], rig.more_cameras[i].camera.model, run, adds(i + 1));
+        collect_points(measured.more[i], rig.cameras[i + 1].camera.model, run, adds(i + 1));
     const bool systematic = !all.systematic_mm.empty() || !points.systematic_mm.empty();
     if (systematic) all.systematic_mm.resize(all.points_mm.size());
     all.points_mm.insert(all.points_mm.end(), points.points_mm.begin(), points.points_mm.end());
@@ -47,9 +47,9 @@ PointCloud collect_points_of_cameras(
 }
 
 std::vector<CameraViews> views_of_cameras(const MeasuredViews& measured, const Rig& rig) {
-  std::vector<CameraViews> all{{measured.views, rig.camera.model}};
+  std::vector<CameraViews> all{{measured.views, rig.reference().model}};
   for (std::size_t i = 0; i < measured.more.size(); ++i)
-    all.push_back({measured.more[i], rig.more_cameras[i].camera.model});
+    all.push_back({measured.more[i], rig.cameras[i + 1].camera.model});
   return all;
 }
 

@@ -44,11 +44,11 @@ ArtifactCapture measure_balls(const Scan& scan,
   const std::size_t count = balls.spacing_mm ? 2 : 1;
   // Within a tenth of the radius the surface of a ball is quadratic to 1e-5 of it.
   const double apparent_px =
-      0.5 * balls.diameter_mm * rig.camera.model.focal_px.x() /
+      0.5 * balls.diameter_mm * rig.reference().model.focal_px.x() /
       (rig.turntable ? rig.turntable->point_mm.z() : kFarOff * balls.diameter_mm);
   const int step = std::max(2,
                             std::min(static_cast<int>(std::lround(0.1 * apparent_px)),
-                                     site_step(rig.camera.model, options.ball_sites)));
+                                     site_step(rig.reference().model, options.ball_sites)));
   const auto measured = measure_sites(scan, rig, site_options(step), run);
   ArtifactCapture capture{balls, {}, {}};
   std::vector<Eigen::Vector3d> before;

@@ -91,8 +91,9 @@ void check_plate_of(const Scan& scan,
   const Rig& rig = scan.rig;
   const ArtifactCapture capture = measure_plate(scan, rig, options.measure, run, check.left_out);
   check.views = std::max(check.views, capture.views.size());
-  const double patch_px = 8.0 * std::max(rig.camera.model.width_px, rig.camera.model.height_px) /
-                          options.measure.plate_sites;
+  const double patch_px =
+      8.0 * std::max(rig.reference().model.width_px, rig.reference().model.height_px) /
+      options.measure.plate_sites;
   std::vector<Eigen::Vector3d> all;
   std::vector<Eigen::Vector3d> turned;
   std::vector<Eigen::Vector2d> pixels;

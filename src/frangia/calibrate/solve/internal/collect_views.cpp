@@ -23,9 +23,8 @@ std::vector<PoseCapture> measure_poses(const Scan& scan,
                                        const PoseOptions& options,
                                        std::size_t camera,
                                        const Run& run) {
-  Scan own = scan_of_camera(scan, camera);
-  own.rig.more_cameras.clear();  // their frames are in folders of their own
-  const std::size_t all = scan.views.size() * camera_count(scan.rig);
+  const Scan own = scan_of_camera(scan, camera);
+  const std::size_t all = scan.views.size() * scan.rig.cameras.size();
   std::vector<PoseCapture> poses;
   for (std::size_t i = 0; i < own.views.size(); ++i) {
     run.report(static_cast<double>(camera * own.views.size() + i) / static_cast<double>(all));
@@ -45,10 +44,9 @@ PoseChecks check_poses(const std::vector<PoseCapture>& poses,
                        const PoseCheckOptions& options,
                        std::size_t camera,
                        const Run& run) {
-  Rig known = rig_of_camera(scan.rig, camera);
-  known.more_cameras.clear();
+  const Rig known = rig_of_camera(scan.rig, camera);
   const std::string prefix =
-      camera > 0 ? fmt::format("camera \"{}\": ", known.camera.name) : std::string();
+      camera > 0 ? fmt::format("camera \"{}\": ", known.reference().name) : std::string();
   try {
     PoseChecks checks = check_board_views(poses, *scan.board, known, options);
     for (const std::string& warning : checks.warnings)
@@ -84,7 +82,7 @@ void add_camera(const Scan& scan,
   }
   if (unseen.empty()) return;
   run.warn(fmt::format("camera \"{}\": the board is not found in {}; the other {} poses are used",
-                       scan.rig.more_cameras[camera - 1].camera.name,
+                       scan.rig.cameras[camera].camera.name,
                        fmt::join(unseen, ", "),
                        used.size() - unseen.size()));
   result.without_board.insert(result.without_board.end(), unseen.begin(), unseen.end());
@@ -116,7 +114,7 @@ void collect_board_views(const Scan& scan,
                          fmt::join(result.without_board, ", "),
                          result.views.size()));
   }
-  for (std::size_t camera = 1; camera < camera_count(scan.rig); ++camera)
+  for (std::size_t camera = 1; camera < scan.rig.cameras.size(); ++camera)
     add_camera(scan, options, camera, used, result, run);
 }
 

@@ -53,7 +53,7 @@ void finish(ResidualSummary& summary) {
 }  // namespace
 
 void add_devices(const Rig& known, const RigParameters& parameters, RigSolution& solution) {
-  solution.camera = model_of(parameters.camera, known.camera.model);
+  solution.camera = model_of(parameters.camera, known.reference().model);
   solution.has_projector = !known.projector.is_label;
   const auto& projector = std::get<PinholeModel>(known.projector.model);
   if (solution.has_projector) {
@@ -63,7 +63,7 @@ void add_devices(const Rig& known, const RigParameters& parameters, RigSolution&
     solution.projector = projector;
   }
   for (std::size_t i = 0; i < parameters.more.size(); ++i) {
-    const Camera& camera = known.more_cameras[i].camera;
+    const Camera& camera = known.cameras[i + 1].camera;
     FurtherCameraSolution& further = solution.more_cameras.emplace_back();
     further.name = camera.name;
     further.model = model_of(parameters.more[i].intrinsics, camera.model);
