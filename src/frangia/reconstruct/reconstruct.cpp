@@ -77,7 +77,7 @@ bool register_setup(MeasuredSetup& setup,
     if (can.corrects_before_registration)
       indirect_light = correct_before_registration(measured, decoding, options.fusion, run);
     setup.registration = register_views(
-        measured.views, camera, stations_of(scan.rig, measured), options.registration, run);
+        measured.reference(), camera, stations_of(scan.rig, measured), options.registration, run);
     clear_outliers_of_cameras(setup);
   }
   return indirect_light;
@@ -154,7 +154,7 @@ Mesh fuse_registered(RegisteredViews& registered,
   MeasuredSetup& joined = registered.joined;
   const MeasuredViews& all = joined.measured;
   FusionOptions fusion = options.fusion;
-  fusion.add_systematic = calibration_part(all.views, scan.rig, all.coarsest, decoding.rays);
+  fusion.add_systematic = calibration_part(all.reference(), scan.rig, all.coarsest, decoding.rays);
   const std::vector<CameraViews> cameras = views_of_cameras(all, scan.rig);
   Mesh fused = fuse_views(cameras, fusion, run);
   if (can.indirect_light != IndirectLightUse::Ignored && registered.indirect_light) {
@@ -165,7 +165,7 @@ Mesh fuse_registered(RegisteredViews& registered,
   const ViewMotions motions = motions_of_views(joined, scan.rig, options, run);
   const bool turntable_counts = add_turntable_part(fused, cameras, motions, run);
   if (options.keep_raw) {
-    out.raw = collect_points_of_cameras(all, scan.rig, run, fusion.add_systematic);
+    out.raw = collect_points_of_cameras(cameras, run, fusion.add_systematic);
     if (turntable_counts) add_turntable_part(out.raw, cameras, motions, run);
   }
   color_vertices(fused, cameras, run);
@@ -211,14 +211,13 @@ Reconstruction reconstruct(const Scan& scan, const ReconstructOptions& options, 
   decode.colors = options.colors;
   MeasuredViews measured = measure_views(scan, rays, decode, options.mixed_pixels, run);
   release_cached_pixels();
-  out.views = measured.views.size();
+  out.views = measured.stations.size();
   out.view_summaries = std::move(measured.summaries);
   report_disagreement(measured, out);
 
   // Fringe orders from the other views, and registration, setup by setup.
   run.stage("views");
-  const std::vector<int> setup_numbers = measured.setups;
-  std::vector<MeasuredSetup> setups = split_setups(std::move(measured), setup_numbers);
+  std::vector<MeasuredSetup> setups = split_setups(std::move(measured));
   FringeOrderCorrectionOptions correction = options.fringe_order_correction;
   correction.mixed_pixels = options.mixed_pixels;
   std::set<std::string> outliers;

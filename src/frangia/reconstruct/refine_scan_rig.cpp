@@ -50,10 +50,9 @@ void measure_direction(std::list<MeasuredSurface>& surfaces,
                        const ReconstructOptions& options,
                        const Run& run) {
   MeasuredViews measured = measure_views(scan, rays, options.decode, options.mixed_pixels, run);
-  const std::vector<int> setup_numbers = measured.setups;
   FringeOrderCorrectionOptions correction = options.fringe_order_correction;
   correction.mixed_pixels = options.mixed_pixels;
-  for (MeasuredSetup& setup : split_setups(std::move(measured), setup_numbers)) {
+  for (MeasuredSetup& setup : split_setups(std::move(measured))) {
     MeasuredViews& own = setup.measured;
     resolve_fringe_orders(own, scan.rig, rays, options.resolve_by_views, correction, run);
     if (own.points == 0) continue;
@@ -68,7 +67,7 @@ void measure_direction(std::list<MeasuredSurface>& surfaces,
       surface.stations.push_back(static_cast<std::size_t>(
           std::find_if(scan.views.begin(), scan.views.end(), same) - scan.views.begin()));
     }
-    surface.views = std::move(own.views);
+    surface.views = std::move(own.reference());
   }
 }
 

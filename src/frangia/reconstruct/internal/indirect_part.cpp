@@ -206,8 +206,7 @@ void add_views(const ScanDecoding& decoding,
 }  // namespace
 
 LitViews lit_views(const MeasuredViews& measured, const Scan& scan, std::size_t camera) {
-  LitViews out{
-      camera == 0 ? measured.views : measured.more.at(camera - 1), {}, measured.coarsest.direction};
+  LitViews out{measured.cameras.at(camera), {}, measured.coarsest.direction};
   for (const Station& station : measured.stations)
     out.of_scan.push_back(index_in_scan(scan, station.name));
   return out;

@@ -188,7 +188,7 @@ MeasuredViews measure_views(const Scan& scan,
         std::make_unique<ViewDecoder>(camera->scan, camera->rays, camera->options, run);
   }
   MeasuredViews all;
-  all.more.resize(cameras.size() - 1);
+  all.cameras.resize(cameras.size());
   for (std::size_t i = 0; i < scan.views.size(); ++i) {
     run.report(static_cast<double>(i) / static_cast<double>(scan.views.size()));
     std::vector<DecodedCamera> decoded;
@@ -226,18 +226,17 @@ MeasuredViews measure_views(const Scan& scan,
       continue;
     }
     for (UnresolvedRegion& region : reference.unresolved)
-      all.unresolved.push_back({all.views.size(), std::move(region)});
+      all.unresolved.push_back({all.reference().size(), std::move(region)});
     all.unwrapped_spatially = reference.relative.has_value();
     all.stations.push_back({scan.views[i].angle_rad, scan.views[i].folder.string(), 0});
     all.setups.push_back(scan.views[i].setup);
     const Eigen::Isometry3d rig_from_object = scan.rig.rig_from_object(scan.views[i].angle_rad);
     for (std::size_t camera = 0; camera < cameras.size(); ++camera) {
       MeasuredCamera& seen = measured.cameras[camera];
-      ViewStore& views = camera == 0 ? all.views : all.more[camera - 1];
-      views.add({std::move(seen.range),
-                 scan.rig.cameras[camera].camera_from_rig() * rig_from_object,
-                 std::move(seen.edge_pixels),
-                 std::move(decoded[camera].decoded.color)});
+      all.cameras[camera].add({std::move(seen.range),
+                               scan.rig.cameras[camera].camera_from_rig() * rig_from_object,
+                               std::move(seen.edge_pixels),
+                               std::move(decoded[camera].decoded.color)});
     }
     all.points += summary.points;
   }
