@@ -73,9 +73,9 @@ ViewResult decode_one(const DecodeTask& task, std::size_t view, const Run& run) 
   out.decoded =
       decode_view(frames, task.plan, scan.rig, task.rays, options_of_view(task.options, view), run);
   if (!scan.patterns.empty() && !task.options.phase_files)
-    out.empty = explain_no_phase(frames, out.decoded.phase.status);
+    out.empty = explain_no_phase(frames, out.decoded.directions.front().phase.status);
   if (task.rays.empty()) {
-    out.reason = task.options.accept_inconsistent ? "" : describe(out.decoded.checks);
+    out.reason = task.options.accept_inconsistent ? "" : misfit_of(out.decoded);
     return out;
   }
   run.stage("range");
@@ -85,7 +85,9 @@ ViewResult decode_one(const DecodeTask& task, std::size_t view, const Run& run) 
   if (fit.fits()) {
     out.range =
         triangulate_view(out.decoded, fit, scan.rig, task.rays, task.options.directions).range;
-    remove_mixed_pixels(out.range, task.rays, out.decoded.phase.status);
+    // Maps and figures show the direction whose pixels have the points.
+    std::swap(out.decoded.directions.front(), out.decoded.directions[fit.leading()]);
+    remove_mixed_pixels(out.range, task.rays, out.decoded.directions.front().phase.status);
   }
   if (fit.accepted) {
     run.warn(out.reason + "; triangulated because `accept_inconsistent` is set");

@@ -43,7 +43,7 @@ std::string reason_of(double mean, double amplitude) {
     stack.frames.emplace_back(std::move(frame));
   }
   const std::array<FrameStack, 1> stacks{std::move(stack)};
-  return explain_no_phase(stacks, decode_view(stacks, rig, {}).phase.status);
+  return explain_no_phase(stacks, decode_view(stacks, rig, {}).directions.front().phase.status);
 }
 
 TEST(ExplainNoPhase, NamesDarkFramesAndHowMuchLongerToExpose) {

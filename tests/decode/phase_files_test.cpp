@@ -41,9 +41,9 @@ class PhaseFilesOfAScan : public ::testing::Test {
         write_float_tiff(to / (map.pattern.name + "-sigma.tiff"), map.sigma_rad);
       };
       if (kind == PhaseKind::Absolute) {
-        write(decoded.phase);
+        write(decoded.directions.front().phase);
       } else {
-        for (const WrappedPhase& map : decoded.wrapped)
+        for (const WrappedPhase& map : decoded.directions.front().wrapped)
           write(map);
       }
     }

@@ -38,8 +38,8 @@ TEST_F(DecodesAhead, GivesTheViewsInTheirOrderAsDecodedOneByOne) {
     const DecodedView expected =
         decode_view(read_frames(scan_, view), scan_.rig, rays_of_camera, options);
     const DecodedView found = decoder.next();
-    const auto a = found.phase.phase_rad.pixels();
-    const auto b = expected.phase.phase_rad.pixels();
+    const auto a = found.directions.front().phase.phase_rad.pixels();
+    const auto b = expected.directions.front().phase.phase_rad.pixels();
     EXPECT_TRUE(std::equal(a.begin(), a.end(), b.begin(), [](float x, float y) {
       return x == y || (std::isnan(x) && std::isnan(y));
     }));

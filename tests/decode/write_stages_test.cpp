@@ -26,7 +26,7 @@ TEST(WriteStages, WritesEveryFileThatItNamesAndAPageThatShowsEachPictureWithItsC
   DecodeOptions options;
   options.spatial.keep_growth_order = true;
   DecodedView decoded = decode_view(read_frames(scan, 0), scan.rig, rays, options);
-  const RangeGrid range = triangulate(decoded.phase, scan.rig, rays);
+  const RangeGrid range = triangulate(decoded.directions.front().phase, scan.rig, rays);
   const auto files = write_stages(decoded, range, folder.path() / "stages");
   const std::string page = text_of(folder.path() / "stages/index.html");
   for (const StageFile& file : files) {

@@ -71,22 +71,26 @@ std::string ViewAssessor::decode(std::size_t view,
   found.view = view;
   try {
     const DecodedView decoded = decode_view(stacks, plan_.rig, rays_);
-    const auto phase = decoded.phase.phase_rad.pixels();
+    const DecodedDirection& leading = decoded.directions.front();
+    const auto phase = leading.phase.phase_rad.pixels();
     found.points = static_cast<std::size_t>(
         std::count_if(phase.begin(), phase.end(), [](float value) { return !std::isnan(value); }));
-    for (const UnresolvedRegion& region : decoded.unresolved)
+    for (const UnresolvedRegion& region : leading.unresolved)
       found.points += region.pixel.size();
     found.decoded = &decoded;
-    if (decoded.assessments.empty()) {  // Gray code alone has no fringes to assess
+    const std::vector<FrameAssessment> assessments = assessments_of(decoded);
+    if (assessments.empty()) {  // Gray code alone has no fringes to assess
       found.verdict = found.points == 0 ? kNothingMeasured : kGood;
       found.good = found.points != 0;
       if (on_view_) on_view_(found);
       return fmt::format("{}: {} points", found.verdict, found.points);
     }
-    const FrameAssessment& finest = decoded.assessments.back();
+    const FrameAssessment& finest = assessments.back();
     found.verdict = word_for(finest, found.points);
-    for (const FrameVerdict& verdict : decoded.frames)
-      if (!verdict.finding.empty()) found.verdict = verdict.finding + "; capture the view again";
+    for (const DecodedDirection& direction : decoded.directions) {
+      for (const FrameVerdict& verdict : direction.frames)
+        if (!verdict.finding.empty()) found.verdict = verdict.finding + "; capture the view again";
+    }
     found.good = found.verdict == kGood;
     found.contrast = finest.contrast;
     found.saturated_fraction = finest.saturated_fraction;
