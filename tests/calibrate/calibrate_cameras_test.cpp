@@ -120,7 +120,7 @@ TEST_F(CalibrateCameras, FindEachOtherByAProjectorThatLabelsPoints) {
   EXPECT_TRUE(found.rig.projector.is_label);
   EXPECT_EQ(found.solution.parameters.size(), 24U);
   EXPECT_GT(found.solution.point_sigma_mm, 0.0);
-  EXPECT_LT(found.solution.more_cameras[0].projector_residuals.rms_px, 0.2);
+  EXPECT_LT(found.solution.cameras[1].projector_residuals.rms_px, 0.2);
 }
 
 TEST_F(CalibrateCameras, AreInTheReport) {

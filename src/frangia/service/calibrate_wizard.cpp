@@ -171,8 +171,8 @@ void CalibrationWizard::solve(const Board& board, const Run& run) {
   verdict.spread_mm = solution.spread_mm;
   verdict.distance_mm = solution.distance_mm;
   verdict.baseline_mm = solution.projector_from_camera.translation().norm();
-  verdict.camera_rms_px = solution.camera_residuals.rms_px;
-  verdict.projector_rms_px = solution.projector_residuals.rms_px;
+  verdict.camera_rms_px = solution.reference().residuals.rms_px;
+  verdict.projector_rms_px = solution.reference().projector_residuals.rms_px;
   verdict.poses = result.views.size();
   change([&](WizardState& state) { state.verdict = verdict; });
 }

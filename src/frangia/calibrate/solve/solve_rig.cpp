@@ -154,7 +154,7 @@ RigSolution solve_rig(const Board& board,
   std::vector<std::string> cameras;
   for (std::size_t i = 1; i < known.cameras.size(); ++i)
     cameras.push_back(known.cameras[i].camera.name);
-  const RigLayout layout{has_projector, cameras.size()};
+  const RigLayout layout{has_projector, known.cameras.size()};
   Fit fit{start_values(board, views, known), RigFreedom(layout), RigNoise(1 + cameras.size())};
   adjust(observations, options, fit, run);
   RigSolution out;

@@ -41,7 +41,7 @@ void add_covariance(std::span<const RigObservation> observations,
   Eigen::MatrixXd normal = jacobian.transpose() * jacobian;
   add_priors(freedom, 0, normal);
   if (layout.has_projector) add_priors(freedom, layout.projector(), normal);
-  for (std::size_t i = 0; i < layout.more; ++i)
+  for (std::size_t i = 1; i < layout.cameras; ++i)
     add_priors(freedom, layout.camera(i), normal);
   const NormalInverse inverse = invert_normal(normal, kOpen);
   solution.parameters = names;

@@ -27,16 +27,11 @@ struct ResidualSink {
 };
 
 ResidualSink sink_of(RigSolution& solution, std::size_t camera, bool by_projector) {
-  if (camera == 0 && by_projector) {
-    return {&solution.projector_residuals,
-            &solution.projector_by_view,
-            &solution.projector_residuals_px};
-  }
-  if (camera == 0)
-    return {&solution.camera_residuals, &solution.camera_by_view, &solution.camera_residuals_px};
-  FurtherCameraSolution& further = solution.more_cameras[camera - 1];
-  if (by_projector) return {&further.projector_residuals, &further.projector_by_view};
-  return {&further.residuals, &further.by_view, &further.residuals_px};
+  SolvedCamera& solved = solution.cameras[camera];
+  if (!by_projector) return {&solved.residuals, &solved.by_view, &solved.residuals_px};
+  return {&solved.projector_residuals,
+          &solved.projector_by_view,
+          camera == 0 ? &solved.projector_residuals_px : nullptr};
 }
 
 void add_residual(const Eigen::Vector2d& residual, ResidualSummary& summary) {
@@ -53,7 +48,6 @@ void finish(ResidualSummary& summary) {
 }  // namespace
 
 void add_devices(const Rig& known, const RigParameters& parameters, RigSolution& solution) {
-  solution.camera = model_of(parameters.camera, known.reference().model);
   solution.has_projector = !known.projector.is_label;
   const auto& projector = std::get<PinholeModel>(known.projector.model);
   if (solution.has_projector) {
@@ -62,12 +56,12 @@ void add_devices(const Rig& known, const RigParameters& parameters, RigSolution&
   } else {
     solution.projector = projector;
   }
-  for (std::size_t i = 0; i < parameters.more.size(); ++i) {
-    const Camera& camera = known.cameras[i + 1].camera;
-    FurtherCameraSolution& further = solution.more_cameras.emplace_back();
-    further.name = camera.name;
-    further.model = model_of(parameters.more[i].intrinsics, camera.model);
-    further.camera_from_rig = isometry_of(parameters.more[i].from_reference);
+  solution.cameras.resize(parameters.cameras.size());
+  for (std::size_t i = 0; i < solution.cameras.size(); ++i) {
+    const Camera& camera = known.cameras[i].camera;
+    solution.cameras[i].name = camera.name;
+    solution.cameras[i].model = model_of(parameters.cameras[i].intrinsics, camera.model);
+    solution.cameras[i].camera_from_rig = isometry_of(parameters.cameras[i].from_reference);
   }
   for (const RigParameters::Pose& pose : parameters.camera_from_board)
     solution.camera_from_board.push_back(isometry_of(pose));
@@ -83,7 +77,7 @@ void add_residuals(std::span<const RigObservation> observations,
                    RigSolution& solution) {
   const Eigen::Vector2d none = Eigen::Vector2d::Constant(std::nan(""));
   std::vector<ResidualSink> sinks;
-  for (std::size_t camera = 0; camera <= solution.more_cameras.size(); ++camera) {
+  for (std::size_t camera = 0; camera < solution.cameras.size(); ++camera) {
     for (const bool by_projector : {false, true}) {
       const ResidualSink& sink = sinks.emplace_back(sink_of(solution, camera, by_projector));
       sink.by_view->resize(views.size());
