@@ -203,7 +203,7 @@ void calibrate_by_plates(std::span<const Scan> scans,
   run.stage("plate");
   for (const Scan& scan : scans) {
     if (is_kind<Plate>(scan))
-      result.captures.push_back(measure_plate(scan, result.rig, options, run, result.left_out));
+      result.captures.push_back(measure_plate(scan, result.rig, options, run));
   }
   if (result.captures.empty()) return;
   run.stage("adjustment");
@@ -223,12 +223,11 @@ void calibrate_by_balls(std::span<const Scan> scans,
   const Rig& start = result.rig;
   Rig rig = result.table ? result.table->rig : start;
   rig.calibration = start.calibration;
-  rig.reference() = start.camera;
+  rig.reference() = start.reference();
   if (!start.projector.is_angular()) rig.projector = start.projector;
   const std::size_t plates = result.captures.size();
   for (const Scan& scan : scans) {
-    if (is_kind<Balls>(scan))
-      result.captures.push_back(measure_balls(scan, rig, options, run, result.left_out));
+    if (is_kind<Balls>(scan)) result.captures.push_back(measure_balls(scan, rig, options, run));
   }
   if (plates > 0 && !options.solve.baseline_mm && start.projector.is_angular()) {
     const ArtifactCapture& balls = result.captures[plates];
@@ -289,6 +288,9 @@ ArtifactCalibration calibrate_artifacts(std::span<const Scan> scans,
     take_camera(*result.camera, result.rig);
   }
   if (table != nullptr) calibrate_table(scans, options, run, result);
+  for (const ArtifactCapture& capture : result.captures) {
+    result.left_out.insert(result.left_out.end(), capture.left_out.begin(), capture.left_out.end());
+  }
   describe(scans, result);
   if (table != nullptr) set_point_sigma(result.captures, result.rig);
   if (!result.left_out.empty()) {

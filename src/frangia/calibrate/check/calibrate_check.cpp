@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <utility>
 #include <variant>
 
 #include <fmt/format.h>
@@ -33,6 +34,15 @@ bool RigCheck::passed() const {
          std::all_of(items.begin(), items.end(), std::mem_fn(&RigCheckItem::passed));
 }
 
+RigCheck joined(RigCheck check, const RigCheck& other) {
+  check.views = std::max(check.views, other.views);
+  check.left_out.insert(check.left_out.end(), other.left_out.begin(), other.left_out.end());
+  check.distance_mm = std::max(check.distance_mm, other.distance_mm);
+  check.calibration_sigma_mm = std::max(check.calibration_sigma_mm, other.calibration_sigma_mm);
+  check.items.insert(check.items.end(), other.items.begin(), other.items.end());
+  return check;
+}
+
 RigCheck calibrate_check(const Scan& scan,
                          const Rig& rig,
                          const CheckRigOptions& options,
@@ -58,16 +68,12 @@ RigCheck calibrate_check(const Scan& scan,
   checked.rig = rig;
   for (std::size_t camera = 0; camera < rig.cameras.size(); ++camera) {
     const Scan own = scan_of_camera(checked, camera);
-    if (!scan.artifact) {
-      check_part_of(own, options, {rig, camera}, run, check);
-    } else if (std::holds_alternative<Plate>(*scan.artifact)) {
-      check_plate_of(own, options, {rig, camera}, run, check);
-    } else {
-      check_balls_of(own, options, {rig, camera}, run, check);
-    }
+    const auto check_of = !scan.artifact                                  ? check_part_of
+                          : std::holds_alternative<Plate>(*scan.artifact) ? check_plate_of
+                                                                          : check_balls_of;
+    check = joined(std::move(check), check_of(own, options, {rig, camera}, run));
   }
-  check_cameras_of(checked, options, run, check);
-  return check;
+  return joined(std::move(check), check_cameras_of(checked, options, run));
 }
 
 }  // namespace frangia

@@ -130,11 +130,10 @@ ShapeResponse shape_response(const Board& board,
   return result;
 }
 
-void add_point_sigma(const ShapeResponse& shape, RigSolution& solution) {
+double point_sigma_mm(const ShapeResponse& shape, const Eigen::MatrixXd& covariance) {
   const Eigen::MatrixXd& response = shape.by_parameter;
-  const double sum = (response * solution.covariance).cwiseProduct(response).sum();
-  solution.point_sigma_mm = std::sqrt(3.0 * sum / static_cast<double>(response.rows()));
-  solution.distance_mm = shape.distance_mm;
+  const double sum = (response * covariance).cwiseProduct(response).sum();
+  return std::sqrt(3.0 * sum / static_cast<double>(response.rows()));
 }
 
 }  // namespace frangia

@@ -162,8 +162,7 @@ std::string calibration_grade(double sigma_mm, double distance_mm) {
 RigCalibration calibrate_rig(const Scan& scan, const CalibrateRigOptions& options, const Run& run) {
   check_scan(scan);
   run.stage("board");
-  RigCalibration result;
-  collect_board_views(scan, options, result, run);
+  RigCalibration result = collect_board_views(scan, options, run);
   run.stage("adjustment");
   result.solution = solve_rig(*scan.board, result.views, scan.rig, options.solve, run);
   check_solution(result.solution, result.views, options.max_rms_px);

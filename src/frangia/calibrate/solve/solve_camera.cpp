@@ -273,12 +273,11 @@ CameraSolution solve_camera(const Screen& screen,
   for (const RigParameters::Pose& pose : fit.parameters.camera_from_board)
     out.camera_from_screen.push_back(isometry_of(pose));
   summarize_screen(observations, fit, out);
-  RigSolution all;
-  std::vector<std::string> names = rig_parameter_names(Rig{});
-  names.resize(kIntrinsics);
-  add_covariance(observations, fit.freedom, fit.noise, fit.parameters, names, all);
-  out.parameters = all.parameters;
-  out.covariance = all.covariance;
+  out.parameters = rig_parameter_names(Rig{});
+  out.parameters.resize(kIntrinsics);
+  out.covariance =
+      covariance_of(observations, fit.freedom, fit.noise, fit.parameters, out.parameters)
+          .covariance;
   if (!out.covariance.allFinite()) {
     throw Error(ErrorKind::Input,
                 "the poses of the screen do not determine the camera; capture more poses that fill "

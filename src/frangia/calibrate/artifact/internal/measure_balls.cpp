@@ -37,8 +37,7 @@ bool is_frontal(const Eigen::Vector3d& point, const Eigen::Vector3d& center, con
 ArtifactCapture measure_balls(const Scan& scan,
                               const Rig& rig,
                               const CalibrateArtifactsOptions& options,
-                              const Run& run,
-                              std::vector<std::string>& left_out) {
+                              const Run& run) {
   const auto& balls = std::get<Balls>(*scan.artifact);
   constexpr double kFarOff = 12.0;  // diameters, where the rig has no turntable
   const std::size_t count = balls.spacing_mm ? 2 : 1;
@@ -59,7 +58,7 @@ ArtifactCapture measure_balls(const Scan& scan,
         find_balls(points, 0.5 * balls.diameter_mm, count, options.balls);
     ArtifactView view{scan.views[i].folder.generic_string(), scan.views[i].angle_rad, {}, {}, {}};
     if (found.size() < count) {
-      left_out.push_back(view.name);
+      capture.left_out.push_back(view.name);
       continue;
     }
     const Eigen::Isometry3d to_zero = table_turn(rig, -view.angle_rad);

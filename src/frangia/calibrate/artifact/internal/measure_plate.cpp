@@ -91,8 +91,7 @@ std::vector<LinePixel> line_on(const Scan& scan,
 ArtifactCapture measure_plate(const Scan& scan,
                               const Rig& rig,
                               const CalibrateArtifactsOptions& options,
-                              const Run& run,
-                              std::vector<std::string>& left_out) {
+                              const Run& run) {
   constexpr std::size_t kFewestSites = 60;
   const int step = site_step(rig.reference().model, options.plate_sites);
   auto measured = measure_sites(scan, rig, site_options(step), run);
@@ -118,7 +117,7 @@ ArtifactCapture measure_plate(const Scan& scan,
                        static_cast<double>(view.sites.size()) >
                            options.min_plate_share * static_cast<double>(seen);
     if (!found) {
-      left_out.push_back(view.name);
+      capture.left_out.push_back(view.name);
       continue;
     }
     view.line = line_on(scan, i, rig, view.sites, step, run);

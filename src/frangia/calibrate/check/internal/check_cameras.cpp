@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -31,10 +32,8 @@ std::vector<PartView> views_of(const Scan& scan,
 
 }  // namespace
 
-void check_cameras_of(const Scan& scan,
-                      const CheckRigOptions& options,
-                      const Run& run,
-                      RigCheck& check) {
+RigCheck check_cameras_of(const Scan& scan, const CheckRigOptions& options, const Run& run) {
+  RigCheck all;
   const std::vector<PartView> reference = views_of(scan, 0, options, run);
   for (std::size_t camera = 1; camera < scan.rig.cameras.size(); ++camera) {
     const std::string& name = scan.rig.cameras[camera].camera.name;
@@ -57,9 +56,11 @@ void check_cameras_of(const Scan& scan,
                               patches.mean_mm.size(),
                               options.match_share));
     }
-    CheckLimits limits({scan.rig, camera}, points, options, check);
+    CheckLimits limits({scan.rig, camera}, points, options);
     limits.add_spread("against the reference", patches);
+    all = joined(std::move(all), limits.result());
   }
+  return all;
 }
 
 }  // namespace frangia

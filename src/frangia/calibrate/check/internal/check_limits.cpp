@@ -14,14 +14,14 @@ namespace frangia {
 CheckLimits::CheckLimits(const CheckedCamera& camera,
                          const std::vector<Eigen::Vector3d>& points,
                          const CheckRigOptions& options,
-                         RigCheck& check)
-    : options_(options), check_(check) {
+                         RigCheck check)
+    : options_(options), check_(std::move(check)) {
   const Rig& rig = camera.whole;
   if (camera.camera > 0)
     suffix_ = fmt::format(", camera {}", rig.cameras.at(camera.camera).camera.name);
   for (const Eigen::Vector3d& point : points)
     distance_mm_ += point.norm() / static_cast<double>(points.size());
-  if (camera.camera == 0) check.distance_mm = distance_mm_;
+  if (camera.camera == 0) check_.distance_mm = distance_mm_;
   if (!rig.calibration || rig.calibration->covariance.empty()) return;
   Pattern pattern;
   (rig.projector.is_angular() ? pattern.fringes_per_degree : pattern.period_px) = 1.0;
@@ -41,7 +41,7 @@ CheckLimits::CheckLimits(const CheckedCamera& camera,
     square += std::pow(uncertainty.along_ray_mm(pixel.x(), pixel.y(), point.z()), 2);
   }
   calibration_sigma_mm_ = std::sqrt(square / static_cast<double>(own.size()));
-  check.calibration_sigma_mm = std::max(check.calibration_sigma_mm, calibration_sigma_mm_);
+  check_.calibration_sigma_mm = calibration_sigma_mm_;
 }
 
 void CheckLimits::add(const std::string& name,

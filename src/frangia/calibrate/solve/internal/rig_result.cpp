@@ -26,12 +26,11 @@ struct ResidualSink {
   std::vector<std::vector<Eigen::Vector2d>>* points = nullptr;
 };
 
-ResidualSink sink_of(RigSolution& solution, std::size_t camera, bool by_projector) {
-  SolvedCamera& solved = solution.cameras[camera];
-  if (!by_projector) return {&solved.residuals, &solved.by_view, &solved.residuals_px};
-  return {&solved.projector_residuals,
-          &solved.projector_by_view,
-          camera == 0 ? &solved.projector_residuals_px : nullptr};
+ResidualSink sink_of(SolvedCamera& camera, bool is_reference, bool by_projector) {
+  if (!by_projector) return {&camera.residuals, &camera.by_view, &camera.residuals_px};
+  return {&camera.projector_residuals,
+          &camera.projector_by_view,
+          is_reference ? &camera.projector_residuals_px : nullptr};
 }
 
 void add_residual(const Eigen::Vector2d& residual, ResidualSummary& summary) {
@@ -47,7 +46,8 @@ void finish(ResidualSummary& summary) {
 
 }  // namespace
 
-void add_devices(const Rig& known, const RigParameters& parameters, RigSolution& solution) {
+RigSolution solution_of(const Rig& known, const RigParameters& parameters) {
+  RigSolution solution;
   solution.has_projector = !known.projector.is_label;
   const auto& projector = std::get<PinholeModel>(known.projector.model);
   if (solution.has_projector) {
@@ -68,18 +68,20 @@ void add_devices(const Rig& known, const RigParameters& parameters, RigSolution&
   solution.board.aspect = parameters.board[0];
   solution.board.shear = parameters.board[1];
   std::copy(parameters.board.begin() + 2, parameters.board.end(), solution.board.height_mm.begin());
+  return solution;
 }
 
-void add_residuals(std::span<const RigObservation> observations,
-                   std::span<const BoardView> views,
-                   const RigParameters& parameters,
-                   const RigNoise& noise,
-                   RigSolution& solution) {
+std::vector<SolvedCamera> with_residuals(std::vector<SolvedCamera> cameras,
+                                         std::span<const RigObservation> observations,
+                                         std::span<const BoardView> views,
+                                         const RigParameters& parameters,
+                                         const RigNoise& noise) {
   const Eigen::Vector2d none = Eigen::Vector2d::Constant(std::nan(""));
   std::vector<ResidualSink> sinks;
-  for (std::size_t camera = 0; camera < solution.cameras.size(); ++camera) {
+  for (std::size_t camera = 0; camera < cameras.size(); ++camera) {
     for (const bool by_projector : {false, true}) {
-      const ResidualSink& sink = sinks.emplace_back(sink_of(solution, camera, by_projector));
+      const ResidualSink& sink =
+          sinks.emplace_back(sink_of(cameras[camera], camera == 0, by_projector));
       sink.by_view->resize(views.size());
       sink.all->sigma_px = (by_projector ? noise.projector : noise.camera)[camera];
       if (sink.points == nullptr) continue;
@@ -99,6 +101,7 @@ void add_residuals(std::span<const RigObservation> observations,
     finish(*sink.all);
     std::for_each(sink.by_view->begin(), sink.by_view->end(), finish);
   }
+  return cameras;
 }
 
 }  // namespace frangia
