@@ -14,7 +14,6 @@
 #include "frangia/rig/camera_model.h"
 #include "frangia/rig/paper_rig.h"
 #include "frangia/rig/rig_covariance.h"
-#include "frangia/rig/rig_of_camera.h"
 
 namespace frangia {
 namespace {
@@ -26,7 +25,7 @@ const Pattern kColumns{.name = "columns", .period_px = 20.0};
 
 Rig digital_rig() {
   Rig rig = make_paper_rig({});
-  rig.camera.model.distortion = {-0.09, 0.05, 4e-4, -3e-4, 0.0};
+  rig.reference().model.distortion = {-0.09, 0.05, 4e-4, -3e-4, 0.0};
   CameraModel projector;
   projector.width_px = 1280;
   projector.height_px = 800;
@@ -74,7 +73,7 @@ using SeenBy = std::function<Vector3d(const Rig& rig, const Vector3d& point)>;
 /// Reference camera and projector.
 SeenBy by_projector(const Rig& truth, const Pattern& pattern) {
   return [&truth, &pattern](const Rig& rig, const Vector3d& point) {
-    const Eigen::Vector2d ray = rig.camera.model.ray(truth.camera.model.project(point));
+    const Eigen::Vector2d ray = rig.reference().model.ray(truth.reference().model.project(point));
     const double phase = phase_at(point, pattern, truth.projector);
     return Vector3d(intersect_fringe(ray, phase, pattern, rig.projector).depth_mm *
                     ray.homogeneous());
@@ -84,10 +83,10 @@ SeenBy by_projector(const Rig& truth, const Pattern& pattern) {
 /// The point on the first camera's ray that the second one sees nearest to its pixel, by search.
 SeenBy by_second_camera(const Rig& truth) {
   return [&truth](const Rig& rig, const Vector3d& point) {
-    const PosedCamera& nominal = truth.more_cameras.front();
-    const PosedCamera& second = rig.more_cameras.front();
+    const PosedCamera& nominal = truth.cameras.at(1);
+    const PosedCamera& second = rig.cameras.at(1);
     const Eigen::Vector2d pixel = nominal.camera.model.project(nominal.camera_from_rig() * point);
-    const Eigen::Vector2d ray = rig.camera.model.ray(truth.camera.model.project(point));
+    const Eigen::Vector2d ray = rig.reference().model.ray(truth.reference().model.project(point));
     double low = 0.8 * point.z();
     double high = 1.25 * point.z();
     for (int i = 0; i < 90; ++i) {
@@ -146,8 +145,8 @@ void expect_scatter(const Rig& rig,
                     std::size_t camera = 0) {
   const std::vector<Vector3d> points = measured_points();
   const CalibrationUncertainty stated(rig, pattern, {.points_mm = points, .shared = {}}, camera);
-  const Eigen::Isometry3d camera_from = camera_from_rig(rig, camera);
-  const CameraModel& model = model_of_camera(rig, camera);
+  const Eigen::Isometry3d camera_from = rig.cameras[camera].camera_from_rig();
+  const CameraModel& model = rig.cameras[camera].camera.model;
   const std::vector<double> scatter =
       scatter_of(rig, seen_by, points, 800, camera_from.inverse().translation());
   double stated_squares = 0.0;
@@ -181,13 +180,13 @@ TEST(CalibrationUncertainty, IsTheScatterOfRigsDrawnFromTheCovarianceOfAnAngular
 Rig two_camera_rig() {
   Rig rig = digital_rig();
   PosedCamera second;
-  second.camera = rig.camera;
+  second.camera = rig.reference();
   second.camera.name = "left";
   second.position_mm = {150.0, 4.0, 20.0};
   second.rotation =
       (Eigen::AngleAxisd(0.3, Vector3d::UnitY()) * Eigen::AngleAxisd(0.02, Vector3d::UnitX()))
           .toRotationMatrix();
-  rig.more_cameras.push_back(second);
+  rig.cameras.push_back(second);
   Eigen::VectorXd sigma(39);
   sigma << digital_covariance().covariance.diagonal().cwiseSqrt(),  // camera, projector, pose
       0.9, 1e-4, 1.1, 0.9, 3e-3, 1e-2, 1e-4, 1e-4, 1e-2,            // second camera
@@ -205,8 +204,8 @@ TEST(CalibrationUncertainty, IsTheScatterOfTwoCamerasWithAProjectorThatIsALabel)
 TEST(CalibrationUncertainty, IsTheScatterOfASecondCameraAndTheProjector) {
   const Rig truth = two_camera_rig();
   const SeenBy search = [&](const Rig& rig, const Vector3d& point) {
-    const PosedCamera& nominal = truth.more_cameras.front();
-    const PosedCamera& second = rig.more_cameras.front();
+    const PosedCamera& nominal = truth.cameras.at(1);
+    const PosedCamera& second = rig.cameras.at(1);
     const Eigen::Vector2d pixel = nominal.camera.model.project(nominal.camera_from_rig() * point);
     const Vector3d direction =
         second.rotation.transpose() * second.camera.model.ray(pixel).homogeneous();
@@ -233,7 +232,7 @@ TEST(CalibrationUncertainty, IsZeroForAChangeThatLeavesThePlanesOfLightWhereThey
   rig.calibration =
       Calibration{.covariance = {{"projector.y_mm"}, Eigen::MatrixXd::Constant(1, 1, 4.0)}};
   const CalibrationUncertainty none(rig, kColumns, {.points_mm = measured_points(), .shared = {}});
-  EXPECT_LT(none.along_ray_mm({0.0, 0.0, 490.0}, rig.camera.model.project({0.0, 0.0, 490.0})),
+  EXPECT_LT(none.along_ray_mm({0.0, 0.0, 490.0}, rig.reference().model.project({0.0, 0.0, 490.0})),
             1e-6);
 }
 
@@ -250,7 +249,7 @@ TEST(CalibrationUncertainty, ExcludesTheRigidMotionOfThePart) {
     const CalibrationUncertainty stated(rig, kColumns, {.points_mm = points, .shared = {}});
     double largest = 0.0;
     for (const Vector3d& point : points) {
-      const Eigen::Vector2d pixel = rig.camera.model.project(point);
+      const Eigen::Vector2d pixel = rig.reference().model.project(point);
       largest = std::max(largest, stated.along_ray_mm(point, pixel));
     }
     return largest;
@@ -299,12 +298,12 @@ TEST(CalibrationUncertainty, HoldsTheSizeOfAPartWhoseViewsAgreeAboutTheAxis) {
   MeasuredVolume volume = ball_at_eight_stations(center);
   const auto nearest_mm = [&] {
     const CalibrationUncertainty stated(rig, kColumns, volume);
-    const Eigen::Vector2d pixel = rig.camera.model.project(center);
+    const Eigen::Vector2d pixel = rig.reference().model.project(center);
     return stated.along_ray_mm({0.0, 0.0, 460.0}, pixel);
   };
   EXPECT_NEAR(nearest_mm(), kScale * 30.0, 0.05 * kScale * 30.0);
   // All of the ball has become larger: along inclined rays the surface moves further.
-  const Image<Eigen::Vector2f> rays = rays_of(rig.camera.model);
+  const Image<Eigen::Vector2f> rays = rays_of(rig.reference().model);
   RangeGrid range{Image<float>(rays.width(), rays.height(), kMissing),
                   Image<float>(rays.width(), rays.height(), 0.01F)};
   Image<double> cosines(rays.width(), rays.height(), 0.0);
@@ -339,11 +338,11 @@ TEST(CalibrationUncertainty, AddsToTheSystematicPartOfEachPoint) {
       rig, kColumns, {.points_mm = measured_points(), .shared = {}});
   RangeGrid range{Image<float>(512, 512, 495.0F), Image<float>(512, 512, 0.01F)};
   range.depth_mm(100, 200) = kMissing;
-  const Image<Eigen::Vector2f> rays = rays_of(rig.camera.model);
+  const Image<Eigen::Vector2f> rays = rays_of(rig.reference().model);
   stated.add_to(range, rays);
   EXPECT_TRUE(std::isnan(range.systematic_mm(100, 200)));
   // A plane across the axis of the camera: there, the ray is the normal.
-  const Eigen::Vector2d middle = rig.camera.model.project({0.0, 0.0, 495.0});
+  const Eigen::Vector2d middle = rig.reference().model.project({0.0, 0.0, 495.0});
   const auto x = static_cast<int>(std::lround(middle.x()));
   const auto y = static_cast<int>(std::lround(middle.y()));
   const float once = range.systematic_mm(x, y);

@@ -7,7 +7,6 @@
 
 #include "frangia/core/missing.h"
 #include "frangia/range/calibration_uncertainty.h"
-#include "frangia/rig/rig_of_camera.h"
 
 namespace frangia {
 namespace {
@@ -132,14 +131,15 @@ std::function<void(View&, std::size_t camera)> calibration_part(
     const Pattern& pattern,
     const Image<Eigen::Vector2f>& rays) {
   if (!rig.calibration || rig.calibration->covariance.empty()) return {};
-  const MeasuredVolume volume = measured_volume(views, rig.camera.model, rays);
+  const MeasuredVolume volume = measured_volume(views, rig.reference().model, rays);
   struct OfCamera {
     CalibrationUncertainty uncertainty;
     std::shared_ptr<const Image<Eigen::Vector2f>> rays;
   };
   const auto cameras = std::make_shared<std::vector<OfCamera>>();
-  for (std::size_t camera = 0; camera < camera_count(rig); ++camera)
-    cameras->push_back({{rig, pattern, volume, camera}, views.rays(model_of_camera(rig, camera))});
+  for (std::size_t camera = 0; camera < rig.cameras.size(); ++camera)
+    cameras->push_back(
+        {{rig, pattern, volume, camera}, views.rays(rig.cameras[camera].camera.model)});
   return [cameras](View& view, std::size_t camera) {
     const OfCamera& own = cameras->at(camera);
     own.uncertainty.add_to(view.range, *own.rays);
