@@ -45,9 +45,9 @@ TEST(OrderConfusion, PlansTheTwoMapsOfLeastConfusion) {
 }
 
 TEST(OrderConfusion, PlansMapsOfWhichNoOtherCountIsBetter) {
-  constexpr double kSigma_rad = 0.15;
-  const SequencePlan plan = plan_beats(24.0, 3, 8.0, kSigma_rad, 1.0);
-  for (const std::size_t map : {0U, 1U}) {
+  constexpr double kSigma_rad = 0.2;
+  const SequencePlan plan = plan_beats(24.0, 4, 8.0, kSigma_rad, 1.0);
+  for (const std::size_t map : {0U, 1U, 2U}) {
     for (double count = 8.0; count < 24.0; count += 1.0) {
       std::vector<double> changed = plan.fringes;
       changed[map] = count;
