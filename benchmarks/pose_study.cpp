@@ -73,7 +73,7 @@ Registered registered(const FaultyScan& scan, const RayScene& part) {
   Registered out;
   const auto stations = scan.stations();
   out.report = register_views(
-      views, scan.stated.camera.model, scan.given(stations), RegisterOptions{}, Run{});
+      views, scan.stated.reference().model, scan.given(stations), RegisterOptions{}, Run{});
   out.error_mm = testing::surface_error_mm(scan, part, views);
   return out;
 }

@@ -29,8 +29,8 @@ class ImportOrientation : public testing::ImportFixture {
                                        .height_px = 800,
                                        .focal_px = {1900.0, 1900.0},
                                        .principal_point_px = {640.0, 400.0}};
-    rig.camera.model.width_px = width_px;
-    rig.camera.model.height_px = height_px;
+    rig.reference().model.width_px = width_px;
+    rig.reference().model.height_px = height_px;
     options_.rig = images().parent_path() / "rig.toml";
     write_rig(options_.rig, rig);
   }

@@ -95,7 +95,7 @@ TEST(CompareWith, LooksAtEveryPixelOfTheImage) {
   FringeOrderCandidate candidate{.spacing_mm = 10.0};
   for (const double column : {-1.0, 0.0, 159.0, 160.0}) {
     for (const double row : {-1.0, 0.0, 159.0, 160.0}) {
-      const Eigen::Vector2d ray = ball.rig.camera.model.ray({column, row});
+      const Eigen::Vector2d ray = ball.rig.reference().model.ray({column, row});
       candidate.points_mm.emplace_back((500.0 * ray.homogeneous()).cast<float>());
     }
   }
