@@ -100,12 +100,21 @@ TEST(CalibrateProgram, WritesACharucoBoardWithItsKeys) {
   EXPECT_NE(picture.output.find("ends with .pdf"), std::string::npos) << picture.output;
 }
 
+/// Writes the digital rig with half the pixels of its camera on a side; returns the option that
+/// takes it.
+std::string with_small_rig(const TemporaryFolder& folder) {
+  const std::string rig = (folder.path() / "small.toml").string();
+  write_rig(rig, testing::small_rig("digital"));
+  return " --rig " + rig;
+}
+
 TEST(CalibrateProgram, FindsTheAxisOfASimulatedTurntable) {
   const TemporaryFolder folder;
   const std::string turned = (folder.path() / "turned").string();
   const auto rig = folder.path() / "rig.toml";
-  const Answer simulated = run_program(
-      "simulate --calibration checkerboard --on-turntable --views 3 --samples 4 -o " + turned);
+  const Answer simulated =
+      run_program("simulate --calibration checkerboard --on-turntable --views 3 --samples 4 -o " +
+                  turned + with_small_rig(folder));
   ASSERT_EQ(simulated.exit_code, 0) << simulated.output;
   const Answer answer = run_program("calibrate turntable " + turned + " --rig " + turned +
                                     "/truth-rig.toml -o " + rig.string());
@@ -123,7 +132,8 @@ TEST(CalibrateProgram, WritesTheRigOfSimulatedPosesAndNoneForAFault) {
   const std::string poses = (folder.path() / "poses").string();
   const auto rig = folder.path() / "rig.toml";
   const Answer simulated =
-      run_program("simulate --calibration checkerboard --views 5 --samples 4 -o " + poses);
+      run_program("simulate --calibration checkerboard --views 5 --samples 4 -o " + poses +
+                  with_small_rig(folder));
   ASSERT_EQ(simulated.exit_code, 0) << simulated.output;
   std::ofstream(folder.path() / "poses/rig.toml", std::ios::app)
       << "\n[devices.camera]\ndriver = \"simulated\"\n";

@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <stop_token>
 #include <string>
 #include <vector>
@@ -15,7 +14,6 @@
 #include <nlohmann/json.hpp>
 
 #include "frangia/core/angles.h"
-#include "frangia/core/crc32.h"
 #include "frangia/core/error.h"
 #include "frangia/dataset/read_frames.h"
 #include "frangia/dataset/scan_of_camera.h"
@@ -26,92 +24,19 @@
 #include "frangia/rig/rig_covariance.h"
 #include "frangia/rig/write_rig.h"
 
-#include "support/error_of.h"
-#include "support/temporary_folder.h"
+#include "dataset/import_fixture.h"
 
 namespace frangia {
 namespace {
 
+using testing::bytes_of;
 using testing::error_of;
-using testing::TemporaryFolder;
+
+using ImportFrames = testing::ImportFixture;
 
 std::filesystem::path image_path(const std::string& name) {
   return std::filesystem::path(FRANGIA_SOURCE_DIR) / "tests/data/images" / name;
 }
-
-std::string all_of(const std::filesystem::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-
-class ImportFrames : public ::testing::Test {
- protected:
-  [[nodiscard]] std::filesystem::path images() const { return folder_.path() / "images"; }
-  [[nodiscard]] std::filesystem::path target() const { return folder_.path() / "out" / "scan"; }
-  void SetUp() override {
-    std::filesystem::create_directories(images());
-    std::filesystem::create_directories(target().parent_path());
-    options_.period_px = {{"", 20.0}};
-    options_.names = "{pattern}_{frame:02}.png";
-  }
-  /// A PNG whose pixels hold `value`.
-  template <typename T = std::uint8_t>
-  void write(const std::string& name, int value, int width = 8, int height = 6) const {
-    write_png(images() / name, Frame(Image<T>(width, height, static_cast<T>(value))));
-  }
-  void write_fringes(const std::string& pattern, int frames = 4) const {
-    for (int k = 0; k < frames; ++k)
-      write(fmt::format("{}_{:02}.png", pattern, k), 10 * k + static_cast<int>(pattern.size()));
-  }
-  /// A rig with a digital projector and a camera of this size.
-  void use_rig(int width_px, int height_px) {
-    Rig rig = make_paper_rig({});
-    rig.projector.model = PinholeModel{.width_px = 1280,
-                                       .height_px = 800,
-                                       .focal_px = {1900.0, 1900.0},
-                                       .principal_point_px = {640.0, 400.0}};
-    rig.reference().model.width_px = width_px;
-    rig.reference().model.height_px = height_px;
-    options_.rig = folder_.path() / "rig.toml";
-    write_rig(options_.rig, rig);
-  }
-  /// States an EXIF orientation in a PNG.
-  void orient(const std::string& name, char orientation) const {
-    std::string bytes = all_of(images() / name);
-    const std::string exif = std::string("eXIfII*\0\x08\0\0\0\x01\0\x12\x01\x03\0\x01\0\0\0", 22) +
-                             orientation + std::string(7, '\0');
-    const auto number = [](std::uint32_t value) {
-      std::string text;
-      for (const unsigned shift : {24U, 16U, 8U, 0U})
-        text += static_cast<char>(value >> shift & 0xFFU);
-      return text;
-    };
-    constexpr std::size_t kAfterHeader = 33;
-    const std::uint32_t check = crc32(exif);
-    bytes.insert(kAfterHeader,
-                 number(static_cast<std::uint32_t>(exif.size() - 4)) + exif + number(check));
-    std::ofstream(images() / name, std::ios::binary) << bytes;
-  }
-  /// The scan in the target folder.
-  Scan import() const {
-    static_cast<void>(import_frames(plan_import(images(), options_), target()));
-    return read_scan(target(), {}, RigContent::StartValues);
-  }
-  /// The sentence of the error. Nothing may be left of the scan.
-  std::string complaint() const {
-    std::string error = error_of([&] { import_frames(plan_import(images(), options_), target()); });
-    EXPECT_TRUE(std::filesystem::is_empty(target().parent_path())) << error;
-    return error;
-  }
-  void expect_complaint(const std::string& part) const {
-    const std::string error = complaint();
-    EXPECT_NE(error.find(part), std::string::npos) << error;
-  }
-  ImportOptions options_;
-
- private:
-  TemporaryFolder folder_;
-};
 
 TEST_F(ImportFrames, SortsFramesByPatternAndNumberWithoutChangingAPixel) {
   options_.projector_px = {1280, 800};
@@ -230,7 +155,7 @@ TEST_F(ImportFrames, RecordsEachOriginalWithItsChecksum) {
   for (int k = 0; k < 3; ++k)
     std::filesystem::copy_file(image_path("grey8.bmp"), images() / fmt::format("{}.bmp", k + 1));
   static_cast<void>(import());
-  const auto record = nlohmann::json::parse(all_of(target() / "import.json"));
+  const auto record = nlohmann::json::parse(bytes_of(target() / "import.json"));
   ASSERT_EQ(record["frames"].size(), 3U);
   EXPECT_EQ(record["frames"][1]["original"], "2.bmp");
   EXPECT_EQ(record["frames"][1]["file"], "views/000/fringes-1-1.png");
@@ -315,7 +240,7 @@ TEST_F(ImportFrames, NumbersTheViewsAndTakesBlackImagesAsAmbient) {
 TEST_F(ImportFrames, WritesTheCameraAloneWhereNothingElseIsKnown) {
   write_fringes("a");
   static_cast<void>(import_frames(plan_import(images(), options_), target()));
-  EXPECT_EQ(all_of(target() / "rig.toml"),
+  EXPECT_EQ(bytes_of(target() / "rig.toml"),
             "format = \"frangia-rig\"\nversion = 1\n\n[camera]\nsize_px = [8, 6]\nwhite_level = "
             "255\n");
 }
@@ -379,7 +304,7 @@ TEST_F(ImportFrames, LeavesNothingWhenItIsStoppedOrAFrameIsDamaged) {
   };
   EXPECT_EQ(error_of([&] { import_frames(plan, target(), run); }), "stopped by the user");
   EXPECT_TRUE(std::filesystem::is_empty(target().parent_path()));
-  const std::string bytes = all_of(images() / "a_11.png");
+  const std::string bytes = bytes_of(images() / "a_11.png");
   std::ofstream(images() / "a_11.png", std::ios::binary) << bytes.substr(0, bytes.size() / 2);
   expect_complaint("a_11.png: is truncated or damaged");
 }
@@ -391,49 +316,7 @@ TEST_F(ImportFrames, RefusesATargetThatExists) {
   const std::string error =
       error_of([&] { import_frames(plan_import(images(), options_), target()); });
   EXPECT_NE(error.find("exists already; remove it or choose another name"), std::string::npos);
-  EXPECT_EQ(all_of(target() / "mine.txt"), "keep");
-}
-
-TEST_F(ImportFrames, AskWhichPixelsAreTheCamerasWhereTheRigFitsBoth) {
-  options_.names = "{frame}.png";
-  for (int k = 0; k < 4; ++k) {
-    Image<std::uint8_t> image(8, 6, 10);
-    image(1, 2) = static_cast<std::uint8_t>(100 + k);
-    const std::string name = std::to_string(k) + ".png";
-    write_png(images() / name, Frame(image));
-    orient(name, 3);  // by 180 degrees
-  }
-  use_rig(8, 6);
-  const std::string asks = complaint();
-  EXPECT_NE(asks.find("EXIF orientation 3"), std::string::npos) << asks;
-  EXPECT_NE(asks.find("set `orientation` to stored"), std::string::npos) << asks;
-
-  const auto frame = [&] {
-    const Scan scan = import();
-    auto stacks = read_frames(scan, 0);
-    std::filesystem::remove_all(target());
-    return std::get<Image<std::uint8_t>>(stacks.front().frames.front());
-  };
-  options_.orientation = FrameOrientation::Stored;
-  EXPECT_EQ(frame()(1, 2), 100);
-  options_.orientation = FrameOrientation::Shown;
-  EXPECT_EQ(frame()(6, 3), 100);
-}
-
-TEST_F(ImportFrames, TurnFramesOfWhichOnlyTheShownPixelsFitTheRig) {
-  options_.names = "{frame}.png";
-  for (int k = 0; k < 4; ++k) {
-    Image<std::uint8_t> image(8, 6, 10);
-    image(1, 2) = 100;
-    const std::string name = std::to_string(k) + ".png";
-    write_png(images() / name, Frame(image));
-    orient(name, 6);  // by 90 degrees clockwise
-  }
-  use_rig(6, 8);
-  const auto stacks = read_frames(import(), 0);
-  const auto& image = std::get<Image<std::uint8_t>>(stacks.front().frames.front());
-  ASSERT_EQ(image.width(), 6);
-  EXPECT_EQ(image(3, 1), 100);  // row 2 from the top is column 2 from the right
+  EXPECT_EQ(bytes_of(target() / "mine.txt"), "keep");
 }
 
 }  // namespace

@@ -185,7 +185,7 @@ def run(campaign):
         "mutated_files",
         "mutated CAD, .mat, JSON and project files, read by the verbs and a server"
         + (", with sanitizers" if campaign.asan else ""),
-        campaign.count(80, 10000),
+        campaign.count(60, 10000),
     )
     key = f"{hashlib.sha256(program.read_bytes()).hexdigest()[:16]} {campaign.seed} {answer.tried}"
     progress = Progress(ROOT / "out" / "faults" / "mutated_files.json" if campaign.is_long else None, key)

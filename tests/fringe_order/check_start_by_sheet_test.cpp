@@ -31,9 +31,12 @@ SequenceCheck check_line(double sign, double late_deg, double field_deg) {
 
 TEST(CheckStartBySheet, NamesAWrongStartAndReversedShifts) {
   EXPECT_TRUE(check_line(1.0, 0.0, 8.0).consistent);
+  EXPECT_TRUE(check_line(1.0, 0.0, 8.0).decided);
   const SequenceCheck late = check_line(1.0, 180.0, 8.0);
   ASSERT_EQ(late.fits.size(), 1U);
   EXPECT_EQ(late.fits.front().what, "a start of 180 degrees, not 0 degrees");
+  // A start near a whole number of quarter turns is one: schemes have no others.
+  EXPECT_EQ(check_line(1.0, 97.0, 8.0).fits.at(0).what, "a start of 90 degrees, not 0 degrees");
   const SequenceCheck reversed = check_line(-1.0, 0.0, 8.0);
   ASSERT_EQ(reversed.fits.size(), 1U);
   EXPECT_EQ(reversed.fits.front().what, "shifts in the opposite direction");

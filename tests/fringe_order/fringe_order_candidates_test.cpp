@@ -88,5 +88,21 @@ TEST(CompareWith, CountsAgreementViolationsAndUnseenPoints) {
   EXPECT_EQ(candidate.score(), -1);
 }
 
+TEST(CompareWith, LooksAtEveryPixelOfTheImage) {
+  const Ball ball;
+  const FringeComparison comparison{{kBallPattern, ball.rig, ball.rays}, 0.1};
+  const Image<float> depth(160, 160, 500.0F);
+  FringeOrderCandidate candidate{.spacing_mm = 10.0};
+  for (const double column : {-1.0, 0.0, 159.0, 160.0}) {
+    for (const double row : {-1.0, 0.0, 159.0, 160.0}) {
+      const Eigen::Vector2d ray = ball.rig.reference().model.ray({column, row});
+      candidate.points_mm.emplace_back((500.0 * ray.homogeneous()).cast<float>());
+    }
+  }
+  compare_with(depth, Eigen::Isometry3d::Identity(), comparison, candidate);
+  EXPECT_EQ(candidate.agree, 4);  // the corners
+  EXPECT_EQ(candidate.unseen + candidate.violations, 0);
+}
+
 }  // namespace
 }  // namespace frangia

@@ -35,6 +35,12 @@ TEST(ResolveByViews, FindsTheOrderAtWhichOtherViewsConfirmARegion) {
     const float phase = resolved.range.phase_rad.pixels()[i];
     EXPECT_NEAR(phase, truth.range.phase_rad.pixels()[i], 1e-5);
     EXPECT_EQ(resolved.range.depth_mm.pixels()[i], ball.depth_at(i, phase));
+    // Sigma is along the ray: the way between the points of a phase one sigma more and less.
+    constexpr float kSigma_rad = 0.02F;
+    const float apart_mm =
+        ball.depth_at(i, phase + kSigma_rad) - ball.depth_at(i, phase - kSigma_rad);
+    const float sigma_mm = 0.5F * std::abs(apart_mm) * ball.rays.pixels()[i].homogeneous().norm();
+    EXPECT_NEAR(resolved.range.sigma_mm.pixels()[i] / sigma_mm, 1.0, 0.004);
   }
 }
 

@@ -44,6 +44,14 @@ TEST(WrongOrderProbability, MatchesSimulatedNoise) {
   }
 }
 
+TEST(WrongOrderProbability, IsInvertedByTheSigmaThatReachesIt) {
+  for (const double probability : {1e-9, 1e-3, 0.1, 0.9})
+    EXPECT_NEAR(
+        wrong_order_probability(sigma_for_wrong_order_probability(probability)) / probability,
+        1.0,
+        1e-6);
+}
+
 TEST(PlanSequence, IsTheShortestSequenceWithinTheLimit) {
   const SequencePlan plan = plan_sequence(64.0, 0.1);
   EXPECT_EQ(plan.fringes.size(), 4U);

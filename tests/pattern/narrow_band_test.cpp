@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -21,6 +22,10 @@ TEST(NarrowBand, HoldsOnlyFineFringesThatDetermineTheOrder) {
   EXPECT_GT(plan.fringes.front(), 0.75 * 128.0);
   EXPECT_LT(plan.wrong_order, 1e-6);
   EXPECT_NEAR(confusion_probability(plan.fringes, 0.05), plan.wrong_order, 1e-12);
+}
+
+TEST(NarrowBand, TakesTheBandThatJustHoldsItsMaps) {
+  EXPECT_EQ(plan_narrow_band(50, 3, 0.01).fringes, (std::vector<double>{48.0, 49.0, 50.0}));
 }
 
 TEST(NarrowBand, WidensWithTheNoise) {

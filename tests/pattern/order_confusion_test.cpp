@@ -36,6 +36,27 @@ TEST(OrderConfusion, PlansASafeSequenceWithoutCoarseFringes) {
   EXPECT_LE(plan.wrong_order, confusion_probability(std::vector<double>{53.0, 58.0, 64.0}, 0.05));
 }
 
+TEST(OrderConfusion, PlansTheTwoMapsOfLeastConfusion) {
+  constexpr double kSigma_rad = 0.2;
+  const SequencePlan plan = plan_beats(16.0, 2, 1.0, kSigma_rad, 1.0);
+  for (double count = 1.0; count < 16.0; count += 1.0)
+    EXPECT_GE(confusion_probability(std::vector<double>{count, 16.0}, kSigma_rad), plan.wrong_order)
+        << count;
+}
+
+TEST(OrderConfusion, PlansMapsOfWhichNoOtherCountIsBetter) {
+  constexpr double kSigma_rad = 0.2;
+  const SequencePlan plan = plan_beats(24.0, 4, 8.0, kSigma_rad, 1.0);
+  for (const std::size_t map : {0U, 1U, 2U}) {
+    for (double count = 8.0; count < 24.0; count += 1.0) {
+      std::vector<double> changed = plan.fringes;
+      changed[map] = count;
+      EXPECT_GE(confusion_probability(changed, kSigma_rad), plan.wrong_order * (1.0 - 1e-9))
+          << map << " " << count;
+    }
+  }
+}
+
 TEST(OrderConfusion, RefusesWhatCannotBePlanned) {
   EXPECT_THROW(static_cast<void>(plan_beats(64.0, 1, 32.0, 0.05)), Error);
   EXPECT_THROW(static_cast<void>(plan_beats(64.0, 2, 64.0, 0.05)), Error);

@@ -1,13 +1,8 @@
 // Explanations of views that were taken by a rig or of a part which is not where it is stated.
-#include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
-#include <functional>
 #include <string>
 #include <vector>
 
-#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "frangia/core/angles.h"
@@ -156,86 +151,6 @@ TEST(ExplainPoses, BlamesNothingInASoundScan) {
       EXPECT_TRUE(out.report.untrusted_reason().empty()) << out.report.untrusted_reason();
     }
   }
-}
-
-/// A fault of the study. `size` is a multiple of the noise of a pair of surfels.
-struct StudyFault {
-  const char* name;
-  PoseCause right;
-  std::function<void(FaultyScan&, double mm)> make;
-};
-
-// Minutes: `./run figures poses` asks for it.
-TEST(PoseStudy, NamesTheFault) {
-  const char* const part_name = std::getenv("FRANGIA_POSE_PART");
-  const char* const seeds_text = std::getenv("FRANGIA_POSE_SEEDS");
-  if (seeds_text == nullptr) GTEST_SKIP() << "FRANGIA_POSE_SEEDS is not set";
-  const int seeds = std::atoi(seeds_text);
-  const RayScene part(make_part(part_name == nullptr ? "bracket" : part_name));
-  constexpr double kPairNoise_mm = 0.01;
-  constexpr double kArm_mm = 50.0;
-  const std::vector<StudyFault> faults{
-      {"none", PoseCause::AsStated, [](FaultyScan&, double) {}},
-      {"slide before view 5",
-       PoseCause::PartMoved,
-       [](FaultyScan& scan, double mm) {
-         scan.slide(4, Eigen::Vector3d(0.8 * mm, 0.6 * mm, 0.0));
-       }},
-      {"one view elsewhere",
-       PoseCause::ViewMoved,
-       [](FaultyScan& scan, double mm) {
-         scan.views[3].part =
-             Eigen::Translation3d(0.8 * mm, 0.6 * mm, 0.0) * Eigen::Isometry3d::Identity();
-       }},
-      {"wobble",
-       PoseCause::Wobble,
-       [](FaultyScan& scan, double mm) { scan.wobble(0.5 * mm / kArm_mm, 0.5 * mm); }},
-      {"drift of the projector",
-       PoseCause::RigDrift,
-       [](FaultyScan& scan, double mm) { scan.drift_projector(mm / 500.0, mm); }},
-      {"rig not as stated", PoseCause::Rig, [](FaultyScan& scan, double mm) {
-         scan.drift_projector(mm / 500.0, mm, true);
-       }}};
-  std::string json;
-  int blamed = 0;
-  for (const StudyFault& fault : faults) {
-    for (const double size : {2.0, 10.0, 50.0}) {
-      int right = 0;
-      int wrong = 0;
-      std::size_t left_out = 0;
-      double ratio = 0.0;
-      for (int seed = 1; seed <= seeds; ++seed) {
-        FaultyScan scan(8);
-        scan.seed = static_cast<std::uint32_t>(seed);
-        const double without_mm = registered(scan, part).error_mm;
-        fault.make(scan, size * kPairNoise_mm);
-        const Registered out = registered(scan, part);
-        const PoseExplanation& found = out.report.explanation;
-        const bool named =
-            found.best == fault.right ||
-            std::find(found.alike.begin(), found.alike.end(), fault.right) != found.alike.end();
-        right += named && found.decided ? 1 : 0;
-        wrong += !named && found.decided && found.best != PoseCause::AsStated ? 1 : 0;
-        left_out += out.report.outliers.size();
-        ratio += out.error_mm / without_mm / seeds;
-      }
-      if (fault.right == PoseCause::AsStated) blamed += wrong;
-      json += fmt::format(
-          "{}{{\"fault\": \"{}\", \"size\": {}, \"seeds\": {}, \"right\": {}, \"wrong\": {}, "
-          "\"left_out\": {}, \"ratio\": {:.3f}}}",
-          json.empty() ? "" : ", ",
-          fault.name,
-          size,
-          seeds,
-          right,
-          wrong,
-          left_out,
-          ratio);
-      if (fault.right == PoseCause::AsStated) break;
-    }
-  }
-  std::printf("FIGURE [%s]\n", json.c_str());
-  EXPECT_EQ(blamed, 0);
 }
 
 }  // namespace

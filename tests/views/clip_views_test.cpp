@@ -6,6 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include "frangia/core/missing.h"
+
 #include "support/analytic_views.h"
 #include "support/error_of.h"
 
@@ -86,6 +88,35 @@ TEST(ClipViews, RemovesSigmaAndPhaseWithThePoint) {
       EXPECT_EQ(std::isnan(clipped.phase_rad(x, y)), std::isnan(clipped.depth_mm(x, y)));
     }
   }
+}
+
+TEST(ClipViews, CountsEveryPointThatItRemoves) {
+  ViewStore all = sphere_views();
+  View view = all.load(0);
+  view.edge_pixels = {{60, 60, view.range.depth_mm(60, 60) + 300.0F, 0.1F}};
+  ViewStore views;
+  views.add(view);
+  const auto count = [&] {
+    std::size_t points = views.load(0).edge_pixels.size();
+    for_each_point(views, [&](const Eigen::Vector3d&) { ++points; });
+    return points;
+  };
+  const std::size_t before = count();
+  const std::size_t removed =
+      clip_views(views, small_camera_model(120, 600.0), {.max_radius_mm = 30.0});
+  EXPECT_EQ(removed, before - count());
+  EXPECT_GT(count(), 0U);
+}
+
+TEST(ClipViews, AcceptsThatOnePointIsLeft) {
+  ViewStore all = sphere_views();
+  View view = all.load(0);
+  const float depth_mm = view.range.depth_mm(60, 60);
+  view.range.depth_mm = Image<float>(120, 120, kMissing);
+  view.range.depth_mm(60, 60) = depth_mm;
+  ViewStore views;
+  views.add(view);
+  EXPECT_EQ(clip_views(views, small_camera_model(120, 600.0), {.max_radius_mm = 100.0}), 0U);
 }
 
 TEST(ClipViews, KeepsAllWithoutALimit) {

@@ -64,6 +64,8 @@ TEST(ViewStore, LoadsTheSystematicPartWhereItIsAskedFor) {
   EXPECT_EQ(store.load_points(1, PointSigma::BothParts).range.systematic_mm(7, 6), 0.5F);
   EXPECT_TRUE(store.load_points(1, PointSigma::BothParts).range.phase_rad.empty());
   EXPECT_TRUE(store.load_points(1).range.systematic_mm.empty());
+  EXPECT_TRUE(store.load_colored_points(1).range.systematic_mm.empty());
+  EXPECT_TRUE(store.load_colored_points(1).range.phase_rad.empty());
   EXPECT_TRUE(store.load(0).range.systematic_mm.empty());
   EXPECT_THROW(store.replace(1, view_of(1.0F)), Error);
 }

@@ -12,7 +12,7 @@ SECTIONS = {
     "misaligned_turntable": Inputs(SCAN, case_s=30),
     "large": Inputs("simulate reconstruct", files="benchmarks/large_rig.toml", case_s=180),
     "views": Inputs(SCAN, case_s=20),
-    "poses": Inputs(modules="registration simulate", files="tests/registration tests/support", case_s=120),
+    "poses": Inputs(modules="registration simulate", files="benchmarks/pose_study.cpp tests/support", case_s=120),
     "edits": Inputs(SCAN + " edit", case_s=25),
     "decimation": Inputs("simulate reconstruct", modules="mesh", files="benchmarks/mesh_bench.cpp", case_s=200),
     "calibration": Inputs("simulate reconstruct calibrate", shared="skull skull-calibration", case_s=8),

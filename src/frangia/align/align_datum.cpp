@@ -3,11 +3,11 @@
 #include <cmath>
 #include <utility>
 
-#include <Eigen/SVD>
 #include <fmt/format.h>
 
 #include "frangia/align/internal/free_motions.h"
 #include "frangia/core/error.h"
+#include "frangia/core/symmetric_eigen.h"
 
 namespace frangia {
 namespace {
@@ -101,19 +101,19 @@ DatumStep solve(std::span<const Datum> datums, const Vector3d& center, double si
   for (const Datum& datum : datums) {
     const DatumRows rows = rows_of(datum, center, size);
     const Eigen::MatrixXd within = rows.jacobian * step.free;
-    const Eigen::JacobiSVD<Eigen::MatrixXd> svd(within, Eigen::ComputeFullU | Eigen::ComputeFullV);
-    Eigen::Index rank = 0;
-    while (rank < svd.singularValues().size() && svd.singularValues()[rank] > kDetermined)
-      ++rank;
+    // Its singular values, squared, and its right singular vectors, in ascending order.
+    const auto squares = symmetric_eigen(Eigen::MatrixXd(within.transpose() * within));
+    const Eigen::Index rank = (squares.values.array() > kDetermined * kDetermined).count();
     if (rank == 0) {
       throw Error(ErrorKind::Input,
                   fmt::format("datum \"{}\" determines nothing that the datums before it leave "
                               "free; choose another",
                               datum.name));
     }
-    const Eigen::MatrixXd inverse = svd.matrixV().leftCols(rank) *
-                                    svd.singularValues().head(rank).cwiseInverse().asDiagonal() *
-                                    svd.matrixU().leftCols(rank).transpose();
+    const Eigen::MatrixXd determined = squares.vectors.rightCols(rank);
+    const Eigen::MatrixXd inverse = determined *
+                                    squares.values.tail(rank).cwiseInverse().asDiagonal() *
+                                    (within * determined).transpose();
     const Eigen::MatrixXd solver = step.free * inverse;
     const Eigen::Index before = response.cols();
     const Eigen::Index added = rows.residuals.size();
@@ -125,7 +125,7 @@ DatumStep solve(std::span<const Datum> datums, const Vector3d& center, double si
     step.twist -= solver * (rows.residuals + rows.jacobian * step.twist);
     sigmas.conservativeResize(before + added);
     sigmas.tail(added) = rows.sigmas;
-    step.free = (step.free * svd.matrixV().rightCols(step.free.cols() - rank)).eval();
+    step.free = (step.free * squares.vectors.leftCols(step.free.cols() - rank)).eval();
     if (step.free.cols() == 0) break;
   }
   step.covariance = response * sigmas.cwiseAbs2().asDiagonal() * response.transpose();

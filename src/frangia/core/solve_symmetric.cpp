@@ -8,4 +8,9 @@ Eigen::VectorXd solve_symmetric(const Eigen::MatrixXd& matrix, const Eigen::Vect
   return matrix.ldlt().solve(right);
 }
 
+Eigen::MatrixXd solve_symmetric_columns(const Eigen::MatrixXd& matrix,
+                                        const Eigen::MatrixXd& right) {
+  return matrix.ldlt().solve(right);
+}
+
 }  // namespace frangia

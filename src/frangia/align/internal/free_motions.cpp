@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/Cholesky>
 #include <fmt/format.h>
 
 #include "frangia/align/internal/search_poses.h"
 #include "frangia/core/angles.h"
+#include "frangia/core/solve_symmetric.h"
 #include "frangia/core/symmetric_eigen.h"
 
 namespace frangia {
@@ -114,7 +114,7 @@ bool is_reached(std::span<const MeasuredSample> samples,
         right += flow.transpose() * way;
       }
       left.diagonal().array() += 1e-9 * left.trace();
-      const Eigen::VectorXd step = left.ldlt().solve(right);
+      const Eigen::VectorXd step = solve_symmetric(left, right);
       Eigen::Matrix<double, 6, 1> twist = Eigen::Matrix<double, 6, 1>::Zero();
       for (Eigen::Index k = 0; k < columns; ++k)
         twist += step[k] * motions[static_cast<std::size_t>(k)].twist;

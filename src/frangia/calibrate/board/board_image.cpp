@@ -3,9 +3,8 @@
 #include <cmath>
 #include <vector>
 
-#include <Eigen/QR>
-
 #include "frangia/core/error.h"
+#include "frangia/core/symmetric_eigen.h"
 #include "frangia/pattern/pattern.h"
 
 namespace frangia {
@@ -20,7 +19,18 @@ Eigen::VectorXd mean_weights(const std::vector<double>& shifts_rad) {
     const double shift = shifts_rad[static_cast<std::size_t>(i)];
     conditions.col(i) << 1.0, std::cos(shift), std::sin(shift);
   }
-  return conditions.completeOrthogonalDecomposition().solve(Eigen::Vector3d::UnitX());
+  // The pseudo-inverse by the eigenvectors of the normal matrix; shifts may determine less than
+  // three.
+  constexpr double kLeast = 1e-12;
+  const SymmetricEigen<3> normal =
+      symmetric_eigen(Eigen::Matrix3d(conditions * conditions.transpose()));
+  Eigen::Vector3d multipliers = Eigen::Vector3d::Zero();
+  for (int i = 0; i < 3; ++i) {
+    const Eigen::Vector3d direction = normal.vectors.col(i);
+    if (normal.values[i] > kLeast * normal.values[2])
+      multipliers += direction * (direction.x() / normal.values[i]);
+  }
+  return conditions.transpose() * multipliers;
 }
 
 void add_frame(const Frame& frame, double weight, Image<float>& sum) {

@@ -6,7 +6,6 @@
 #include <utility>
 #include <vector>
 
-#include <Eigen/QR>
 #include <fmt/format.h>
 
 #include "frangia/calibrate/board/internal/describe_other_board.h"
@@ -14,6 +13,7 @@
 #include "frangia/calibrate/internal/start_values.h"
 #include "frangia/core/angles.h"
 #include "frangia/core/error.h"
+#include "frangia/core/least_squares.h"
 
 namespace frangia {
 namespace {
@@ -149,7 +149,7 @@ Eigen::Matrix2d camera_to_projector(const BoardView& view) {
     pixels.row(row) = point.projector_px.transpose();
     ++row;
   }
-  const Eigen::MatrixXd solution = terms.colPivHouseholderQr().solve(pixels);
+  const Eigen::MatrixXd solution = least_squares(terms, pixels);
   return solution.bottomRows(2).transpose();
 }
 

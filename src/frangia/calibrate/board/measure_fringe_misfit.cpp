@@ -6,8 +6,8 @@
 #include <vector>
 
 #include <Eigen/Geometry>
-#include <Eigen/QR>
 
+#include "frangia/core/least_squares.h"
 #include "frangia/core/median.h"
 
 namespace frangia {
@@ -31,7 +31,8 @@ double measure_fringe_misfit(const FrameStack& stack, std::span<const BoardPoint
     const double shift = stack.pattern.shifts_rad[static_cast<std::size_t>(i)];
     terms.row(i) << 1.0, std::cos(shift), std::sin(shift);
   }
-  const auto solver = terms.colPivHouseholderQr();
+  const Eigen::MatrixXd fit_of_counts =
+      least_squares(terms, Eigen::MatrixXd::Identity(frames, frames));
   Eigen::AlignedBox2d box;
   for (const BoardPoint& point : points)
     box.extend(point.camera_px);
@@ -48,7 +49,7 @@ double measure_fringe_misfit(const FrameStack& stack, std::span<const BoardPoint
       for (Eigen::Index i = 0; i < frames; ++i)
         counts[i] = counts_at(stack.frames[static_cast<std::size_t>(i)], x, y);
       if (counts.maxCoeff() >= stack.white_level) continue;
-      const Eigen::Vector3d fit = solver.solve(counts);
+      const Eigen::Vector3d fit = fit_of_counts * counts;
       const double squares = (counts - terms * fit).squaredNorm();
       fits.push_back({fit[0],
                       std::hypot(fit[1], fit[2]),

@@ -4,8 +4,9 @@
 #include <cstddef>
 #include <vector>
 
-#include <Eigen/QR>
 #include <ceres/rotation.h>
+
+#include "frangia/core/least_squares.h"
 
 namespace frangia {
 namespace {
@@ -80,7 +81,7 @@ Eigen::MatrixXd response_at(const Eigen::Vector3d& point,
       value = kept;
     }
   }
-  return -by_point.colPivHouseholderQr().solve(by_parameter);
+  return -least_squares(by_point, by_parameter);
 }
 
 /// Removes from the columns of `response`, displacements of all points one below the other, what a
@@ -98,7 +99,7 @@ void remove_rigid_motions(const std::vector<Eigen::Vector3d>& points, Eigen::Mat
           Eigen::Vector3d::Unit(axis).cross(points[i] - center) / center.norm();
     }
   }
-  response -= motions * motions.householderQr().solve(response);
+  response -= motions * least_squares(motions, response);
 }
 
 }  // namespace

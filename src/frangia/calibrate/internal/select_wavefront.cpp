@@ -4,8 +4,7 @@
 #include <cstddef>
 #include <vector>
 
-#include <Eigen/Cholesky>
-
+#include "frangia/core/solve_symmetric.h"
 #include "frangia/core/symmetric_eigen.h"
 
 namespace frangia {
@@ -22,18 +21,19 @@ double gain_of(const ArtifactLinearization& full,
                const std::vector<Eigen::Index>& active,
                const std::vector<Eigen::Index>& added) {
   if (added.empty()) return 0.0;
-  const Eigen::LDLT<Eigen::MatrixXd> solver(full.normal(active, active));
+  const Eigen::MatrixXd own = full.normal(active, active);
+  const Eigen::VectorXd slope_of_own = full.gradient(active);
   const Eigen::MatrixXd coupling = full.normal(active, added);
   const Eigen::MatrixXd alone = full.normal(added, added);
   const Eigen::VectorXd scale = alone.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
-  const Eigen::MatrixXd free = scale.asDiagonal() *
-                               (alone - coupling.transpose() * solver.solve(coupling)) *
-                               scale.asDiagonal();
+  const Eigen::MatrixXd free =
+      scale.asDiagonal() * (alone - coupling.transpose() * solve_symmetric_columns(own, coupling)) *
+      scale.asDiagonal();
   if (symmetric_eigen(free).values[0] < kLeastFree) return 0.0;
   const Eigen::VectorXd slope =
       scale.asDiagonal() *
-      (full.gradient(added) - coupling.transpose() * solver.solve(full.gradient(active)));
-  return slope.dot(free.ldlt().solve(slope)) / static_cast<double>(added.size());
+      (full.gradient(added) - coupling.transpose() * solve_symmetric(own, slope_of_own));
+  return slope.dot(solve_symmetric(free, slope)) / static_cast<double>(added.size());
 }
 
 }  // namespace

@@ -5,14 +5,13 @@
 #include <limits>
 #include <variant>
 
-#include <Eigen/Cholesky>
-#include <Eigen/QR>
 #include <opencv2/calib3d.hpp>
 
 #include "frangia/calibrate/solve/internal/check_table_views.h"
 #include "frangia/calibrate/solve/internal/table_model.h"
 #include "frangia/core/angles.h"
 #include "frangia/core/error.h"
+#include "frangia/core/solve_symmetric.h"
 
 namespace frangia {
 namespace {
@@ -84,7 +83,7 @@ Eigen::VectorXd adjust_table(const TableProblem& problem, TableModel& model) {
     const Eigen::MatrixXd jacobian = table_jacobian(problem, model, residuals);
     Eigen::MatrixXd normal = jacobian.transpose() * jacobian;
     normal.diagonal() *= 1.0 + damping;
-    const TableStep step = -normal.ldlt().solve(jacobian.transpose() * residuals);
+    const TableStep step = -solve_symmetric(normal, jacobian.transpose() * residuals);
     const TableModel tried = model.moved(step);
     const Eigen::VectorXd next = residuals_of(problem, tried);
     if (next.squaredNorm() < residuals.squaredNorm()) {
@@ -153,7 +152,7 @@ TableModel start_of(const TableProblem& problem) {
   const double weight = 1e-6 * normal.trace();
   normal += weight * model.axis * model.axis.transpose();
   right += weight * model.axis * model.axis.dot(board);
-  model.point_mm = normal.ldlt().solve(right);
+  model.point_mm = solve_symmetric(normal, right);
   model.rig_from_board = Eigen::Isometry3d::Identity();
   const TableModel turn_only = model;
   model.rig_from_board = turn_only.at(-problem.angles_rad[0]) * poses.front();
@@ -241,9 +240,9 @@ TurntableSolution solve_turntable(const Board& board,
   const double variance =
       residuals.squaredNorm() / static_cast<double>(residuals.size() - kTableParameters);
   const Eigen::MatrixXd covariance =
-      variance * (jacobian.transpose() * jacobian)
-                     .ldlt()
-                     .solve(Eigen::MatrixXd::Identity(kTableParameters, kTableParameters));
+      variance *
+      solve_symmetric_columns(jacobian.transpose() * jacobian,
+                              Eigen::MatrixXd::Identity(kTableParameters, kTableParameters));
   out.axis_sigma_rad = std::sqrt(covariance.diagonal().head<2>().maxCoeff());
   out.point_sigma_mm = std::sqrt(covariance.diagonal().segment<2>(2).maxCoeff());
   out.angle_rms_rad = angle_deviation_rad(problem, model);

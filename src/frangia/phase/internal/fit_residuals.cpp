@@ -4,10 +4,9 @@
 #include <cmath>
 #include <cstddef>
 
-#include <Eigen/Cholesky>
-
 #include "frangia/core/angles.h"
 #include "frangia/core/missing.h"
+#include "frangia/core/solve_symmetric.h"
 #include "frangia/phase/algorithm/phase_algorithm.h"
 
 namespace frangia {
@@ -97,7 +96,7 @@ class ResidualFitter {
     if (unknowns.shifts) prior.tail(frames).setConstant(kPriorShift_rad);
     Eigen::MatrixXd with_prior = normal;
     with_prior.diagonal() += prior.cwiseAbs2().cwiseInverse();
-    out.covariance = with_prior.ldlt().solve(Eigen::MatrixXd::Identity(count, count));
+    out.covariance = solve_symmetric_columns(with_prior, Eigen::MatrixXd::Identity(count, count));
     out.value = out.covariance * right;
     out.chi2 += out.value.dot(normal * out.value) - 2.0 * right.dot(out.value);
     return out;

@@ -3,9 +3,10 @@
 #include <algorithm>
 #include <vector>
 
-#include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <opencv2/imgproc.hpp>
+
+#include "frangia/core/solve_symmetric.h"
 
 namespace frangia {
 namespace {
@@ -48,7 +49,7 @@ EvenedWindow even_light(const cv::Mat& counts, const cv::Point& center, const cv
   }
   constexpr double kFewest = 12.0;  // pixels for three coefficients
   if (normal(0, 0) < kFewest) return {};
-  const Eigen::Vector3d plane = normal.ldlt().solve(right);
+  const Eigen::Vector3d plane = solve_symmetric(normal, right);
   const double mean = right[0] / normal(0, 0);
   constexpr double kSteepest = 0.3;  // share of the mean; beyond it the bright part is no plane
   // A plane is lowest at one of the corners.

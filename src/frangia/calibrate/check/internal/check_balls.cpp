@@ -2,13 +2,13 @@
 #include <cmath>
 #include <variant>
 
-#include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 #include <fmt/format.h>
 
 #include "frangia/calibrate/check/check_kinds.h"
 #include "frangia/calibrate/check/internal/check_limits.h"
 #include "frangia/calibrate/internal/artifact_sites.h"
+#include "frangia/core/solve_symmetric.h"
 
 namespace frangia {
 namespace {
@@ -55,7 +55,7 @@ Eigen::Vector3d center_of(const std::vector<Eigen::Vector3d>& points,
       normal += outwards * outwards.transpose();
       right += outwards * ((point - center).norm() - radius_mm);
     }
-    center += normal.ldlt().solve(right);
+    center += solve_symmetric(normal, right);
   }
   return center;
 }

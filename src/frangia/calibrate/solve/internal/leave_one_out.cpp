@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/Cholesky>
+#include "frangia/core/solve_symmetric.h"
 
 namespace frangia {
 
@@ -42,7 +42,7 @@ LeaveOneOut leave_one_out(std::span<const RigObservation> observations,
     others.block<kPose, kPose>(first, first).setIdentity();
     Eigen::VectorXd slope = gradient - jacobian.transpose() * all.residuals(rows);
     slope.segment<kPose>(first).setZero();
-    const Eigen::VectorXd step = -others.ldlt().solve(slope);
+    const Eigen::VectorXd step = -solve_symmetric(others, slope);
     const double square = (by_free * step.head(shown)).squaredNorm() / points;
     out.by_view_mm.push_back(std::sqrt(square));
     squares += square;

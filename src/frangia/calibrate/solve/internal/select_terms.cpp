@@ -2,7 +2,7 @@
 
 #include <initializer_list>
 
-#include <Eigen/Cholesky>
+#include "frangia/core/solve_symmetric.h"
 
 namespace frangia {
 namespace {
@@ -73,8 +73,9 @@ std::optional<std::size_t> best_term(std::span<const RigObservation> observation
   const Eigen::MatrixXd normal = full.jacobian.transpose() * full.jacobian;
   const Eigen::VectorXd gradient = full.jacobian.transpose() * full.residuals;
   const std::vector<Eigen::Index> active = free_columns(freedom, normal.cols());
-  const Eigen::LDLT<Eigen::MatrixXd> solver(normal(active, active));
-  const Eigen::VectorXd settled = solver.solve(gradient(active));
+  const Eigen::MatrixXd own = normal(active, active);
+  const Eigen::VectorXd slope_of_own = gradient(active);
+  const Eigen::VectorXd settled = solve_symmetric(own, slope_of_own);
   std::optional<std::size_t> best;
   double most = 0.0;
   for (std::size_t i = 0; i < terms.size(); ++i) {
@@ -82,10 +83,10 @@ std::optional<std::size_t> best_term(std::span<const RigObservation> observation
     if (added.empty()) continue;
     const Eigen::MatrixXd coupling = normal(active, added);
     const Eigen::MatrixXd free =
-        normal(added, added) - coupling.transpose() * solver.solve(coupling);
+        normal(added, added) - coupling.transpose() * solve_symmetric_columns(own, coupling);
     const Eigen::VectorXd slope = gradient(added) - coupling.transpose() * settled;
     const double gain =
-        slope.dot(free.ldlt().solve(slope)) - min_gain * static_cast<double>(added.size());
+        slope.dot(solve_symmetric(free, slope)) - min_gain * static_cast<double>(added.size());
     if (gain > most) {
       most = gain;
       best = i;

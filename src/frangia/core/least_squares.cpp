@@ -1,0 +1,11 @@
+#include "frangia/core/least_squares.h"
+
+#include <Eigen/QR>
+
+namespace frangia {
+
+Eigen::MatrixXd least_squares(const Eigen::MatrixXd& matrix, const Eigen::MatrixXd& right) {
+  return matrix.colPivHouseholderQr().solve(right);
+}
+
+}  // namespace frangia
