@@ -67,12 +67,18 @@ double AlignmentArguments::overlap_tolerance_mm() const {
   return std::max(std::abs(limits.lower), std::abs(limits.upper));
 }
 
+BestFitOptions AlignmentArguments::best_fit() const {
+  BestFitOptions options;
+  options.tolerance_mm = overlap_tolerance_mm();
+  options.reference_unit_mm = unit_mm.value_or(1.0);
+  return options;
+}
+
 Alignment align(const Mesh& mesh,
                 const RayScene& reference,
                 const AlignmentArguments& arguments,
                 const Run& run) {
-  BestFitOptions options;
-  options.tolerance_mm = arguments.overlap_tolerance_mm();
+  BestFitOptions options = arguments.best_fit();
   if (arguments.start > 0) options.start = arguments.start - 1;
   if (arguments.align == "best-fit") return align_best_fit(mesh, reference, options, run);
   Alignment as_it_stands;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,12 +17,15 @@ namespace frangia {
 struct AlignmentArguments {
   std::string align;                 ///< empty: as it stands, without a word about the alignment
   std::size_t start = 0;             ///< of poses that fit alike, counted from 1; 0: none chosen
+  std::optional<double> unit_mm;     ///< of the reference; none: not stated
   std::vector<double> tolerance_mm;  ///< one: plus and minus; two: lower and upper; none: chosen
 
   /// The tolerance band; plus and minus 0.1 mm where none is stated.
   [[nodiscard]] ToleranceLimits band() const;
   /// The deviation that still counts as overlap; 0: chosen by the size of the reference.
   [[nodiscard]] double overlap_tolerance_mm() const;
+  /// What aligning needs of them.
+  [[nodiscard]] BestFitOptions best_fit() const;
 };
 
 /// Adds the options.

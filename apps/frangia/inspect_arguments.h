@@ -1,7 +1,6 @@
 #pragma once
 
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -44,7 +43,6 @@ struct InspectArguments {
   double expansion_ppm_per_k = 0.0;
   double temperature_u_k = 0.0;
   std::vector<std::filesystem::path> outputs;
-  std::optional<double> unit_mm;                    ///< of the reference; none: not stated
   double allow_time_s = CadOptions{}.allow_time_s;  ///< for reading a CAD file
   int width_px = RenderOptions{}.width_px;
   int height_px = RenderOptions{}.height_px;

@@ -78,8 +78,7 @@ DatumFit align_by_datums(const InspectArguments& arguments,
   for (const Eigen::Vector3f& vertex : aligned.vertices_mm)
     box.extend(vertex.cast<double>());
   const DatumAlignment found = align_to_datums(datums, box.center(), 0.5 * box.diagonal().norm());
-  BestFitOptions options;
-  options.tolerance_mm = near.overlap_tolerance_mm();
+  const BestFitOptions options = near.best_fit();
   const int iterations = fit.alignment.pose.iterations;
   AlignmentPose& pose = fit.alignment.pose;
   pose = assess_pose(mesh, reference.scene, found.motion * pose.reference_from_mesh, options, run);

@@ -78,8 +78,10 @@ InspectedPart inspect_mesh(const InspectArguments& arguments,
   if (arguments.features || !plan.features.empty()) add_shared_errors(arguments, part, run);
   if (reference) add_reference(answer, *reference);
   const std::string& how = arguments.alignment.align;
-  if (reference && (how.empty() || how == "none"))
-    refuse_unit_of_pose(part.mesh, reference->scene, Eigen::Isometry3d::Identity(), {}, run);
+  if (reference && (how.empty() || how == "none")) {
+    const BestFitOptions options{.reference_unit_mm = arguments.alignment.unit_mm.value_or(1.0)};
+    refuse_unit_of_pose(part.mesh, reference->scene, Eigen::Isometry3d::Identity(), options, run);
+  }
   if (!how.empty()) {
     DatumFit fit;
     if (how == "datum") {

@@ -174,7 +174,7 @@ void add_inspect_options(CLI::App& verb, InspectArguments& arguments) {
       "CAD model (.step, .iges), to whose faces deviations are measured");
   verb.add_option(
           "--units",
-          arguments.unit_mm,
+          arguments.alignment.unit_mm,
           "unit of the reference: um, mm (default), cm, m, in, ft, or its length; CAD files "
           "state theirs")
       ->transform(unit_length());

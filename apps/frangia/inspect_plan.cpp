@@ -46,7 +46,7 @@ void apply_plan(const InspectionPlan& plan, InspectArguments& arguments) {
       if (!wrong.empty()) {
         throw Error(ErrorKind::Input, fmt::format("{}: units {}", arguments.plan.string(), wrong));
       }
-      arguments.unit_mm = std::stod(unit);
+      arguments.alignment.unit_mm = std::stod(unit);
     }
   }
   if (alignment.align.empty() && !arguments.reference.empty()) alignment.align = plan.align;

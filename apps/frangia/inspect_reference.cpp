@@ -13,7 +13,7 @@ namespace frangia {
 std::optional<Reference> read_reference(const InspectArguments& arguments, const Run& run) {
   if (arguments.reference.empty()) return std::nullopt;
   if (is_cad_file(arguments.reference)) {
-    const CadOptions options{.units = arguments.unit_mm,
+    const CadOptions options{.units = arguments.alignment.unit_mm,
                              .allow_memory = arguments.read.allow_memory_bytes,
                              .allow_time_s = arguments.allow_time_s};
     auto cad = read_cad(arguments.reference, options, run);
@@ -21,9 +21,9 @@ std::optional<Reference> read_reference(const InspectArguments& arguments, const
     return Reference{std::move(cad), std::move(scene)};
   }
   Mesh mesh = read_surface(arguments.reference, run, arguments.read);
-  if (arguments.unit_mm) {
+  if (arguments.alignment.unit_mm) {
     for (auto& vertex : mesh.vertices_mm)
-      vertex *= static_cast<float>(*arguments.unit_mm);
+      vertex *= static_cast<float>(*arguments.alignment.unit_mm);
   }
   return Reference{nullptr, RayScene(std::move(mesh), run)};
 }

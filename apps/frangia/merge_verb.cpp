@@ -105,6 +105,7 @@ void print_result(const MergedScans& result, const MergeArguments& arguments, Te
     nlohmann::ordered_json json{{"scans", result.scans.size()},
                                 {"per_scan", json_of(result.scans)},
                                 {"points", result.points},
+                                {"islands_removed", json_of(result.islands)},
                                 {"vertices", result.mesh.vertices_mm.size()},
                                 {"triangles", result.mesh.triangles.size()}};
     if (result.registration) {
@@ -125,10 +126,11 @@ void print_result(const MergedScans& result, const MergeArguments& arguments, Te
   if (terminal.quiet) return;
   write_output(merge_table(result.scans));
   write_output(dropped_text(result.scans));
-  print_text("{} points from {} -> {} triangles\n",
+  print_text("{} points from {} -> {} triangles{}\n",
              result.points,
              counted(result.scans.size(), "scan"),
-             result.mesh.triangles.size());
+             result.mesh.triangles.size(),
+             text_of(result.islands));
   std::vector<std::filesystem::path> written = arguments.outputs.paths;
   if (!arguments.poses.empty()) written.push_back(arguments.poses);
   print_mesh_summary(terminal, written);

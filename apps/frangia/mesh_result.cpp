@@ -1,8 +1,10 @@
 #include "mesh_result.h"
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 #include <sys/resource.h>
 
+#include "counted.h"
 #include "print_text.h"
 
 namespace frangia {
@@ -29,6 +31,18 @@ void print_mesh_result(nlohmann::ordered_json result,
   for (const auto& path : outputs)
     result["outputs"].push_back(path.string());
   print_json(result);
+}
+
+nlohmann::ordered_json json_of(const RemovedIslands& removed) {
+  return {{"count", removed.count},
+          {"triangles", removed.triangles},
+          {"largest_mm", removed.largest_mm}};
+}
+
+std::string text_of(const RemovedIslands& removed) {
+  if (removed.count == 0) return {};
+  return fmt::format(
+      ", {} of at most {:.3g} mm removed", counted(removed.count, "island"), removed.largest_mm);
 }
 
 void print_mesh_summary(Terminal& terminal, const std::vector<std::filesystem::path>& outputs) {

@@ -7,6 +7,8 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include "frangia/reconstruct/finish_mesh.h"
+
 #include "terminal.h"
 
 namespace frangia {
@@ -18,6 +20,12 @@ void print_mesh_result(nlohmann::ordered_json result,
                        const std::string& untrusted_reason,
                        Terminal& terminal,
                        const std::vector<std::filesystem::path>& outputs);
+
+/// The JSON value of the components that were removed.
+[[nodiscard]] nlohmann::ordered_json json_of(const RemovedIslands& removed);
+
+/// ", 3 islands of at most 0.5 mm removed"; empty when there were none.
+[[nodiscard]] std::string text_of(const RemovedIslands& removed);
 
 /// Prints the end of the result for people: the files written and, under --verbose, the seconds of
 /// each stage and the peak memory.

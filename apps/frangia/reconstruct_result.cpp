@@ -163,6 +163,7 @@ nlohmann::ordered_json json_of(const Reconstruction& result, const std::filesyst
   json["per_view"] = json_of(result.view_summaries);
   json["vertices"] = result.mesh.vertices_mm.size();
   json["triangles"] = result.mesh.triangles.size();
+  json["islands_removed"] = json_of(result.islands);
   json["median_sigma"] = json_of(result.sigma);
   if (!std::isnan(result.disagreement_mm)) {
     json["directions"] = {{"disagreement_mm", result.disagreement_mm},
@@ -200,11 +201,12 @@ void print_reconstruction(const Reconstruction& result,
   terminal.finish();
   print_cameras(result);
   write_output(table_of(result.view_summaries));
-  print_text("{} points from {} -> {} triangles{}\n",
+  print_text("{} points from {} -> {} triangles{}{}\n",
              result.points,
              counted(result.views, "view"),
              result.mesh.triangles.size(),
-             text_of(result.sigma));
+             text_of(result.sigma),
+             text_of(result.islands));
   if (result.refinement) print_refinement(*result.refinement);
   if (!std::isnan(result.disagreement_mm)) {
     print_text("directions of fringes: {:.4f} mm apart (median), {:.1f} times their noise: {}\n",

@@ -197,6 +197,13 @@ TEST(RefuseUnitOfPose, ComparesTheOverlapsAndNotTheBoxes) {
               refuse_unit_of_pose(scaled(make_bracket(), 1000.0F), reference, here);
             }).find("1000 times as large"),
             std::string::npos);
+  // A reference in mm that was read in metres.
+  const RayScene metres(scaled(make_bracket(), 1000.0F));
+  const std::string advice = testing::error_of(
+      [&] { refuse_unit_of_pose(make_bracket(), metres, here, {.reference_unit_mm = 1000.0}); });
+  EXPECT_NE(advice.find("0.001 times as large"), std::string::npos) << advice;
+  EXPECT_NE(advice.find("a unit of 1000 mm, and mm fits: state that by `units`"), std::string::npos)
+      << advice;
 }
 
 }  // namespace

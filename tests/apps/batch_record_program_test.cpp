@@ -102,6 +102,25 @@ TEST_F(BatchRecord, AFrameThatChangesOrGoesIsSeen) {
   EXPECT_EQ(run("--table").exit_code, 0);
 }
 
+TEST_F(BatchRecord, TheCovarianceOfTheRigIsOneOfTheInputs) {
+  std::ofstream(one() / "a" / "rig.toml", std::ios::app)
+      << "\n[calibration]\ncovariance = \"uncertain.csv\"\n";
+  const auto write_variance = [](const char* variance) {
+    std::ofstream(one() / "a" / "uncertain.csv")
+        << "parameter,camera.focal_px\ncamera.focal_px," << variance << '\n';
+  };
+  write_variance("0.25");
+  ASSERT_EQ(run().exit_code, 0);
+  EXPECT_FALSE(is_done_again());
+  write_variance("0.50");
+  EXPECT_TRUE(is_done_again());
+  fs::rename(one() / "a" / "uncertain.csv", out("record") / "uncertain.csv");
+  fs::create_symlink(out("record") / "uncertain.csv", one() / "a" / "uncertain.csv");
+  EXPECT_EQ(run().exit_code, 4);
+  const Answer linked = run("--table");
+  EXPECT_NE(linked.output.find("uncertain.csv: is a link to "), std::string::npos) << linked.output;
+}
+
 TEST_F(BatchRecord, AMissingFileThatAppearsIsSeen) {
   fs::remove(one() / "a" / "rig.toml");
   const auto mark = result("done.json");

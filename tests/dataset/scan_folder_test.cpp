@@ -56,8 +56,12 @@ TEST(ReadScanFault, AMissingFrameIsNamed) {
 
 TEST(ReadScanFault, ASurplusFrameIsNamed) {
   const SmallFolder folder;
-  std::filesystem::copy_file(folder.view() / "fringe-2.png", folder.view() / "fringe-4.png");
-  expect_names(complaint(folder), "fringe-4.png");
+  for (const char* surplus : {"fringe-4.png", "fringe-4294967296.png", "fringe-99999999999.png"}) {
+    const auto file = folder.view() / surplus;
+    std::filesystem::copy_file(folder.view() / "fringe-2.png", file);
+    expect_names(complaint(folder), surplus);
+    std::filesystem::remove(file);
+  }
 }
 
 TEST(ReadScanFault, AFrameOfAnotherSizeIsNamedWithBothSizes) {

@@ -27,6 +27,7 @@ STUDIES = [
     "inputs",
     "mutated_files",
     "batch_faults",
+    "batch_cuts",
     "transactions",
     "hostile_requests",
 ]

@@ -1,6 +1,9 @@
 """What the studies share: the program, a small rig, the result of an undisturbed scan, and their answers."""
+import contextlib
 import dataclasses
 import hashlib
+import json
+import os
 import pathlib
 import random
 import subprocess
@@ -22,6 +25,41 @@ class Answer:
     measured: str = ""  # further figures
 
 
+class Progress:
+    """The trials of a long study, which goes on where it was stopped: out/faults/STUDY.json holds what was tried of the same
+    program, seed and number of trials. A trial depends on its number alone, see `chance`."""
+
+    def __init__(self, path, key, answer):
+        self.path, self.key, self.answer = path, key, answer
+        self.done = 0
+        if path and path.exists():
+            with contextlib.suppress(ValueError, KeyError):
+                found = json.loads(path.read_text())
+                if found["key"] == key:
+                    self.done = found["done"]
+                    answer.failures.extend(found["failures"])
+
+    def rest(self):
+        """The numbers of the trials that are left; what is before the present one is recorded."""
+        for number in range(self.done, self.answer.tried):
+            yield number
+            self._save(number + 1)
+        if self.path:
+            self.path.unlink(missing_ok=True)
+
+    def chance(self, number):
+        """Random choices of one trial."""
+        return random.Random(f"{self.key.split()[1]} {number}")
+
+    def _save(self, done):
+        if not self.path:
+            return
+        self.path.parent.mkdir(parents=True, exist_ok=True)
+        temporary = self.path.with_suffix(".tmp")
+        temporary.write_text(json.dumps({"key": self.key, "done": done, "failures": self.answer.failures}))
+        os.replace(temporary, self.path)
+
+
 class Campaign:
     """One run: `count(short, long)` chooses how much is tried."""
 
@@ -37,6 +75,12 @@ class Campaign:
 
     def count(self, short, long):
         return long if self.is_long else short
+
+    def progress(self, answer, program=None):
+        """The progress of a study with this program, or with another one."""
+        digest = hashlib.sha256((program or self.program).read_bytes()).hexdigest()[:16]
+        path = ROOT / "out" / "faults" / f"{answer.name}.json" if self.is_long else None
+        return Progress(path, f"{digest} {self.seed} {answer.tried}", answer)
 
     def latency(self, seconds):
         """The limit of a latency: in the short run, beside other tests, only that it ends."""

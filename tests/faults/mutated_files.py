@@ -1,11 +1,8 @@
 """Mutated CAD, .mat, JSON and project files: no crash, no hang, no unbounded memory, no number that is none.
 
-The long form goes on where it was stopped: its progress is in out/faults/mutated_files.json, by the seed and the program.
 With `--asan PROGRAM`, a program built with sanitizers reads the files, without limits of memory.
 """
 import contextlib
-import hashlib
-import json
 import os
 import pathlib
 import random
@@ -20,7 +17,6 @@ from mutate_inputs import CALIBRATIONS, SMALL_RIG, Case, mutate, sheet_ply
 
 CAD = ROOT / "tests" / "data" / "cad"
 STEP_S = 3  # processor time of a CAD file
-BLOCK = 100  # inputs between two records of progress
 MOST_GROWTH_MB = 256
 KINDS = ["cad", "mat", "json", "project"]
 
@@ -155,30 +151,6 @@ def reading_fault(program, case, seed, keep):
     return mutate_inputs.run_one(program, case, seed, keep)
 
 
-class Progress:
-    """What was tried so far; a long run goes on from it."""
-
-    def __init__(self, path, key):
-        self.path, self.key = path, key
-        self.state = {"key": key, "done": 0, "failures": []}
-        if path and path.exists():
-            with contextlib.suppress(ValueError):
-                found = json.loads(path.read_text())
-                self.state = found if found.get("key") == key else self.state
-
-    def save(self, done, failures):
-        if not self.path:
-            return
-        self.path.parent.mkdir(parents=True, exist_ok=True)
-        temporary = self.path.with_suffix(".tmp")
-        temporary.write_text(json.dumps({"key": self.key, "done": done, "failures": failures}))
-        os.replace(temporary, self.path)
-
-    def end(self):
-        if self.path:
-            self.path.unlink(missing_ok=True)
-
-
 def run(campaign):
     program = campaign.asan or campaign.program
     answer = Answer(
@@ -187,9 +159,8 @@ def run(campaign):
         + (", with sanitizers" if campaign.asan else ""),
         campaign.count(60, 10000),
     )
-    key = f"{hashlib.sha256(program.read_bytes()).hexdigest()[:16]} {campaign.seed} {answer.tried}"
-    progress = Progress(ROOT / "out" / "faults" / "mutated_files.json" if campaign.is_long else None, key)
-    failures = list(progress.state["failures"])
+    progress = campaign.progress(answer, program)
+    failures = answer.failures
     if campaign.asan:
         mutate_inputs.SLOWDOWN = max(mutate_inputs.SLOWDOWN, 4.0)
         mutate_inputs.MAX_SECONDS = 5 * mutate_inputs.SLOWDOWN
@@ -199,7 +170,7 @@ def run(campaign):
         cases["json"].append(batch_case(program, folder))
         projects = Projects(program, folder, mutate_inputs.SLOWDOWN == 1)
         try:
-            for i in range(progress.state["done"], answer.tried):
+            for i in progress.rest():
                 seed = campaign.seed * 1_000_000 + i
                 chance = random.Random(seed)
                 kind = KINDS[i % len(KINDS)]
@@ -212,11 +183,7 @@ def run(campaign):
                     fault = reading_fault(program, chance.choice(cases[kind]), seed, campaign.work / "found")
                 if fault:
                     failures.append(fault)
-                if (i + 1) % BLOCK == 0:
-                    progress.save(i + 1, failures)
         finally:
             projects.stop()
-    progress.end()
-    answer.failures = failures
     answer.measured = f"{answer.tried} mutated inputs, {len(failures)} faults"
     return answer

@@ -16,7 +16,7 @@ def unescape(text):
     return bytes.fromhex(text.replace("\\x", ""))
 
 
-def record(command, log):
+def record(command, log, folder=None):
     """Runs a command under strace; returns its exit code. The search for leaks does not work under it."""
     environment = {**os.environ, "ASAN_OPTIONS": "detect_leaks=0"}
     return subprocess.run(
@@ -24,6 +24,7 @@ def record(command, log):
         stdout=subprocess.DEVNULL,
         stderr=subprocess.DEVNULL,
         env=environment,
+        cwd=folder,
     ).returncode
 
 

@@ -111,6 +111,53 @@ std::size_t parts_of(const Mesh& mesh) {
   return static_cast<std::size_t>(std::unique(part.begin(), part.end()) - part.begin());
 }
 
+/// A cube of 12 mm whose sides are grids with vertices of their own, as programs write sharp edges
+/// and seams of textures. With holes, each side lacks a face.
+Solid cube_of_grids(bool with_holes) {
+  constexpr int kCells = 4;
+  Solid cube;
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const double end : {0.0, 12.0}) {
+      const std::size_t first = cube.vertices.size();
+      for (int i = 0; i <= kCells; ++i) {
+        for (int j = 0; j <= kCells; ++j) {
+          Vector3d point;
+          point[axis] = end;
+          point[(axis + 1) % 3] = 3.0 * i;
+          point[(axis + 2) % 3] = 3.0 * j;
+          cube.vertices.push_back(point);
+          if (i == kCells || j == kCells || (with_holes && i == 1 && j == 1)) continue;
+          const std::size_t at = first + static_cast<std::size_t>(i * (kCells + 1) + j);
+          std::vector<std::size_t> face{at, at + kCells + 1, at + kCells + 2, at + 1};
+          if (end == 0.0) std::reverse(face.begin(), face.end());
+          cube.faces.push_back(face);
+        }
+      }
+    }
+  }
+  return cube;
+}
+
+TEST_F(ForeignMeshes, VerticesThatStandTwiceAtSeamsAreJoined) {
+  const Solid cube = cube_of_grids(false);
+  for (const auto& [name, text] : {std::pair("cube.obj", obj_of(cube)),
+                                   std::pair("cube.off", off_of(cube)),
+                                   std::pair("cube.ply", ply_of(cube))}) {
+    const Mesh mesh = read(name, text);
+    EXPECT_EQ(mesh.vertices_mm.size(), 98U) << name;
+    EXPECT_EQ(testing::Edges(mesh).open, 0U) << name;
+    EXPECT_NEAR(volume_of(mesh), 1728.0, 1e-2);
+    EXPECT_TRUE(
+        said("stand twice where faces meet, as at seams of normals or textures; 150 vertices "
+             "were joined to 98"))
+        << said();
+  }
+  // Holes stay.
+  const Mesh open = read("open.obj", obj_of(cube_of_grids(true)));
+  EXPECT_EQ(parts_of(open), 1U);
+  EXPECT_EQ(testing::Edges(open).open, 24U);
+}
+
 TEST_F(ForeignMeshes, ClosedBodiesThatTouchStayApart) {
   const std::vector<Eigen::Vector2d> square{{0, 0}, {10, 0}, {10, 10}, {0, 10}};
   // Beside the first: at a corner, along an edge, with a whole side, and with another one.

@@ -33,6 +33,18 @@ TEST_F(ForeignMeshes, ObjStatementsGoOnBehindABackslashAndEndAtAComment) {
   EXPECT_FLOAT_EQ(read("a.obj", "v 1.5D+01 2d0 -3D-1\n").vertices_mm[0].x(), 15.0F);
 }
 
+TEST_F(ForeignMeshes, ColorsOfVerticesInOffAreWholeNumbersOrShares) {
+  const std::vector<VertexColor> wanted{{255, 0, 0}, {0, 255, 0}, {0, 0, 255}};
+  EXPECT_EQ(read("a.off",
+                 "COFF\n3 1 0\n0 0 0 255 0 0 255\n1 0 0 0 255 0 255\n0 1 0 0 0 255 255\n3 0 1 2\n")
+                .colors,
+            wanted);
+  EXPECT_EQ(
+      read("a.off", "COFF 3 1 0\n0 0 0 1.0 0 0 1\n1 0 0 0 1. 0\n0 1 0 0 0 1e0\n3 0 1 2\n").colors,
+      wanted);
+  EXPECT_TRUE(read("a.off", "COFF\n3 1 0\n0 0 0 255 0 0\n1 0 0\n0 1 0\n3 0 1 2\n").colors.empty());
+}
+
 /// The text in UTF-16, low byte first or last, with its mark.
 std::string utf16_of(const std::string& text, bool big_endian) {
   std::string bytes = big_endian ? "\xFE\xFF" : "\xFF\xFE";

@@ -1,8 +1,11 @@
 #include "frangia/geometry/connected_components.h"
 
+#include <string>
+
 #include <gtest/gtest.h>
 
 #include "frangia/core/error.h"
+#include "frangia/core/run.h"
 #include "frangia/geometry/vertex_data.h"
 
 #include "support/test_meshes.h"
@@ -40,6 +43,21 @@ TEST(RemoveIslands, RemovesUpToTheSizeButNeverTheLargest) {
   EXPECT_EQ(remove_islands(three_boxes(), 1.7).triangles.size(), 36U);  // sqrt(3) is larger
   EXPECT_EQ(remove_islands(three_boxes(), 1.8).triangles.size(), 24U);
   EXPECT_EQ(remove_islands(three_boxes(), 100.0).triangles.size(), 12U);
+}
+
+TEST(RemoveIslands, SaysWhatItRemovedAndThatTheSizeIsTooLarge) {
+  std::string notes;
+  std::string warnings;
+  frangia::Run run;
+  run.on_note = [&](const std::string& text) { notes += text; };
+  run.on_warning = [&](const std::string& text) { warnings += text; };
+  static_cast<void>(remove_islands(three_boxes(), 3.1, run));
+  EXPECT_EQ(notes, "2 of 3 components removed, 24 triangles in total");
+  EXPECT_EQ(warnings, "");
+  static_cast<void>(remove_islands(three_boxes(), 500.0, run));
+  EXPECT_NE(warnings.find("up to 500 mm are all components; the one of the largest area, of 7 mm"),
+            std::string::npos)
+      << warnings;
 }
 
 }  // namespace

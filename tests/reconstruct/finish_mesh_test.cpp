@@ -39,7 +39,7 @@ TEST(FinishMesh, ClosesAndMarksWhatItSynthesizes) {
   std::string notes;
   frangia::Run run;
   run.on_note = [&](const std::string& text) { notes += text; };
-  const Mesh closed = finish_mesh(open, {.watertight = true}, run);
+  const Mesh closed = finish_mesh(open, {.watertight = true}, run).mesh;
   EXPECT_TRUE(boundary_loops(closed).empty());
   EXPECT_EQ(count_non_manifold_edges(closed), 0U);
   ASSERT_EQ(closed.triangle_marks.size(), closed.triangles.size());
@@ -64,7 +64,7 @@ TEST(FinishMesh, StopsWhenItIsCancelledWhileItFillsHoles) {
 
 TEST(FinishMesh, StaysWithinTheTolerance) {
   const Mesh mesh = make_part("bracket");
-  const Mesh fewer = finish_mesh(mesh, {.tolerance_mm = 0.05});
+  const Mesh fewer = finish_mesh(mesh, {.tolerance_mm = 0.05}).mesh;
   EXPECT_LT(fewer.triangles.size(), mesh.triangles.size() / 2);
   const RayScene before(mesh);
   const RayScene after(fewer);
@@ -101,13 +101,16 @@ TEST(FinishMesh, RemovesIslandsOfAFewVoxelsOrOfTheirSigmaAndCountsThem) {
   std::string notes;
   frangia::Run run;
   run.on_note = [&](const std::string& text) { notes += text; };
-  const Mesh finished = finish_mesh(mesh, {}, run);
-  EXPECT_EQ(finished.triangles.size(), 2U * (80U * 80U + 20U * 20U));
+  const FinishedMesh finished = finish_mesh(mesh, {}, run);
+  EXPECT_EQ(finished.removed.count, 2U);
+  EXPECT_EQ(finished.removed.triangles, 2U * (4U * 4U + 20U * 20U));
+  EXPECT_GT(finished.removed.largest_mm, 28.0);
+  EXPECT_EQ(finished.mesh.triangles.size(), 2U * (80U * 80U + 20U * 20U));
   EXPECT_NE(notes.find("2 of 4 components removed"), std::string::npos) << notes;
   EXPECT_NE(notes.find("832 triangles"), std::string::npos) << notes;
-  EXPECT_EQ(finish_mesh(mesh, {.keep_islands = true}).triangles.size(), mesh.triangles.size());
+  EXPECT_EQ(finish_mesh(mesh, {.keep_islands = true}).mesh.triangles.size(), mesh.triangles.size());
   // Alone, an island is all that was measured.
-  EXPECT_EQ(finish_mesh(sheet(4, 0.0F, 0.02F), {}).triangles.size(), 32U);
+  EXPECT_EQ(finish_mesh(sheet(4, 0.0F, 0.02F), {}).mesh.triangles.size(), 32U);
 }
 
 TEST(LimitTriangles, KeepsTheCountAndNotesTheDistance) {

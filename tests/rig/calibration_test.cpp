@@ -85,6 +85,31 @@ TEST(Calibration, OfAWrittenRigIsReadBack) {
   EXPECT_EQ(named.calibration->covariance.covariance, rig.calibration->covariance.covariance);
 }
 
+/// A scan of somebody else names its covariance, whose values messages repeat.
+TEST(ReadRig, FollowsNoLinkToItsCovariance) {
+  const TemporaryFolder folder;
+  Rig rig = read_rig(save_known(folder, kSizesOnly), {}, RigContent::StartValues);
+  rig.calibration = Calibration{.covariance_file = "rig-covariance.csv"};
+  const auto path = folder.path() / "scan" / "rig.toml";
+  std::filesystem::create_directory(folder.path() / "scan");
+  write_rig(path, rig);
+  const auto link = folder.path() / "scan" / "rig-covariance.csv";
+  std::ofstream(folder.path() / "secret.csv") << "parameter,secret\n";
+  for (const char* target : {"../secret.csv", "../none.csv"}) {
+    std::filesystem::create_symlink(target, link);
+    const std::string refused =
+        testing::error_of([&] { static_cast<void>(read_rig_covariance(link, rig)); });
+    EXPECT_NE(refused.find(link.string() + ": is a link to " + target), std::string::npos)
+        << refused;
+    EXPECT_EQ(refused.find("'secret'"), std::string::npos) << refused;
+    std::filesystem::remove(link);
+  }
+  std::ofstream(link) << std::string(5'000'000, ',');
+  const std::string large =
+      testing::error_of([&] { static_cast<void>(read_rig_covariance(link, rig)); });
+  EXPECT_NE(large.find("5000000 bytes"), std::string::npos) << large;
+}
+
 TEST(WriteRig, CarriesTheDevicesOfAnotherFileOver) {
   const TemporaryFolder folder;
   const auto known = save_known(folder, kSizesOnly);

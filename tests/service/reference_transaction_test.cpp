@@ -1,6 +1,8 @@
+#include <atomic>
 #include <cerrno>
 #include <filesystem>
 #include <string>
+#include <thread>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -20,6 +22,7 @@ TEST_F(ReferenceTransaction, ReplacesTheReferenceOrKeepsIt) {
     return nlohmann::json{{"name", name}, {"format", "stl"}, {"bytes", bytes.size()}};
   };
   static_cast<void>(command("set-reference", send_reference("a")));
+  EXPECT_EQ(finish().at("state"), "done");
   std::string present = "a";
   std::size_t refused = 0;
   for (std::size_t at = 0; at < 14; ++at) {
@@ -28,7 +31,8 @@ TEST_F(ReferenceTransaction, ReplacesTheReferenceOrKeepsIt) {
     bool failed = false;
     {
       const testing::FileFault fault(project().string(), at, false, [] { return ENOSPC; });
-      failed = !refusal("set-reference", arguments.dump()).empty();
+      failed =
+          !refusal("set-reference", arguments.dump()).empty() || finish().at("state") != "done";
     }
     refused += failed ? 1 : 0;
     const std::string shown = state().at("project").at("reference").at("name");
@@ -44,6 +48,39 @@ TEST_F(ReferenceTransaction, ReplacesTheReferenceOrKeepsIt) {
     present = shown;
   }
   EXPECT_GT(refused, 5U);
+}
+
+/// The thread that answers every client must not wait for a disk.
+TEST_F(ReferenceTransaction, WaitsForTheDiskOnTheThreadOfTheJobs) {
+  begin(2);
+  service_->add_to_reference(0, "solid");
+  const auto here = std::this_thread::get_id();
+  std::atomic<int> by_command = 0;
+  std::atomic<int> by_job = 0;
+  {
+    const testing::FileFault watch(project().string(), 0, true, [&] {
+      ++(std::this_thread::get_id() == here ? by_command : by_job);
+      return 0;
+    });
+    const nlohmann::json arguments = {{"name", "a"}, {"format", "stl"}, {"bytes", 5}};
+    EXPECT_TRUE(command("set-reference", arguments).contains("job"));
+    EXPECT_EQ(finish().at("state"), "done");
+  }
+  EXPECT_LE(by_command, 1) << "the file is renamed";
+  EXPECT_GE(by_job, 4) << "the file is synced, its name written, synced and renamed";
+}
+
+TEST_F(ReferenceTransaction, IsThereForAComparisonThatFollowsAtOnce) {
+  begin(2);
+  const Mesh nominal = testing::box({-5, -5, -5}, {5, 5, 5});
+  write_mesh(folder_.path() / "box.stl", nominal);
+  const std::string bytes = testing::bytes_of(folder_.path() / "box.stl");
+  service_->add_to_reference(0, bytes);
+  static_cast<void>(
+      command("set-reference", {{"name", "box"}, {"format", "stl"}, {"bytes", bytes.size()}}));
+  static_cast<void>(command("compare", {{"align", "none"}}));
+  EXPECT_EQ(finish().at("state"), "done");
+  EXPECT_EQ(state().at("project").at("surface").at("comparison").at("reference"), "box");
 }
 
 }  // namespace

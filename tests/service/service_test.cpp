@@ -195,6 +195,7 @@ TEST_F(ServiceTest, ComparesTheSurfaceWithAReferenceThatArrivesInPieces) {
   EXPECT_NE(refusal("set-reference", asked.dump()), "");
   asked["format"] = "stl";
   static_cast<void>(command("set-reference", asked));
+  EXPECT_EQ(finish().at("state"), "done");
   EXPECT_NE(refusal("compare", R"({"lower_mm": 1, "upper_mm": 0})"), "");
   static_cast<void>(command("compare", {{"align", "none"}, {"lower_mm", -0.1}, {"upper_mm", 0.2}}));
   ASSERT_EQ(finish().at("state"), "done");

@@ -122,5 +122,39 @@ class Length(Tree):
         self.assertNotIn("a.cpp", text)
 
 
+class Promises(Tree):
+    """The sections that the check asks for, with one promise each."""
+
+    def pages(self, promise):
+        self.write("tests/CMakeLists.txt", "add_test(NAME app.story)\n")
+        self.write("tests/faults/kills.py", "")
+        self.write("tests/core/run_test.cpp", "TEST(RunOfAll, Ends) {\n")
+        sections = ["Light and motion", "A scan folder", "The app", "Files from elsewhere"]
+        kept = "".join(f"## {name}\n\n- It holds (study `kills`).\n\n" for name in sections)
+        self.write("docs/reliability.md", f"{kept}## Work and memory\n\n- {promise}\n")
+        sections = [
+            "Who may ask",
+            "From other machines",
+            "Revisions and versions",
+            "Live state",
+            "A project on the disk",
+        ]
+        self.write("docs/service-api.md", "".join(f"## {name}\n\nYes (`app.story`).\n\n" for name in sections))
+        return self.answer("check_promises.py", self.root)
+
+    def test_allow_what_names_its_test(self):
+        self.assertEqual(self.pages("All ends (`RunOfAll`)."), (0, "\n"))
+
+    def test_refuse_what_names_none(self):
+        code, text = self.pages("All ends.")
+        self.assertEqual(code, 1)
+        self.assertIn("docs/reliability.md: no test is named for: - All ends.", text)
+
+    def test_refuse_a_test_that_is_not_there(self):
+        code, text = self.pages("All ends (`RunOfAll`, `RunOfNothing`).")
+        self.assertEqual(code, 1)
+        self.assertIn("there is no test 'RunOfNothing'", text)
+
+
 if __name__ == "__main__":
     unittest.main()

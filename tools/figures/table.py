@@ -31,7 +31,7 @@ SECTIONS = {
     "capture_overhead": Inputs("scan", files="examples/simulated-digital.toml", case_s=6),
     "import_frames": Inputs("simulate import decode", case_s=8),
     "batch": Inputs("simulate reconstruct batch", case_s=350),
-    "file_readers": Inputs("simulate edit", files="tools/check_files.py tools/meshlab.py", case_s=60),
+    "files": Inputs("edit", files="tools/check_files.py tools/measured_files.py", case_s=200),
     "harmonics": Inputs(SCAN + " decode response", case_s=6),
     "indirect_light": Inputs(SCAN + " plan", case_s=40),
     "sequence_faults": Inputs("simulate decode", case_s=1),

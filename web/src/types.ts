@@ -18,6 +18,7 @@ export interface Job {
     | 'reconstruct'
     | 'edit'
     | 'preview'
+    | 'reference'
     | 'compare'
     | 'export';
   state: JobState;

@@ -28,10 +28,14 @@ std::vector<fs::path> files_of_option(const std::vector<std::string>& words,
   return values;
 }
 
-/// The images in a view's folder, of all cameras. Sets that were captured again keep the earlier
-/// frames in `rejected`.
-void add_frames(const BatchScan& scan, NamedFiles& files) {
-  for (const ScanView& view : read_scan(scan.folder).views) {
+/// The covariance of the rig, and the images in each view's folder, of all cameras. Sets that were
+/// captured again keep the earlier frames in `rejected`.
+void add_files_of_scan(const BatchScan& scan, NamedFiles& files) {
+  const Scan read = read_scan(scan.folder);
+  const auto& calibration = read.rig.calibration;
+  if (calibration && !calibration->covariance_file.empty())
+    files.emplace(calibration->covariance_file, scan.folder / calibration->covariance_file);
+  for (const ScanView& view : read.views) {
     fs::recursive_directory_iterator entry(scan.folder / view.folder);
     for (; entry != fs::recursive_directory_iterator(); ++entry) {
       if (entry->path().filename() == "rejected") entry.disable_recursion_pending();
@@ -49,7 +53,7 @@ NamedFiles inputs_of(const BatchScan& scan) {
   for (const char* file : {"scan.toml", "rig.toml"})
     files.emplace(file, scan.folder / file);
   try {
-    add_frames(scan, files);
+    add_files_of_scan(scan, files);
   } catch (const std::exception&) {  // the step that reads the scan says what is wrong
   }
   if (!scan.edit.empty()) files.emplace("edit", scan.edit);

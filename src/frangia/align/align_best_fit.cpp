@@ -44,6 +44,7 @@ void BestFitOptions::check() const {
   require(tolerance_mm >= 0.0, "BestFitOptions: tolerance_mm must not be negative");
   require(least_overlap > 0.0 && least_overlap <= 1.0,
           "BestFitOptions: least_overlap must be above 0 and at most 1");
+  require(reference_unit_mm > 0.0, "BestFitOptions: reference_unit_mm must be above 0");
   require(rotations >= 1, "BestFitOptions: rotations must be at least 1");
   require(fine_samples >= 100, "BestFitOptions: fine_samples must be at least 100");
 }

@@ -19,6 +19,7 @@ struct BestFitOptions {
   double tolerance_mm = 0.0;   ///< deviation of the part that still counts as overlap; 0: 0.2 % of
                                ///< the size of the reference
   double least_overlap = 0.3;  ///< below, the reference is of another part
+  double reference_unit_mm = 1.0;    ///< by which the file of the reference was read, for messages
   std::optional<std::size_t> start;  ///< index of the pose to choose among `AlignmentPose`s
   std::size_t rotations = 800;       ///< evenly spread, that the search starts from
   std::size_t fine_samples = 30000;  ///< of the mesh in the last fit

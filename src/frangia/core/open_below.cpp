@@ -40,8 +40,8 @@ std::vector<std::string> components_of(const fs::path& folder, const fs::path& i
   const auto count = ::readlinkat(folder, name.c_str(), target.data(), target.size() - 1);
   refuse_below(
       shown,
-      fmt::format("is a link to {}, and links in a scan or project are not followed; put the "
-                  "files themselves here, or bind-mount the other disk here",
+      fmt::format("is a link to {}, and links in a scan, in a project and beside a rig are not "
+                  "followed; put the files themselves here, or bind-mount the other disk here",
                   count > 0 ? target.data() : "another place"));
 }
 

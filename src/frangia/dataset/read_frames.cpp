@@ -2,12 +2,13 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
+#include <charconv>
 #include <cmath>
 #include <exception>
 #include <filesystem>
 #include <fstream>
 #include <functional>
+#include <limits>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -24,20 +25,21 @@ namespace {
 
 constexpr std::string_view kFloatEnding = ".tiff";
 
-/// The frame number in "NAME-12.png" or "NAME-12@1.png", or -1.
+/// The frame number in "NAME-12.png" or "NAME-12@1.png", or -1. One that no `int` holds is the
+/// largest one.
 int frame_number(const std::string& file,
                  const std::string& pattern_name,
                  std::string_view ending) {
-  const std::size_t begin = pattern_name.size() + 1;
-  if (file.size() <= begin + ending.size() || file.size() > begin + ending.size() + 9) return -1;
-  if (file.compare(0, begin, pattern_name + "-") != 0) return -1;
-  if (file.compare(file.size() - ending.size(), ending.size(), ending) != 0) return -1;
-  std::string digits = file.substr(begin, file.size() - begin - ending.size());
-  digits.resize(std::min(digits.size(), digits.find('@')));
-  if (digits.empty()) return -1;
-  const bool all_digits = std::all_of(
-      digits.begin(), digits.end(), [](unsigned char letter) { return std::isdigit(letter) != 0; });
-  return all_digits ? std::stoi(digits) : -1;
+  std::string_view rest = file;
+  if (!rest.starts_with(pattern_name + "-") || !rest.ends_with(ending)) return -1;
+  if (rest.size() <= pattern_name.size() + 1 + ending.size()) return -1;
+  rest.remove_prefix(pattern_name.size() + 1);
+  rest.remove_suffix(ending.size());
+  rest = rest.substr(0, rest.find('@'));
+  if (rest.empty() || rest.find_first_not_of("0123456789") != std::string_view::npos) return -1;
+  int number = 0;
+  const auto read = std::from_chars(rest.data(), rest.data() + rest.size(), number);
+  return read.ec == std::errc() ? number : std::numeric_limits<int>::max();
 }
 
 /// A surplus frame means that scan.toml and the files disagree on the shifts.

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <numeric>
+#include <utility>
 
 #include <Eigen/Geometry>
+#include <fmt/format.h>
 
 #include "frangia/core/disjoint_sets.h"
 #include "frangia/core/error.h"
@@ -88,14 +90,31 @@ Mesh keep_largest_components(Mesh mesh, std::size_t count) {
   return keep_components(std::move(mesh), parts, keep);
 }
 
-Mesh remove_islands(Mesh mesh, double up_to_mm) {
+Mesh remove_islands(Mesh mesh, double up_to_mm, const Run& run) {
   if (mesh.empty()) return mesh;
   const ConnectedComponents parts = connected_components(mesh);
   std::vector<std::uint8_t> keep(parts.components.size());
   for (std::size_t part = 0; part < keep.size(); ++part)
     keep[part] = parts.components[part].size_mm > up_to_mm ? 1 : 0;
-  keep[by_area(parts.components).front()] = 1;
-  return keep_components(std::move(mesh), parts, keep);
+  const std::size_t largest = by_area(parts.components).front();
+  if (keep[largest] == 0) {
+    run.warn(
+        fmt::format("islands of up to {:.4g} mm are all components; the one of the largest area, "
+                    "of {:.4g} mm, stays: choose a smaller size",
+                    up_to_mm,
+                    parts.components[largest].size_mm));
+  }
+  keep[largest] = 1;
+  const std::size_t before = mesh.triangles.size();
+  mesh = keep_components(std::move(mesh), parts, keep);
+  const auto removed = std::count(keep.begin(), keep.end(), 0);
+  if (removed > 0) {
+    run.note(fmt::format("{} of {} components removed, {} triangles in total",
+                         removed,
+                         keep.size(),
+                         before - mesh.triangles.size()));
+  }
+  return mesh;
 }
 
 }  // namespace frangia

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "frangia/core/run.h"
 #include "frangia/geometry/mesh.h"
 #include "frangia/geometry/selection.h"
 
@@ -37,7 +38,8 @@ struct ConnectedComponents {
 [[nodiscard]] Mesh keep_largest_components(Mesh mesh, std::size_t count = 1);
 
 /// Removes the components whose bounding box has at most this diagonal. The component of the
-/// largest area always stays.
-[[nodiscard]] Mesh remove_islands(Mesh mesh, double up_to_mm);
+/// largest area always stays; where it is no larger, `run` receives a warning. A note counts what
+/// is removed.
+[[nodiscard]] Mesh remove_islands(Mesh mesh, double up_to_mm, const Run& run = {});
 
 }  // namespace frangia

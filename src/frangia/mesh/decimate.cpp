@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <numeric>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -59,16 +60,14 @@ class Decimation {
         topology_(mesh, edges),
         versions_(mesh.vertices_mm.size()) {}
 
-  /// Collapses edges until `target` triangles are left or no edge may collapse. Those of `earlier`,
-  /// of a decimation that differs in the vertices that stay, come first: they are not chosen again.
-  void run(const HalfEdges& edges,
-           const std::vector<CollapseStep>& earlier,
+  /// Collapses candidates, and what they lead to, until `target` triangles are left or no edge may
+  /// collapse.
+  void run(std::vector<Candidate> candidates,
            std::size_t target,
            DistanceGuard* guard,
            const Run& run) {
     constexpr std::size_t kCollapsesPerCheck = 1024;  // about 10 ms with a guard
-    LazyPriorityQueue<Candidate> queue(earlier.empty() ? candidates_of(edges, run)
-                                                       : repeat(earlier, guard, run));
+    LazyPriorityQueue<Candidate> queue(std::move(candidates));
     const auto outdated = [this](const Candidate& candidate) {
       return candidate.version != versions_[candidate.a] + versions_[candidate.b] ||
              topology_.is_removed(candidate.a) || topology_.is_removed(candidate.b);
@@ -80,6 +79,7 @@ class Decimation {
       if (!candidate) break;
       if (outdated(*candidate)) continue;
       if (try_collapse(candidate->a, candidate->b, guard)) {
+        topology_.neighbors(candidate->a, neighbors_);
         for (const std::uint32_t v : neighbors_)
           if (const auto fresh = candidate_of(candidate->a, v)) queue.push(*fresh);
       }
@@ -90,24 +90,11 @@ class Decimation {
     }
   }
 
-  /// The collapses, in their order.
-  [[nodiscard]] const std::vector<CollapseStep>& steps() const { return steps_; }
-  /// Which triangles of the mesh are left.
-  [[nodiscard]] const std::vector<std::uint8_t>& alive() const { return topology_.alive(); }
+  /// Edges may collapse whose root mean square distance from the planes of the original is at most
+  /// this.
+  void limit(double distance_mm) { max_mean_square_ = distance_mm * distance_mm; }
 
- private:
-  [[nodiscard]] Vector3d position(std::uint32_t v) const {
-    return mesh_.vertices_mm[v].cast<double>();
-  }
-
-  /// Rounding of a quadric's error at the largest coordinate, per squared length of an edge.
-  [[nodiscard]] static double tie_weight_of(const Mesh& mesh) {
-    double largest_mm = 0.0;
-    for (const Eigen::Vector3f& vertex : mesh.vertices_mm)
-      largest_mm = std::max(largest_mm, static_cast<double>(vertex.cwiseAbs().maxCoeff()));
-    return std::numeric_limits<double>::epsilon() * largest_mm * largest_mm;
-  }
-
+  /// The edges of a mesh of which none has collapsed.
   [[nodiscard]] std::vector<Candidate> candidates_of(const HalfEdges& edges, const Run& run) const {
     constexpr std::size_t kChunk = 65'536;
     std::vector<std::vector<Candidate>> found((edges.count() + kChunk - 1) / kChunk);
@@ -129,6 +116,73 @@ class Decimation {
     return all;
   }
 
+  /// The edges of the present mesh at vertices that `chosen` marks.
+  [[nodiscard]] std::vector<Candidate> present_candidates(const std::vector<std::uint8_t>& chosen) {
+    std::vector<Candidate> found;
+    for (std::uint32_t v = 0; v < versions_.size(); ++v) {
+      if (topology_.is_removed(v) || chosen[v] == 0) continue;
+      topology_.neighbors(v, neighbors_);
+      for (const std::uint32_t other : neighbors_) {
+        if (other < v && chosen[other] != 0) continue;
+        if (const auto candidate = candidate_of(v, other)) found.push_back(*candidate);
+      }
+    }
+    return found;
+  }
+
+  /// Performs the steps of an earlier decimation, except those at vertices that stay now and those
+  /// that depend on them. Returns the vertices at which the mesh differs.
+  std::vector<std::uint8_t> repeat(const std::vector<CollapseStep>& earlier, const Run& run) {
+    constexpr std::size_t kStepsPerCheck = 16'384;
+    std::vector<std::uint8_t> differs(kept_);
+    std::vector<std::uint8_t> beside(kept_.size());  // a neighbour differs
+    const auto mark_beside = [&](std::uint32_t v) {
+      topology_.neighbors(v, neighbors_);
+      for (const std::uint32_t other : neighbors_)
+        beside[other] = 1;
+    };
+    for (std::uint32_t v = 0; v < differs.size(); ++v)
+      if (differs[v] != 0) mark_beside(v);
+    for (std::size_t i = 0; i < earlier.size(); ++i) {
+      if (i % kStepsPerCheck == 0) run.check();
+      const auto& [a, b, target_mm] = earlier[i];
+      const Vector3d target = target_mm.cast<double>();
+      const bool same = differs[a] == 0 && differs[b] == 0 &&
+                        ((beside[a] == 0 && beside[b] == 0) ||
+                         (topology_.can_collapse(a, b) && keeps_orientation(a, b, target) &&
+                          keeps_orientation(b, a, target)));
+      if (same) {
+        collapse(a, b, target);
+        beside[a] |= beside[b];
+        continue;
+      }
+      for (const std::uint32_t v : {a, b}) {
+        if (differs[v] == 0) mark_beside(v);
+        differs[v] = 1;
+      }
+    }
+    return differs;
+  }
+
+  /// The collapses, in their order.
+  [[nodiscard]] const std::vector<CollapseStep>& steps() const { return steps_; }
+  /// Which triangles of the mesh are left.
+  [[nodiscard]] const std::vector<std::uint8_t>& alive() const { return topology_.alive(); }
+  [[nodiscard]] const CollapseTopology& topology() const { return topology_; }
+
+ private:
+  [[nodiscard]] Vector3d position(std::uint32_t v) const {
+    return mesh_.vertices_mm[v].cast<double>();
+  }
+
+  /// Rounding of a quadric's error at the largest coordinate, per squared length of an edge.
+  [[nodiscard]] static double tie_weight_of(const Mesh& mesh) {
+    double largest_mm = 0.0;
+    for (const Eigen::Vector3f& vertex : mesh.vertices_mm)
+      largest_mm = std::max(largest_mm, static_cast<double>(vertex.cwiseAbs().maxCoeff()));
+    return std::numeric_limits<double>::epsilon() * largest_mm * largest_mm;
+  }
+
   [[nodiscard]] std::optional<Candidate> candidate_of(std::uint32_t a, std::uint32_t b) const {
     if (a > b) std::swap(a, b);
     if (a == b || topology_.is_fixed(a) || topology_.is_fixed(b)) return std::nullopt;
@@ -140,7 +194,7 @@ class Decimation {
     return Candidate{static_cast<float>(cost), a, b, versions_[a] + versions_[b]};
   }
 
-  /// Collapses an edge if that is allowed; `neighbors_` are then those of a.
+  /// Collapses an edge if that is allowed.
   bool try_collapse(std::uint32_t a, std::uint32_t b, DistanceGuard* guard) {
     // Rounded to the precision of the mesh, so that the checks see the final position.
     CollapseTarget target = cost_.target(a, b);
@@ -154,37 +208,6 @@ class Decimation {
     }
     collapse(a, b, target_mm);
     return true;
-  }
-
-  /// Performs the steps of an earlier decimation, except those at vertices that stay now and those
-  /// that depend on them. Returns the edges at the vertices of these: no other may collapse.
-  std::vector<Candidate> repeat(const std::vector<CollapseStep>& earlier,
-                                DistanceGuard* guard,
-                                const Run& run) {
-    constexpr std::size_t kStepsPerCheck = 16'384;
-    std::vector<std::uint8_t> differs(kept_);
-    for (std::size_t i = 0; i < earlier.size(); ++i) {
-      if (i % kStepsPerCheck == 0) run.check();
-      const auto& [a, b, target_mm] = earlier[i];
-      const Vector3d target = target_mm.cast<double>();
-      const bool same = differs[a] == 0 && differs[b] == 0 && topology_.can_collapse(a, b) &&
-                        keeps_orientation(a, b, target) && keeps_orientation(b, a, target) &&
-                        guard->allows(topology_, mesh_, a, b, {target});
-      if (!same) {
-        differs[a] = differs[b] = 1;
-        continue;
-      }
-      guard->accept();
-      collapse(a, b, target);
-    }
-    std::vector<Candidate> candidates;
-    for (std::uint32_t v = 0; v < differs.size(); ++v) {
-      if (differs[v] == 0 || topology_.is_removed(v)) continue;
-      topology_.neighbors(v, neighbors_);
-      for (const std::uint32_t other : neighbors_)
-        if (const auto candidate = candidate_of(v, other)) candidates.push_back(*candidate);
-    }
-    return candidates;
   }
 
   /// Whether no remaining triangle at v flips or becomes a sliver.
@@ -229,7 +252,6 @@ class Decimation {
     }
     versions_[a] += 1 + versions_[b];
     steps_.push_back({a, b, mesh_.vertices_mm[a]});
-    topology_.neighbors(a, neighbors_);
   }
 
   Mesh& mesh_;
@@ -248,7 +270,7 @@ Mesh decimate_to_count(Mesh mesh, std::size_t triangles, const Run& run) {
   run.check();
   const std::vector<std::uint8_t> none;
   Decimation decimation(mesh, edges, std::numeric_limits<double>::infinity(), none);
-  decimation.run(edges, {}, triangles, nullptr, run);
+  decimation.run(decimation.candidates_of(edges, run), triangles, nullptr, run);
   keep_triangles(mesh, std::vector<std::uint8_t>(decimation.alive()));
   return mesh;
 }
@@ -265,6 +287,15 @@ std::vector<std::uint8_t> kept_with(std::vector<std::uint8_t> kept,
   return kept;
 }
 
+/// The vertex that each one has become part of.
+std::vector<std::uint32_t> ends_of(const std::vector<CollapseStep>& steps, std::size_t vertices) {
+  std::vector<std::uint32_t> ends(vertices);
+  std::iota(ends.begin(), ends.end(), 0U);
+  for (auto step = steps.rbegin(); step != steps.rend(); ++step)
+    ends[step->b] = ends[step->a];
+  return ends;
+}
+
 Mesh decimate_within(Mesh mesh, const DecimateOptions& options, const Run& run) {
   // Shares of the tolerance: of the vertices during the collapses, and of the points by which the
   // result is verified. The rest is for the surface between them.
@@ -278,18 +309,28 @@ Mesh decimate_within(Mesh mesh, const DecimateOptions& options, const Run& run) 
   run.check();
   std::vector<std::uint8_t> kept(original.mesh().vertices_mm.size());
   std::vector<CollapseStep> steps;
+  std::vector<std::uint8_t> changed(kept.size(), 1);  // at which edges may collapse
+  CheckedSurface checked;
   for (int pass = 0; pass < kPasses; ++pass) {
     Mesh few = original.mesh();
     DistanceGuard guard(original, edges, kGuardedShare * options.tolerance_mm);
     Decimation decimation(few, edges, options.tolerance_mm, kept);
-    decimation.run(edges, steps, options.triangles, &guard, run);
-    steps = decimation.steps();
-    const std::vector<std::uint32_t> beyond =
-        guard.vertices_beyond(few, decimation.alive(), kVerifiedShare * options.tolerance_mm, run);
+    if (pass > 0) {
+      changed = decimation.repeat(steps, run);
+    } else if (guard.is_fine()) {  // by far most collapses, which need no guard
+      decimation.limit(guard.plain_distance_mm());
+      decimation.run(decimation.candidates_of(edges, run), options.triangles, nullptr, run);
+      decimation.limit(options.tolerance_mm);
+    }
+    guard.assign(decimation.topology(), few, ends_of(decimation.steps(), kept.size()));
+    decimation.run(decimation.present_candidates(changed), options.triangles, &guard, run);
+    const std::vector<std::uint32_t> beyond = guard.vertices_beyond(
+        few, decimation.alive(), kVerifiedShare * options.tolerance_mm, checked, run);
     if (beyond.empty()) {
       keep_triangles(few, std::vector<std::uint8_t>(decimation.alive()));
       return few;
     }
+    steps = decimation.steps();
     const bool known = std::all_of(
         beyond.begin(), beyond.end(), [&](std::uint32_t vertex) { return kept[vertex] != 0; });
     for (const std::uint32_t vertex : beyond)

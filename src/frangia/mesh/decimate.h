@@ -21,10 +21,12 @@ struct DecimateOptions {
 /// Quadrics are weighted by 1/sigma^2. A vertex takes the largest sigma, the fewest views and the
 /// largest mark of the vertices that it replaces.
 ///
-/// With a tolerance, each collapse is checked against three quarters of it at the vertices of the
-/// original and at the corners, edges and centroids of the new triangles. The result is verified
-/// against 85 % in both directions, at points a third of the mean edge length of the original mesh
-/// apart; where it is beyond, the vertices around stay and the decimation begins again.
+/// With a tolerance, edges of a fine mesh collapse first while their quadric states less than a
+/// fifth of it. Each further collapse is checked against three quarters of it at the vertices of
+/// the original and at the corners, edges and centroids of the new triangles. The result is
+/// verified against 85 % in both directions, at points a third of the mean edge length of the
+/// original mesh apart; where it is beyond, the vertices around stay, and the collapses that do not
+/// depend on them are repeated.
 ///
 /// Non-manifold edges are split first, with a warning.
 ///

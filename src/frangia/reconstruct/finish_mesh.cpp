@@ -86,42 +86,42 @@ std::vector<double> median_sigmas(const Mesh& mesh, const ConnectedComponents& p
   return medians;
 }
 
-Mesh without_islands(Mesh mesh, const Run& run) {
+RemovedIslands remove_noise(Mesh& mesh, const Run& run) {
   constexpr double kFewEdges = 6.0;  // a triangle or a few dozen, between views that do not overlap
   constexpr double kFewSigmas = 2.0;
-  if (mesh.empty()) return mesh;
+  RemovedIslands found;
+  if (mesh.empty()) return found;
   const ConnectedComponents parts = connected_components(mesh);
   const std::size_t count = parts.components.size();
-  if (count < 2) return mesh;
+  if (count < 2) return found;
   const double edges_mm = kFewEdges * mean_edge_length_mm(mesh);
   const std::vector<double> sigmas_mm = median_sigmas(mesh, parts);
   std::size_t largest = 0;
   for (std::size_t i = 0; i < count; ++i)
     if (parts.components[i].area_mm2 > parts.components[largest].area_mm2) largest = i;
   std::vector<std::uint8_t> removed(count);
-  std::size_t islands = 0;
-  double size_mm = 0.0;
   for (std::size_t i = 0; i < count; ++i) {
     const double own_mm = parts.components[i].size_mm;
     if (i == largest || own_mm > std::max(edges_mm, kFewSigmas * sigmas_mm[i])) continue;
     removed[i] = 1;
-    ++islands;
-    size_mm = std::max(size_mm, own_mm);
+    ++found.count;
+    found.largest_mm = std::max(found.largest_mm, own_mm);
   }
-  if (islands == 0) return mesh;
+  if (found.count == 0) return found;
   Selection kept(mesh.triangles.size());
   for (std::size_t t = 0; t < kept.size(); ++t)
     kept[t] = removed[parts.component_of[t]] == 0 ? 1 : 0;
   const std::size_t before = mesh.triangles.size();
   keep_triangles(mesh, kept);
+  found.triangles = before - mesh.triangles.size();
   run.note(
       fmt::format("{} of {} components removed: islands of at most {:.3g} mm, {} triangles in "
                   "total, which are too small to be told from noise; `keep_islands` keeps them",
-                  islands,
+                  found.count,
                   count,
-                  size_mm,
-                  before - mesh.triangles.size()));
-  return mesh;
+                  found.largest_mm,
+                  found.triangles));
+  return found;
 }
 
 /// The largest distance of the vertices of one mesh from another.
@@ -138,17 +138,20 @@ double max_distance_mm(const Mesh& from, const RayScene& to) {
 
 }  // namespace
 
-Mesh finish_mesh(Mesh mesh, const FinishOptions& options, const Run& run) {
-  if (!options.keep_islands) mesh = without_islands(std::move(mesh), run);
+FinishedMesh finish_mesh(Mesh mesh, const FinishOptions& options, const Run& run) {
+  FinishedMesh out;
+  if (!options.keep_islands) out.removed = remove_noise(mesh, run);
   if (options.watertight) mesh = make_watertight(std::move(mesh), run);
-  if (options.tolerance_mm <= 0.0) return mesh;
   const std::size_t before = mesh.triangles.size();
-  mesh = decimate(std::move(mesh), {.tolerance_mm = options.tolerance_mm}, run);
-  run.note(fmt::format("decimated to {} of {} triangles within {:.3g} mm",
-                       mesh.triangles.size(),
-                       before,
-                       options.tolerance_mm));
-  return mesh;
+  if (options.tolerance_mm > 0.0) {
+    mesh = decimate(std::move(mesh), {.tolerance_mm = options.tolerance_mm}, run);
+    run.note(fmt::format("decimated to {} of {} triangles within {:.3g} mm",
+                         mesh.triangles.size(),
+                         before,
+                         options.tolerance_mm));
+  }
+  out.mesh = std::move(mesh);
+  return out;
 }
 
 Mesh limit_triangles(const Mesh& mesh, std::size_t max_triangles, const Run& run) {

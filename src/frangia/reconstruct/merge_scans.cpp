@@ -127,7 +127,9 @@ MergedScans merge_scans(const std::vector<RangeScan>& scans,
   run.stage("surface");
   Mesh fused = fuse_views(all.views, all.model, options.fusion, run);
   color_vertices(fused, all.views, all.model, run);
-  out.mesh = finish_mesh(std::move(fused), options.finish, run);
+  FinishedMesh finished = finish_mesh(std::move(fused), options.finish, run);
+  out.mesh = std::move(finished.mesh);
+  out.islands = finished.removed;
   if (!out.untrusted_reason.empty()) discard_sigma(out.mesh);
   return out;
 }

@@ -66,6 +66,7 @@ struct MergedScan {
 struct MergedScans {
   Mesh mesh;                                ///< fused surface; sigma is NaN if it is not trusted
   std::vector<MergedScan> scans;            ///< in the order of the input
+  RemovedIslands islands{};                 ///< components that are not in the mesh
   std::size_t points = 0;                   ///< of all resampled scans
   std::optional<FoundPoses> found_poses;    ///< set when poses were found by shape
   std::optional<PosesReport> registration;  ///< empty when the poses were not refined

@@ -251,7 +251,9 @@ Reconstruction reconstruct(const Scan& scan, const ReconstructOptions& options, 
       register_together(std::move(setups), scan, options, std::move(outliers), out, run),
       indirect_light};
   Mesh fused = fuse_registered(registered, decoding, can, options, out, run);
-  out.mesh = finish_mesh(std::move(fused), options.finish, run);
+  FinishedMesh finished = finish_mesh(std::move(fused), options.finish, run);
+  out.mesh = std::move(finished.mesh);
+  out.islands = finished.removed;
   if (out.mesh.triangles.empty()) {
     throw Error(ErrorKind::Input,
                 explain_no_surface(scan, rays, options.decode, {out.points, unresolved}, run));

@@ -56,11 +56,12 @@ struct ReconstructOptions {
 
 /// The reconstructed surface and what the stages report.
 struct Reconstruction {
-  Mesh mesh;               ///< fused surface, object frame; sigma is NaN if it is not trusted
-  MedianSigma sigma;       ///< of the mesh's vertices
-  PointCloud raw;          ///< empty unless `keep_raw`
-  std::size_t points = 0;  ///< in all views
-  std::size_t views = 0;   ///< that hold points
+  Mesh mesh;                 ///< fused surface, object frame; sigma is NaN if it is not trusted
+  MedianSigma sigma;         ///< of the mesh's vertices
+  PointCloud raw;            ///< empty unless `keep_raw`
+  RemovedIslands islands{};  ///< components that are not in the mesh
+  std::size_t points = 0;    ///< in all views
+  std::size_t views = 0;     ///< that hold points
   std::vector<ViewSummary> view_summaries;         ///< of all views, in the order of the scan
   std::optional<RegistrationReport> registration;  ///< empty when not done
   std::vector<SetupJoin> setups;            ///< ordered by number; empty for a scan of one setup

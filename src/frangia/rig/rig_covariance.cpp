@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <filesystem>
 #include <set>
 #include <string_view>
 #include <system_error>
@@ -12,7 +14,7 @@
 
 #include "frangia/core/atomic_file.h"
 #include "frangia/core/error.h"
-#include "frangia/core/read_text_file.h"
+#include "frangia/core/open_below.h"
 #include "frangia/core/symmetric_eigen.h"
 #include "frangia/rig/internal/covariance_reader.h"
 #include "frangia/rig/internal/parameter_names.h"
@@ -24,6 +26,9 @@ namespace {
 /// Largest negative eigenvalue of the correlation matrix, and largest difference of correlations
 /// across its diagonal. The file holds nine digits.
 constexpr double kRounding = 1e-6;
+
+/// Of a file; a matrix of 400 parameters has 3 MB.
+constexpr std::uint64_t kMostCovarianceBytes = 4'000'000;
 
 /// Scales a covariance to correlations; the row of a parameter without a variance is zero.
 Eigen::MatrixXd correlation_of(const Eigen::MatrixXd& covariance, Eigen::VectorXd& sigma) {
@@ -89,13 +94,14 @@ std::vector<std::string> rig_parameter_names(const Rig& rig) {
 
 RigCovariance read_rig_covariance(const std::filesystem::path& path, const Rig& rig) {
   std::error_code error;
-  if (!std::filesystem::exists(path, error)) {
+  if (!std::filesystem::exists(std::filesystem::symlink_status(path, error))) {
     throw Error(ErrorKind::Input,
                 fmt::format("{}: there is no such file; copy it to the folder of the rig.toml that "
                             "names it, or remove the key covariance from [calibration]",
                             path.string()));
   }
-  CovarianceReader reader(path, read_text_file(path));
+  const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
+  CovarianceReader reader(path, read_below(folder, path.filename(), kMostCovarianceBytes));
   const auto header = reader.line();
   if (header.size() < 2 || header.front() != "parameter")
     reader.fail("its first line is not parameter,NAME,...");

@@ -26,9 +26,13 @@ struct RigCovariance {
 /// Reads the CSV file of a covariance: a line with the names of the parameters, then one line for
 /// each of them with its name and its covariances.
 ///
-/// @errors   Error(Input) that names the file: it does not exist, a parameter is repeated or is not
-///           one of the rig's, a line has another name or length than the header states, a value is
-///           not a finite number, or the matrix is not symmetric and positive semidefinite
+/// The name may come from a rig.toml that somebody else wrote: the file is not read through a link.
+///
+/// @errors   Error(Input) that names the file: it does not exist, is a link, no file, or larger
+/// than
+///           4 MB, a parameter is repeated or is not one of the rig's, a line has another name or
+///           length than the header states, a value is not a finite number, or the matrix is not
+///           symmetric and positive semidefinite
 [[nodiscard]] RigCovariance read_rig_covariance(const std::filesystem::path& path, const Rig& rig);
 
 /// Writes the CSV file that `read_rig_covariance` reads.

@@ -105,7 +105,7 @@ std::string Service::Implementation::command(const std::string& name, const std:
       {"edit", &Implementation::start_edit},
       {"preview", &Implementation::start_preview},
       {"drop-preview", &Implementation::drop_preview},
-      {"set-reference", &Implementation::set_reference},
+      {"set-reference", &Implementation::start_set_reference},
       {"compare", &Implementation::start_compare},
       {"estimate-export", &Implementation::estimate_export},
       {"select-component-of", &Implementation::start_select_component},

@@ -90,6 +90,7 @@ export const FRAME = {
   'job.reconstruct': ['Building the surface', 'Fläche wird berechnet'],
   'job.edit': ['Editing', 'Bearbeitung'],
   'job.preview': ['Preview', 'Vorschau'],
+  'job.reference': ['Keeping the reference', 'Referenz wird gespeichert'],
   'job.compare': ['Comparing with the reference', 'Vergleich mit der Referenz'],
   'job.export': ['Exporting', 'Export'],
   'stage.adjustment': ['adjustment', 'Ausgleichung'],

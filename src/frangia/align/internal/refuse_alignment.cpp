@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <string>
 #include <utility>
 
@@ -55,7 +56,6 @@ constexpr std::array<LengthUnit, 4> kUnits{{{"cm", 10.0}, {"in", 25.4}, {"ft", 3
 
 /// How a mesh lies on a reference whose size is multiplied by a factor.
 struct ScaledPose {
-  std::string unit;     ///< whose length the factor or its inverse is
   double factor = 1.0;  ///< of the reference
   double tolerance_mm = 0.0;
   AlignmentPose pose;
@@ -82,33 +82,52 @@ ScaledPose best_unit(const Mesh& mesh, const RayScene& reference, const PoseOf& 
       if (!(ratio / factor > kLeastSize && ratio / factor < kMostSize)) continue;
       const double tolerance_mm = scaled_tolerance_mm(mesh, factor, reference);
       const AlignmentPose pose = pose_of(scaled_by(mesh, 1.0 / factor), tolerance_mm);
-      if (pose.overlap > best.pose.overlap) best = {unit.name, factor, tolerance_mm, pose};
+      if (pose.overlap > best.pose.overlap) best = {factor, tolerance_mm, pose};
     }
   }
   return best;
 }
 
+/// The name of a length; empty where it has none.
+std::string name_of_length(double mm) {
+  const auto is_near = [](double a, double b) { return std::abs(a / b - 1.0) < 1e-9; };
+  if (is_near(mm, 1.0)) return "mm";
+  for (const LengthUnit& unit : kUnits)
+    if (is_near(mm, unit.mm)) return unit.name;
+  return {};
+}
+
+/// What to do where a reference that was read by one unit fits when it is `factor` times as large.
+std::string unit_advice(double factor, double read_by_mm) {
+  const double right_mm = factor * read_by_mm;
+  const std::string name = name_of_length(right_mm);
+  if (read_by_mm != 1.0) {
+    return fmt::format("it was read by a unit of {:.6g} mm, and {} fits: state that by `units`",
+                       read_by_mm,
+                       name.empty() ? fmt::format("{:.6g}mm", right_mm) : name);
+  }
+  if (!name.empty()) return fmt::format("its unit may be {}; state it by `units`", name);
+  return fmt::format("the unit of the mesh may be {}: write it in mm, or state {:.6g}mm by `units`",
+                     name_of_length(1.0 / right_mm),
+                     right_mm);
+}
+
 /// Refuses a mesh that clearly lies on the reference by another unit only.
-void refuse_unit(const ScaledPose& scaled, const AlignmentPose& as_it_is) {
+void refuse_unit(const ScaledPose& scaled, const AlignmentPose& as_it_is, double read_by_mm) {
   constexpr double kLeastOverlap = 0.5;
   constexpr double kLeastGain = 0.2;
   if (scaled.pose.overlap < std::max(kLeastOverlap, as_it_is.overlap + kLeastGain)) return;
-  const bool larger = scaled.factor > 1.0;
   throw Error(
       ErrorKind::Input,
       fmt::format(
           "the mesh lies on the reference only when the reference is {:.6g} times as large: "
-          "{:.0f} % within {:.3g} mm then, RMS {:.3g} mm, and {:.0f} % as it is; {} by "
-          "`units`",
+          "{:.0f} % within {:.3g} mm then, RMS {:.3g} mm, and {:.0f} % as it is; {}",
           scaled.factor,
           100.0 * scaled.pose.overlap,
           scaled.factor * scaled.tolerance_mm,
           scaled.factor * scaled.pose.rms_mm,
           100.0 * as_it_is.overlap,
-          larger ? fmt::format("its unit may be {}; state it", scaled.unit)
-                 : fmt::format("the unit of the mesh may be {}: write it in mm, or state {:.6g}mm",
-                               scaled.unit,
-                               scaled.factor)));
+          unit_advice(scaled.factor, read_by_mm)));
 }
 
 /// Says why a mesh does not lie on a reference.
@@ -152,7 +171,8 @@ void refuse_alignment(const Mesh& mesh,
                           [&](const Mesh& scaled, double within_mm) {
                             return best_pose_of(scaled, reference, options, within_mm, run);
                           }),
-                own);
+                own,
+                options.reference_unit_mm);
   }
   if (overlap >= kPlausible) return;
   const double mirrored =
@@ -176,7 +196,8 @@ void refuse_unit_of_pose(const Mesh& mesh,
                      run);
   };
   const AlignmentPose own = pose_of(mesh, scaled_tolerance_mm(mesh, 1.0, reference));
-  if (own.overlap < kPlausible) refuse_unit(best_unit(mesh, reference, pose_of), own);
+  if (own.overlap < kPlausible)
+    refuse_unit(best_unit(mesh, reference, pose_of), own, options.reference_unit_mm);
 }
 
 }  // namespace frangia

@@ -86,9 +86,9 @@ std::vector<EditOperation> topology_operations() {
       {"remove-islands",
        kRepairGroup,
        "SIZE",
-       "remove components up to this size",
-       [](EditState& s, const Text& v, const Run&) {
-         s.mesh = remove_islands(std::move(s.mesh), size_of(v));
+       "remove components up to this size; that of the largest area stays",
+       [](EditState& s, const Text& v, const Run& run) {
+         s.mesh = remove_islands(std::move(s.mesh), size_of(v), run);
        }},
       {"remove-spikes",
        kRepairGroup,

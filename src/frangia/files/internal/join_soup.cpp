@@ -8,7 +8,6 @@
 #include <numeric>
 #include <span>
 #include <tuple>
-#include <unordered_map>
 #include <vector>
 
 #include <Eigen/Geometry>
@@ -30,22 +29,22 @@ std::uint32_t corner_at(const Mesh& mesh, Side side, std::size_t further) {
   return mesh.triangles[side / 3].at((side % 3 + further) % 3);
 }
 
-/// Numbers the vertices by their positions.
+/// The first vertex at the place of each one.
 std::vector<std::uint32_t> places_of(const Mesh& mesh) {
-  const auto key_of = [&](std::uint32_t vertex) {
+  constexpr std::uint32_t kFree = UINT32_MAX;
+  const std::size_t slots = std::bit_ceil(2 * mesh.vertices_mm.size() + 1);
+  std::vector<std::uint32_t> known(slots, kFree);
+  std::vector<std::uint32_t> places(mesh.vertices_mm.size());
+  for (std::uint32_t vertex = 0; vertex < places.size(); ++vertex) {
     std::uint64_t key = 0;
     for (const float coordinate : mesh.vertices_mm[vertex])
       key = hash(key, std::bit_cast<std::uint32_t>(coordinate + 0.0F));  // -0 is 0
-    return key;
-  };
-  const auto same = [&](std::uint32_t a, std::uint32_t b) {
-    return mesh.vertices_mm[a] == mesh.vertices_mm[b];
-  };
-  std::unordered_map<std::uint32_t, std::uint32_t, decltype(key_of), decltype(same)> known(
-      mesh.vertices_mm.size() / 4, key_of, same);
-  std::vector<std::uint32_t> places(mesh.vertices_mm.size());
-  for (std::uint32_t vertex = 0; vertex < places.size(); ++vertex)
-    places[vertex] = known.emplace(vertex, vertex).first->second;
+    std::size_t slot = key & (slots - 1);
+    while (known[slot] != kFree && mesh.vertices_mm[known[slot]] != mesh.vertices_mm[vertex])
+      slot = (slot + 1) & (slots - 1);
+    if (known[slot] == kFree) known[slot] = vertex;
+    places[vertex] = known[slot];
+  }
   return places;
 }
 
@@ -85,16 +84,16 @@ struct SidesOfEdges {
   }
 };
 
-/// Whether more than half of all sides have no other triangle.
-bool is_soup(const Mesh& mesh) {
-  // Of n triangles with shared vertices, these are n / 2 to n.
-  if (mesh.triangles.size() < 2 || mesh.vertices_mm.size() <= mesh.triangles.size()) return false;
+/// Which sides have no other triangle.
+std::vector<std::uint8_t> lone_sides(const Mesh& mesh) {
   std::vector<std::uint32_t> own(mesh.vertices_mm.size());
   std::iota(own.begin(), own.end(), 0U);
-  std::size_t alone = 0;
-  SidesOfEdges(mesh, own).each(
-      [&](std::size_t first, std::size_t last) { alone += last - first == 1 ? 1U : 0U; });
-  return 2 * alone > 3 * mesh.triangles.size();
+  const SidesOfEdges sides(mesh, own);
+  std::vector<std::uint8_t> lone(3 * mesh.triangles.size());
+  sides.each([&](std::size_t first, std::size_t last) {
+    if (last - first == 1) lone[sides.entries[first].side] = 1;
+  });
+  return lone;
 }
 
 /// The angle of a side's triangle about its edge from a direction across the edge, in small steps.
@@ -167,10 +166,22 @@ void keep(std::vector<Value>& values, const std::vector<std::uint32_t>& kept) {
 }  // namespace
 
 Mesh join_soup(Mesh mesh, const std::filesystem::path& path, const Run& run) {
-  if (!is_soup(mesh)) return mesh;
-  run.check();
+  if (mesh.triangles.size() < 2) return mesh;
   const std::vector<std::uint32_t> places = places_of(mesh);
-  const SidesOfEdges sides(mesh, places);
+  bool repeats = false;
+  for (std::uint32_t vertex = 0; vertex < places.size() && !repeats; ++vertex)
+    repeats = places[vertex] != vertex;
+  if (!repeats) return mesh;
+  run.check();
+  const std::vector<std::uint8_t> lone = lone_sides(mesh);
+  // Of n triangles with shared vertices, few sides are alone.
+  const auto alone = static_cast<std::size_t>(std::count(lone.begin(), lone.end(), 1));
+  const bool is_soup = 2 * alone > 3 * mesh.triangles.size();
+  SidesOfEdges sides(mesh, places);
+  if (!is_soup) {
+    std::erase_if(sides.entries,
+                  [&](const SidesOfEdges::Entry& entry) { return lone[entry.side] == 0; });
+  }
   run.check();
   std::vector<Side> partner(3 * mesh.triangles.size(), kNoPartner);
   sides.each([&](std::size_t first, std::size_t last) {
@@ -216,8 +227,10 @@ Mesh join_soup(Mesh mesh, const std::filesystem::path& path, const Run& run) {
   keep(mesh.views, kept);
   keep(mesh.vertex_marks, kept);
   run.warn(fmt::format(
-      "{}: its faces have vertices of their own; {} vertices were joined to {} where edges meet",
+      "{}: {}; {} vertices were joined to {} where edges meet",
       path.string(),
+      is_soup ? "its faces have vertices of their own"
+              : "its vertices stand twice where faces meet, as at seams of normals or textures",
       number.size(),
       kept.size()));
   return mesh;

@@ -8,7 +8,9 @@
 namespace frangia {
 
 /// Joins the triangles of a soup: a mesh in which most edges have a single triangle, since each
-/// triangle or face has vertices of its own. Other meshes are returned as they are.
+/// triangle or face has vertices of its own. Of other meshes, edges with a single triangle are
+/// joined: programs write a vertex twice where normals or texture coordinates differ, and a closed
+/// part then falls into pieces.
 ///
 /// Two triangles are joined at an edge that both have at the same positions and in opposite
 /// directions. Where more than two meet at an edge, those are joined that enclose material between

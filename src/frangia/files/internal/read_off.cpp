@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "frangia/files/internal/check_mesh.h"
+#include "frangia/files/internal/color_of.h"
 #include "frangia/files/internal/off.h"
 #include "frangia/files/internal/polygon_faces.h"
 #include "frangia/files/internal/read_bytes.h"
@@ -25,13 +26,15 @@ class OffReader {
     }
     const std::string_view first = word();
     if (first == "BINARY") reader_.fail("this is a binary OFF; save it as text (ASCII) OFF");
+    has_colors_ = keyword == "COFF";
     const auto vertices = count_of(first, "vertices", kVertexBytes);
     const auto faces = count_of(word(), "faces", kFaceBytes);
     reader_.skip_line();  // the number of edges, which writers often get wrong
     Mesh mesh;
     mesh.vertices_mm.reserve(vertices);
     for (std::size_t i = 0; i < vertices; ++i)
-      mesh.vertices_mm.push_back(read_vertex());
+      mesh.vertices_mm.push_back(read_vertex(mesh.colors));
+    if (mesh.colors.size() != vertices) mesh.colors.clear();
     mesh.triangles.reserve(faces);
     for (std::size_t i = 0; i < faces; ++i)
       read_face(mesh);
@@ -70,7 +73,22 @@ class OffReader {
     return static_cast<std::size_t>(*count);
   }
 
-  Eigen::Vector3f read_vertex() {
+  /// Adds the colour of a vertex where it has one: whole numbers to 255, or others to 1.
+  void read_color(std::vector<VertexColor>& colors) {
+    Eigen::Vector3f color;
+    bool is_whole = true;
+    for (float& channel : color) {
+      const std::string_view found = reader_.word_on_line();
+      const auto number = parse_float(found);
+      if (!number) return;
+      is_whole = is_whole && found.find_first_of(".eE") == std::string_view::npos;
+      channel = *number;
+    }
+    if (is_whole) color /= 255.0F;
+    colors.push_back(color_of(color.x(), color.y(), color.z()));
+  }
+
+  Eigen::Vector3f read_vertex(std::vector<VertexColor>& colors) {
     Eigen::Vector3f vertex;
     for (float& coordinate : vertex) {
       const std::string_view found = word();
@@ -78,6 +96,7 @@ class OffReader {
       if (!number) reader_.fail(fmt::format("{} is not a coordinate", in_quotes(found)));
       coordinate = *number;
     }
+    if (has_colors_) read_color(colors);
     reader_.skip_line();
     return vertex;
   }
@@ -107,6 +126,7 @@ class OffReader {
   TextReader reader_;
   PolygonFaces polygons_;
   std::vector<std::uint32_t> corners_;
+  bool has_colors_ = false;  ///< of vertices
 };
 
 }  // namespace

@@ -37,6 +37,27 @@ double square_from(const Mesh& mesh, std::uint32_t triangle, const Vector3d& poi
       .squaredNorm();
 }
 
+/// The triangles that are left, and were there with the same corners in an earlier mesh, which may
+/// be empty.
+std::vector<std::uint8_t> unchanged_triangles(const Mesh& mesh,
+                                              const std::vector<std::uint8_t>& alive,
+                                              const Mesh& earlier) {
+  std::vector<std::uint8_t> same(alive.size());
+  if (earlier.empty()) return same;
+  for (std::size_t t = 0; t < same.size(); ++t) {
+    const Mesh::Triangle& corners = mesh.triangles[t];
+    same[t] = alive[t] != 0 && corners == earlier.triangles[t] &&
+                      std::all_of(corners.begin(),
+                                  corners.end(),
+                                  [&](std::uint32_t v) {
+                                    return mesh.vertices_mm[v] == earlier.vertices_mm[v];
+                                  })
+                  ? 1
+                  : 0;
+  }
+  return same;
+}
+
 }  // namespace
 
 DistanceGuard::DistanceGuard(const RayScene& original, const HalfEdges& edges, double distance_mm)
@@ -118,13 +139,56 @@ bool DistanceGuard::is_near(const Vector3d& point, double distance_mm, std::uint
   return original_->nearest(point, distance_mm).has_value();
 }
 
+bool DistanceGuard::is_fine() const {
+  constexpr double kFine = 7.0;  // limits between two vertices
+  return spacing_mm_ < kFine * distance_mm_;
+}
+
+double DistanceGuard::plain_distance_mm() const {
+  constexpr double kFar = 0.25;  // of the limit
+  return kFar * distance_mm_;
+}
+
+void DistanceGuard::assign(const CollapseTopology& topology,
+                           const Mesh& mesh,
+                           const std::vector<std::uint32_t>& ends) {
+  std::fill(next_.begin(), next_.end(), kNone);
+  std::fill(first_.begin(), first_.end(), kNone);
+  std::vector<std::uint32_t> around;
+  for (std::uint32_t v = 0; v < ends.size(); ++v) {
+    if (topology.is_removed(ends[v])) continue;  // of no triangle
+    const Vector3d point = position_of(original_->mesh(), v);
+    double nearest = distance_mm_ * distance_mm_;
+    std::uint32_t owner = kNone;
+    const auto try_ring = [&](std::uint32_t center) {
+      topology.for_each_corner(center, [&](std::uint32_t corner) {
+        const double square = square_from(mesh, corner / 3, point);
+        if (square > nearest) return;
+        nearest = square;
+        owner = corner / 3;
+      });
+    };
+    try_ring(ends[v]);
+    if (owner == kNone) {
+      around.clear();
+      topology.for_each_corner(ends[v], [&](std::uint32_t corner) {
+        around.push_back(topology.at(HalfEdges::next(corner)));
+        around.push_back(topology.at(HalfEdges::previous(corner)));
+      });
+      for (const std::uint32_t center : around)
+        try_ring(center);
+    }
+    if (owner == kNone) continue;
+    next_[v] = first_[owner];
+    first_[owner] = v;
+  }
+}
+
 bool DistanceGuard::allows(const CollapseTopology& topology,
                            const Mesh& mesh,
                            std::uint32_t a,
                            std::uint32_t b,
                            const CollapseTarget& target) {
-  constexpr double kFar = 0.25;  // of the limit
-  constexpr double kFine = 7.0;  // limits apart; coarse meshes of designs have longer edges
   const Vector3d& target_mm = target.position;
   removed_.clear();
   remaining_.clear();
@@ -140,8 +204,7 @@ bool DistanceGuard::allows(const CollapseTopology& topology,
       owners_.push_back(owner);
     }
   }
-  const bool fine = spacing_mm_ < kFine * distance_mm_;
-  if (fine && target.mean_square < kFar * kFar * distance_mm_ * distance_mm_) return true;
+  if (is_fine() && target.mean_square < plain_distance_mm() * plain_distance_mm()) return true;
   std::uint32_t from = reassigned_.empty() ? kNone : reassigned_.front();
   return is_near(target_mm, distance_mm_, from) &&
          std::all_of(remaining_.begin(), remaining_.end(), [&](const Triangle& t) {
@@ -164,6 +227,8 @@ void DistanceGuard::accept() {
 void DistanceGuard::check_original(const Mesh& mesh,
                                    const std::vector<std::uint8_t>& alive,
                                    double distance_mm,
+                                   const std::vector<std::uint8_t>& same,
+                                   CheckedSurface& checked,
                                    const Run& run,
                                    std::vector<std::uint32_t>& beyond) const {
   const Mesh& original = original_->mesh();
@@ -171,6 +236,15 @@ void DistanceGuard::check_original(const Mesh& mesh,
   for (std::uint32_t t = 0; t < alive.size(); ++t)
     for (std::uint32_t v = alive[t] != 0 ? first_[t] : kNone; v != kNone; v = next_[v])
       owner[v] = t;
+  checked.owner.resize(owner.size(), kNone);
+  checked.original_near.resize(original.triangles.size());
+  const auto is_known = [&](std::size_t i) {
+    const Mesh::Triangle& t = original.triangles[i];
+    return checked.original_near[i] != 0 && std::all_of(t.begin(), t.end(), [&](std::uint32_t v) {
+             return owner[v] != kNone && owner[v] == checked.owner[v] && same[owner[v]] != 0;
+           });
+  };
+  std::vector<std::uint8_t> near(original.triangles.size(), 1);
   struct Sample {
     Vector3d point;
     std::uint32_t triangle;
@@ -179,16 +253,18 @@ void DistanceGuard::check_original(const Mesh& mesh,
   std::vector<std::vector<Sample>> unknown((count + kTrianglesPerChunk - 1) / kTrianglesPerChunk);
   interruptible_chunks(count, kTrianglesPerChunk, run, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
+      if (is_known(i)) continue;
       const Mesh::Triangle& t = original.triangles[i];
       const std::array owners{owner[t[0]], owner[t[1]], owner[t[2]]};
       const auto check = [&](const Vector3d& point) {
-        const bool near = std::any_of(owners.begin(), owners.end(), [&](std::uint32_t one) {
+        const bool is_near = std::any_of(owners.begin(), owners.end(), [&](std::uint32_t one) {
           return one != kNone && square_from(mesh, one, point) <= distance_mm * distance_mm;
         });
-        if (!near)
-          unknown[begin / kTrianglesPerChunk].push_back({point, static_cast<std::uint32_t>(i)});
+        if (is_near) return;
+        near[i] = 0;
+        unknown[begin / kTrianglesPerChunk].push_back({point, static_cast<std::uint32_t>(i)});
       };
-      if (owners[0] == owners[1] && owners[1] == owners[2]) continue;
+      if (owners[0] != kNone && owners[0] == owners[1] && owners[1] == owners[2]) continue;
       static_cast<void>(all_triangle_samples(position_of(original, t[0]),
                                              position_of(original, t[1]),
                                              position_of(original, t[2]),
@@ -199,6 +275,8 @@ void DistanceGuard::check_original(const Mesh& mesh,
                                              }));
     }
   });
+  checked.owner = std::move(owner);
+  checked.original_near = std::move(near);
   if (std::all_of(unknown.begin(), unknown.end(), [](const auto& one) { return one.empty(); }))
     return;
   Mesh present;
@@ -218,16 +296,20 @@ void DistanceGuard::check_original(const Mesh& mesh,
 void DistanceGuard::check_present(const Mesh& mesh,
                                   const std::vector<std::uint8_t>& alive,
                                   double distance_mm,
+                                  const std::vector<std::uint8_t>& same,
+                                  CheckedSurface& checked,
                                   const Run& run,
                                   std::vector<std::uint32_t>& beyond) const {
   const std::size_t count = alive.size();
+  checked.near.resize(count);
   std::vector<std::vector<std::uint32_t>> found((count + kTrianglesPerChunk - 1) /
                                                 kTrianglesPerChunk);
   interruptible_chunks(count, kTrianglesPerChunk, run, [&](std::size_t begin, std::size_t end) {
     auto& here = found[begin / kTrianglesPerChunk];
     for (std::size_t i = begin; i < end; ++i) {
-      if (alive[i] == 0) continue;
+      if (alive[i] == 0 || (same[i] != 0 && checked.near[i] != 0)) continue;
       const auto& [a, b, c] = mesh.triangles[i];
+      checked.near[i] = 1;
       std::uint32_t from = first_[i];
       static_cast<void>(all_triangle_samples(position_of(mesh, a),
                                              position_of(mesh, b),
@@ -235,6 +317,7 @@ void DistanceGuard::check_present(const Mesh& mesh,
                                              spacing_mm_,
                                              [&](const Vector3d& point) {
                                                if (is_near(point, distance_mm, from)) return true;
+                                               checked.near[i] = 0;
                                                if (const auto nearest = original_->nearest(point)) {
                                                  const Mesh::Triangle& t =
                                                      original_->mesh().triangles[nearest->triangle];
@@ -251,10 +334,14 @@ void DistanceGuard::check_present(const Mesh& mesh,
 std::vector<std::uint32_t> DistanceGuard::vertices_beyond(const Mesh& mesh,
                                                           const std::vector<std::uint8_t>& alive,
                                                           double distance_mm,
+                                                          CheckedSurface& checked,
                                                           const Run& run) const {
   std::vector<std::uint32_t> beyond;
-  check_original(mesh, alive, distance_mm, run, beyond);
-  check_present(mesh, alive, distance_mm, run, beyond);
+  const std::vector<std::uint8_t> same = unchanged_triangles(mesh, alive, checked.mesh);
+  check_original(mesh, alive, distance_mm, same, checked, run, beyond);
+  check_present(mesh, alive, distance_mm, same, checked, run, beyond);
+  checked.mesh.vertices_mm = mesh.vertices_mm;
+  checked.mesh.triangles = mesh.triangles;
   std::sort(beyond.begin(), beyond.end());
   beyond.erase(std::unique(beyond.begin(), beyond.end()), beyond.end());
   return beyond;

@@ -14,6 +14,16 @@
 
 namespace frangia {
 
+/// A decimated mesh, and where it was near the original: what has not changed since then need not
+/// be verified again.
+struct CheckedSurface {
+  Mesh mesh;
+  std::vector<std::uint8_t> near;  ///< triangles of the mesh that are near the original
+  std::vector<std::uint8_t>
+      original_near;                 ///< triangles of the original that are near their owners
+  std::vector<std::uint32_t> owner;  ///< the triangle of each vertex of the original
+};
+
 /// Keeps a mesh during decimation within a distance of the original.
 ///
 /// Each vertex of the original is assigned to a triangle of the present mesh. A collapse is allowed
@@ -25,6 +35,18 @@ class DistanceGuard {
   /// `original` and its `edges` must outlive the object.
   DistanceGuard(const RayScene& original, const HalfEdges& edges, double distance_mm);
 
+  /// Whether vertices of the original are so near to each other that the planes of a quadric stand
+  /// for the surface. Coarse meshes of designs have longer edges.
+  [[nodiscard]] bool is_fine() const;
+  /// The root mean square distance from the planes of the original below which collapses of a fine
+  /// mesh need no guard.
+  [[nodiscard]] double plain_distance_mm() const;
+  /// Assigns the vertices to a mesh that was decimated without the guard; `ends` states the vertex
+  /// that each of them has become part of. Those without a triangle within the distance stay
+  /// without one, for `vertices_beyond`.
+  void assign(const CollapseTopology& topology,
+              const Mesh& mesh,
+              const std::vector<std::uint32_t>& ends);
   /// Whether the edge from a to b may collapse to `target_mm`; `mesh` is the present one. On a fine
   /// mesh, where its root mean square distance from the planes of the original is far less than the
   /// limit, the distance of the new triangles from the original is left to `vertices_beyond`.
@@ -38,12 +60,14 @@ class DistanceGuard {
 
   /// Vertices of the original at which one surface is farther than a distance from the other: at
   /// points a third of the original's mean edge length apart, of the original and of the triangles
-  /// of the present mesh that `alive` states.
+  /// of the present mesh that `alive` states. `checked` is the result of an earlier call, or empty,
+  /// and then that of this one.
   ///
   /// @errors   Error(Cancelled)
   [[nodiscard]] std::vector<std::uint32_t> vertices_beyond(const Mesh& mesh,
                                                            const std::vector<std::uint8_t>& alive,
                                                            double distance_mm,
+                                                           CheckedSurface& checked,
                                                            const Run& run) const;
 
  private:
@@ -65,11 +89,15 @@ class DistanceGuard {
   void check_original(const Mesh& mesh,
                       const std::vector<std::uint8_t>& alive,
                       double distance_mm,
+                      const std::vector<std::uint8_t>& same,
+                      CheckedSurface& checked,
                       const Run& run,
                       std::vector<std::uint32_t>& beyond) const;
   void check_present(const Mesh& mesh,
                      const std::vector<std::uint8_t>& alive,
                      double distance_mm,
+                     const std::vector<std::uint8_t>& same,
+                     CheckedSurface& checked,
                      const Run& run,
                      std::vector<std::uint32_t>& beyond) const;
 

@@ -80,7 +80,7 @@ class Service::Implementation {
   Json start_edit(CommandArguments& arguments);
   Json start_preview(CommandArguments& arguments);
   Json drop_preview(CommandArguments& arguments);
-  Json set_reference(CommandArguments& arguments);
+  Json start_set_reference(CommandArguments& arguments);
   Json start_compare(CommandArguments& arguments);
   Json estimate_export(CommandArguments& arguments);
   Json start_select_component(CommandArguments& arguments);
@@ -110,7 +110,13 @@ class Service::Implementation {
   /// @errors   Error(Input) when the folder of the open project was deleted
   void require_folder() const;
   void require_idle() const;
+  /// Whether a job that sets the reference has not finished.
+  [[nodiscard]] bool awaits_reference() const;
   // The following are of the queue's thread.
+  /// Makes the file that arrived the reference, completely or not at all.
+  void keep_reference(const ProjectFolder& project,
+                      const ProjectReference& before,
+                      ProjectReference wanted);
   /// The surfaces of the project, read again where that failed before.
   ///
   /// @errors   as read_surface_versions

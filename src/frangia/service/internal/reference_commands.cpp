@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 #include <sys/stat.h>
@@ -23,6 +24,7 @@ constexpr std::size_t kMostReferenceBytes = 512UL * 1024 * 1024;
 constexpr std::size_t kMostNameBytes = 120;
 constexpr const char* kReferenceName = "reference.json";
 constexpr const char* kReferencePart = "reference.part";
+constexpr const char* kReferenceJob = "reference";
 
 void require_reference_format(const std::string& format) {
   const auto& known = reference_formats();
@@ -87,7 +89,7 @@ void Service::Implementation::add_to_reference(std::size_t offset, const std::st
       fmt::format("{}: cannot be written; is the disk full?", project.reference_part().string()));
 }
 
-nlohmann::ordered_json Service::Implementation::set_reference(CommandArguments& arguments) {
+nlohmann::ordered_json Service::Implementation::start_set_reference(CommandArguments& arguments) {
   const ProjectFolder project = folder();
   const ProjectReference before = opened().reference;
   ProjectReference wanted{arguments.text("name"), arguments.text("format"), before.number + 1};
@@ -100,7 +102,8 @@ nlohmann::ordered_json Service::Implementation::set_reference(CommandArguments& 
   std::error_code error;
   const auto present = std::filesystem::file_size(project.reference_part(), error);
   require(!error && present == bytes, "the file has not arrived completely; send it again");
-  sync_to_disk(project.reference_part());
+  // Pieces of the next reference may arrive while the job waits for the disk: this one has its
+  // name.
   const auto file = project.reference(wanted.format, wanted.number);
   std::filesystem::rename(project.reference_part(), file, error);
   if (error) {
@@ -109,19 +112,37 @@ nlohmann::ordered_json Service::Implementation::set_reference(CommandArguments& 
         fmt::format(
             "{}: cannot be renamed: {}", project.reference_part().string(), error.message()));
   }
+  return started(kReferenceJob, [this, project, before, wanted](const Run& /*run*/) {
+    keep_reference(project, before, wanted);
+  });
+}
+
+void Service::Implementation::keep_reference(const ProjectFolder& project,
+                                             const ProjectReference& before,
+                                             ProjectReference wanted) {
+  const auto file = project.reference(wanted.format, wanted.number);
+  std::error_code ignored;
   try {
+    sync_to_disk(file);
     commit_reference(project, wanted);
   } catch (...) {
     if (reference_of(project) == before) {  // otherwise the disk did not confirm the last step
-      std::filesystem::rename(file, project.reference_part(), error);
+      std::filesystem::remove(file, ignored);
     } else {
       change([&](OpenProject& opened) { std::swap(opened.reference, wanted); });
     }
     throw;
   }
   change([&](OpenProject& opened) { std::swap(opened.reference, wanted); });
-  std::filesystem::remove(project.reference(before.format, before.number), error);
-  return Json::object();
+  std::filesystem::remove(project.reference(before.format, before.number), ignored);
+}
+
+bool Service::Implementation::awaits_reference() const {
+  const std::vector<Job> jobs = queue_.jobs();
+  return std::any_of(jobs.begin(), jobs.end(), [](const Job& job) {
+    return job.kind == kReferenceJob &&
+           (job.state == JobState::Waiting || job.state == JobState::Running);
+  });
 }
 
 nlohmann::ordered_json Service::Implementation::start_compare(CommandArguments& arguments) {
@@ -138,11 +159,12 @@ nlohmann::ordered_json Service::Implementation::start_compare(CommandArguments& 
   options.tolerance = {lower.value_or(options.tolerance.lower),
                        upper.value_or(options.tolerance.upper)};
   options.tolerance.check();
-  const ProjectReference reference = opened().reference;
-  require(!reference.name.empty(), "there is no reference; choose a file to compare with first");
+  constexpr const char* kNone = "there is no reference; choose a file to compare with first";
+  require(!opened().reference.name.empty() || awaits_reference(), kNone);
   return started_view(
-      "compare",
-      [project, reference, options](const SurfaceModel& model, int count, const Run& run) {
+      "compare", [this, project, options](const SurfaceModel& model, int count, const Run& run) {
+        const ProjectReference reference = opened().reference;  // a job before may have set it
+        require(!reference.name.empty(), kNone);
         return model.compared(project.reference(reference.format, reference.number),
                               reference.name,
                               options,

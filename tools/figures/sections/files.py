@@ -1,4 +1,4 @@
-"""Reads the written files with other programs, for the table of docs/files.md."""
+"""Exchanges files with other programs, for the tables of docs/files.md."""
 import subprocess
 import sys
 
