@@ -93,6 +93,23 @@ await tell(home, async () => {
   expect(found.project.rig.turntable !== null, 'the axis is not in the rig');
   await idle(page);
   await look(page, shots, 'axis-found');
+  // What a search changed comes back with a click, after a question; so does what was found.
+  const restore = async (before) => {
+    await page.locator('#rig-history .earlier', { hasText: before }).first().getByRole('button').click();
+    await page.click('#ask [data-answer="0"]');
+  };
+  await restore('Before the axis was found');
+  await waitFor(page, (state) => state.project.rig.turntable === null && state.project.axis === null);
+  await restore('Before a return');
+  await waitFor(page, (state) => state.project.rig.turntable !== null);
+  await page.locator('#rig-history').scrollIntoViewIfNeeded();
+  await look(page, shots, 'rig-history');
+  await page.getByText('Print a board', { exact: true }).click();
+  const saving = page.waitForEvent('download');
+  await page.click('[data-paper=A4]');
+  const board = fs.readFileSync(await (await saving).path(), 'latin1');
+  expect(/MediaBox \[0 0 841\.89\d* 595\.27\d*\]/.test(board), 'the board is not of A4');
+  expect(board.match(/ 65\.197 65\.197 re f/g)?.length === 44, 'the board has not 44 black squares of 23 mm');
   passed(`the axis is within ${found.project.axis.axis_sigma_deg.toFixed(3)} degrees`);
 
   // The camera vanishes from the preview: the page says it, and goes on when it is plugged in again.

@@ -42,10 +42,13 @@ export class Exporting {
   }
   async pictureFile(): Promise<void> {
     const blob = await this.app.viewer.snapshot();
-    if (!blob) return;
+    if (blob) this.save(blob, `${this.app.project.name}.png`);
+  }
+  /** Lets the browser save what was made in the page. */
+  save(blob: Blob, name: string): void {
     const anchor = document.createElement('a');
     anchor.href = URL.createObjectURL(blob);
-    anchor.download = `${this.app.project.name}.png`;
+    anchor.download = name;
     anchor.click();
     setTimeout(() => URL.revokeObjectURL(anchor.href), 10_000);
   }

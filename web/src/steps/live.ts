@@ -37,6 +37,8 @@ const stepOf = (exposure: number): number => Math.round(20 * Math.log10(exposure
 /** What stands on the picture: layers, figures and the scale of its colours. */
 export function liveOverlay(app: App): TemplateResult {
   const { figures } = app.live.view;
+  const age = app.live.frozen_s;
+  const frozen = age === null ? '' : app.project.live ? t('live.frozen', { seconds: number(age) }) : t('live.stopped');
   return html`<div class="layers">
       ${choice<LiveLayer>(
         t('live.layer'),
@@ -45,6 +47,7 @@ export function liveOverlay(app: App): TemplateResult {
         (layer) => app.live.setLayer(layer),
       )}
     </div>
+    ${frozen ? html`<div class="live-frozen" role="status"><span class="dot poor"></span>${frozen}</div>` : ''}
     ${(app.project.live || app.job('live')) && !figures ? html`<div class="live-wait quiet">${t('live.waiting')}</div>` : ''}
     ${
       figures

@@ -1,0 +1,54 @@
+import { html, type TemplateResult } from 'lit';
+import type { App } from '../app';
+import { boardPdf, CORNERS, type Paper, PAPERS } from '../board_pdf';
+import { icon } from '../icons';
+import { number, t } from '../messages';
+
+/** Whether camera and board are computed, so that the size of its squares is known without a ruler. */
+const isSimulated = (app: App): boolean =>
+  app.project.devices.some(({ table, driver }) => table === 'camera' && driver === 'simulated');
+
+/** A number of the board, or of its poses; without a value the field waits for what was measured. */
+export const boardField = (name: string, label: string, value: number | null, step = 1): TemplateResult =>
+  html`<label class="field"
+    ><span>${label}</span
+    ><input
+      class="num"
+      name=${name}
+      type="number"
+      min=${step < 1 ? 0.1 : 3}
+      max="100"
+      step=${step}
+      required
+      .defaultValue=${value === null ? '' : String(value)}
+  /></label>`;
+
+/** What describes a checkerboard. The side of a square is that of the ruler, never that of the file. */
+export const boardFields = (app: App): TemplateResult =>
+  html`${boardField('columns', t('rig.columns'), CORNERS.columns)}${boardField('rows', t('rig.rows'), CORNERS.rows)}${boardField('square_mm', t('rig.square'), isSimulated(app) ? 14 : null, 0.01)}`;
+
+/** The board of a form with these fields. */
+export function boardOf(form: FormData): Record<string, number> {
+  return Object.fromEntries(['columns', 'rows', 'square_mm'].map((name) => [name, Number(form.get(name))]));
+}
+
+function print(app: App, paper: Paper): void {
+  const { columns, rows } = CORNERS;
+  const line = t('board.line', { columns, rows, square: PAPERS[paper].square });
+  app.exporting.save(boardPdf(paper, [line, t('board.measure')]), `board-${paper}.pdf`);
+}
+
+/** Boards to print; a printer scales them, so that their squares are measured afterwards. */
+export const boardPrints = (app: App): TemplateResult =>
+  html`<details class="more">
+    <summary>${t('board.print')}</summary>
+    <p class="quiet">${t('board.hint')}</p>
+    <div class="row">
+      ${(Object.keys(PAPERS) as Paper[]).map(
+        (paper) =>
+          html`<button class="btn small grow" data-paper=${paper} @click=${() => print(app, paper)}>
+            ${icon('download')}${paper} · ${number(PAPERS[paper].square)} mm
+          </button>`,
+      )}
+    </div>
+  </details>`;
