@@ -226,7 +226,7 @@ TEST(ReadEditScript, RefusesMoreStepsDoneThanItHas) {
   }
 }
 
-TEST(EditOperation, TakesTheNextSelectionOutOfThePresentOne) {
+TEST(ApplyStep, TakesTheNextSelectionOutOfThePresentOne) {
   EditState state{.mesh = testing::box({0, 0, 0}, {10, 10, 10}), .selection = {}};
   apply_step(state, {"invert", ""});  // all
   apply_step(state, {"without", ""});
