@@ -128,6 +128,16 @@ await tell(home, async () => {
   await waitFor(page, (state) => state.project.capture.exposure_ms !== before && state.project.live !== null);
   passed(`the exposure is ${(await stateOf(page)).project.capture.exposure_ms.toFixed(1)} ms`);
 
+  const enterExposures = async (text) => {
+    await page.fill('#exposures:not([disabled])', text);
+    await page.keyboard.press('Tab');
+  };
+  await enterExposures('2 x');
+  await page.waitForSelector('.notice');
+  expect((await notice(page)).includes('no exposures'), `a text is taken for exposures: ${await notice(page)}`);
+  await enterExposures('7');
+  await waitFor(page, (state) => state.project.capture.exposure_ms === 7);
+
   // The folder of the project is deleted under the server.
   await page.keyboard.press('4');
   await waitFor(page, (state) => state.jobs.every((job) => job.state !== 'running'));

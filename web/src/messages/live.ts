@@ -85,4 +85,9 @@ export const LIVE = {
     'Angehalten: dies ist das letzte Bild',
     "Fermata: questa è l'ultima immagine",
   ],
+  'live.badExposures': [
+    '“{text}” are no exposures: write milliseconds, such as 2 8 30.',
+    '„{text}“ sind keine Belichtungen: Millisekunden schreiben, etwa 2 8 30.',
+    '«{text}» non sono esposizioni: scrivere millisecondi, per esempio 2 8 30.',
+  ],
 } as const satisfies Rows;

@@ -188,15 +188,22 @@ function exposure(app: App): TemplateResult {
 /** The exposures of each frame of the scan; what several of them measure is merged. */
 function exposures(app: App, several: boolean, fixed: boolean): TemplateResult {
   const { exposures_ms } = app.project.capture;
+  const shown = several ? exposures_ms.map((value) => Number(value.toPrecision(3))).join(' ') : '';
   const enter = (event: Event) => {
-    const text = (event.target as HTMLInputElement).value;
-    const values = text
+    const input = event.target as HTMLInputElement;
+    const values = input.value
       .split(/[;\s]+|,(?=\s)|,(?=\d+(?:[.;,\s]|$))/)
       .filter(Boolean)
-      .map(Number);
-    if (values.every((value) => value > 0))
-      void app.command('set-capture', { exposures_ms: values.length > 1 ? values : [] });
-    else app.requestUpdate();
+      .map((text) => Number(text.replace(',', '.')));
+    if (!values.every((value) => value > 0 && Number.isFinite(value))) {
+      app.say(t('live.badExposures', { text: input.value }));
+      input.value = shown;
+      return;
+    }
+    const [one] = values;
+    if (values.length === 1 && one !== undefined)
+      void app.command('set-capture', { exposure_ms: one, exposures_ms: [] }).then(() => (input.value = ''));
+    else void app.command('set-capture', { exposures_ms: values });
   };
   return html`<label class="field"
     ><span>${t('live.exposures')}</span
@@ -207,7 +214,7 @@ function exposures(app: App, several: boolean, fixed: boolean): TemplateResult {
       inputmode="decimal"
       placeholder=${t('live.exposuresHint')}
       ?disabled=${fixed}
-      .value=${several ? exposures_ms.map((value) => Number(value.toPrecision(3))).join(' ') : ''}
+      .value=${shown}
       @change=${enter}
   /></label>`;
 }
