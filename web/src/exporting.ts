@@ -17,6 +17,7 @@ export class Exporting {
   /** Asks how large the file would be, when what decides it has changed. */
   async follow(): Promise<void> {
     const { app } = this;
+    if (app.session.state) this.fetchWanted();
     const surface = app.session.state?.project?.surface;
     if (app.step !== 'export' || !surface || app.session.watches || surface.triangles === 0) return;
     const wanted = exportArguments(this.choice);
@@ -31,6 +32,25 @@ export class Exporting {
       // Without it, the file can still be written, and that says what is wrong.
     }
     app.requestUpdate();
+  }
+
+  /** Writes a board on a sheet of paper, and downloads it when it is there. */
+  async print(paper: string): Promise<void> {
+    try {
+      const { job } = await this.app.session.command<{ job: number }>('print-board', { paper });
+      this.wanted = { job, name: `board-${paper}.pdf` };
+      this.fetchWanted();
+    } catch (error) {
+      this.app.say(error);
+    }
+  }
+  private wanted: { job: number; name: string } | null = null;
+  private fetchWanted(): void {
+    const job = this.app.state.jobs.find((one) => one.number === this.wanted?.job);
+    if (!this.wanted || !job || job.state === 'waiting' || job.state === 'running') return;
+    const { name } = this.wanted;
+    this.wanted = null;
+    if (job.state === 'done') void this.download(name);
   }
 
   async download(name: string): Promise<void> {

@@ -74,6 +74,7 @@ std::string Service::Implementation::command(const std::string& name, const std:
       {"discard-rig", &Implementation::discard_rig},
       {"check-scan", &Implementation::start_check_scan},
       {"start-calibration", &Implementation::start_calibration},
+      {"print-board", &Implementation::print_board},
       {"find-axis", &Implementation::find_axis},
       {"capture-pose", &Implementation::capture_pose},
       {"end-poses", &Implementation::end_poses},

@@ -283,14 +283,4 @@ export const RIG = {
     'In Originalgröße drucken, ohne Anpassen an die Seite, und auf etwas Ebenes kleben. Dann zehn Felder mit dem Lineal messen und ein Zehntel davon als Feld eintragen.',
     'Stampare a grandezza naturale, senza adattare alla pagina, e incollare su qualcosa di piano. Poi misurare dieci caselle con un righello e inserire un decimo come casella.',
   ],
-  'board.line': [
-    '{columns} x {rows} corners, squares of {square} mm if printed at actual size',
-    '{columns} x {rows} Ecken, Felder von {square} mm, wenn in Originalgröße gedruckt',
-    '{columns} x {rows} angoli, caselle di {square} mm se stampato a grandezza naturale',
-  ],
-  'board.measure': [
-    'Measured over ten squares: ________ mm; a tenth of it is the square.',
-    'Über zehn Felder gemessen: ________ mm; ein Zehntel davon ist das Feld.',
-    'Misurato su dieci caselle: ________ mm; un decimo è la casella.',
-  ],
 } as const satisfies Rows;

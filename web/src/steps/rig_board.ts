@@ -1,8 +1,15 @@
 import { html, type TemplateResult } from 'lit';
 import type { App } from '../app';
-import { boardPdf, CORNERS, type Paper, PAPERS } from '../board_pdf';
 import { icon } from '../icons';
-import { number, t } from '../messages';
+import { t } from '../messages';
+
+/** Corners of the boards that are printed here. */
+const CORNERS = { columns: 10, rows: 7 };
+const PAPERS = [
+  ['a4', 'A4'],
+  ['a3', 'A3'],
+  ['letter', 'Letter'],
+] as const;
 
 /** Whether camera and board are computed, so that the size of its squares is known without a ruler. */
 const isSimulated = (app: App): boolean =>
@@ -32,22 +39,21 @@ export function boardOf(form: FormData): Record<string, number> {
   return Object.fromEntries(['columns', 'rows', 'square_mm'].map((name) => [name, Number(form.get(name))]));
 }
 
-function print(app: App, paper: Paper): void {
-  const { columns, rows } = CORNERS;
-  const line = t('board.line', { columns, rows, square: PAPERS[paper].square });
-  app.exporting.save(boardPdf(paper, [line, t('board.measure')]), `board-${paper}.pdf`);
-}
-
 /** Boards to print; a printer scales them, so that their squares are measured afterwards. */
 export const boardPrints = (app: App): TemplateResult =>
   html`<details class="more">
     <summary>${t('board.print')}</summary>
     <p class="quiet">${t('board.hint')}</p>
     <div class="row">
-      ${(Object.keys(PAPERS) as Paper[]).map(
-        (paper) =>
-          html`<button class="btn small grow" data-paper=${paper} @click=${() => print(app, paper)}>
-            ${icon('download')}${paper} · ${number(PAPERS[paper].square)} mm
+      ${PAPERS.map(
+        ([paper, name]) =>
+          html`<button
+            class="btn small grow"
+            data-paper=${paper}
+            ?disabled=${app.occupied || app.session.watches}
+            @click=${() => void app.exporting.print(paper)}
+          >
+            ${icon('download')}${name}
           </button>`,
       )}
     </div>

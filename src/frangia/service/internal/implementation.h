@@ -89,6 +89,7 @@ class Service::Implementation {
   Json keep_rig_as(CommandArguments& arguments);
   Json discard_rig(CommandArguments& arguments);
   Json start_calibration(CommandArguments& arguments);
+  Json print_board(CommandArguments& arguments);
   Json find_axis(CommandArguments& arguments);
   Json capture_pose(CommandArguments& arguments);
   Json end_poses(CommandArguments& arguments);

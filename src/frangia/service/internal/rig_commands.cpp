@@ -2,6 +2,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "frangia/calibrate/board/write_board_pdf.h"
 #include "frangia/core/error.h"
 #include "frangia/dataset/scan_folder.h"
 #include "frangia/rig/read_rig.h"
@@ -173,6 +174,22 @@ nlohmann::ordered_json Service::Implementation::find_axis(CommandArguments& argu
       });
 }
 
+/// A checkerboard to print, as an export.
+nlohmann::ordered_json Service::Implementation::print_board(CommandArguments& arguments) {
+  const std::string paper = arguments.text("paper");
+  arguments.check_all_read();
+  const PaperSize size = paper_size(paper);
+  constexpr int kColumns = 10;
+  constexpr int kRows = 7;
+  return started("export", [this, paper, size, project = folder()](const Run& run) {
+    run.stage("files");
+    const auto write = [&](const std::filesystem::path& path) {
+      static_cast<void>(write_board_pdf(path, {.columns = kColumns, .rows = kRows}, size));
+    };
+    put_export(project, "board-" + paper + ".pdf", std::nullopt, write, run);
+  });
+}
+
 nlohmann::ordered_json Service::Implementation::capture_pose(CommandArguments& arguments) {
   arguments.check_all_read();
   const auto wizard = opened().wizard;
@@ -196,6 +213,9 @@ namespace {
 }  // namespace
 
 nlohmann::ordered_json Service::Implementation::start_calibration(CommandArguments& /*none*/) {
+  fail_without_calibration();
+}
+nlohmann::ordered_json Service::Implementation::print_board(CommandArguments& /*none*/) {
   fail_without_calibration();
 }
 nlohmann::ordered_json Service::Implementation::find_axis(CommandArguments& /*none*/) {
