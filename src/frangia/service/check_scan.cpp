@@ -41,9 +41,10 @@ ScanCheck check_scan(const ProjectFolder& project,
   const auto now = std::chrono::system_clock::now().time_since_epoch();
   check.at_s = std::chrono::duration_cast<std::chrono::seconds>(now).count();
   if (!seen) return check;
-  if (!seen->view.assessments.empty()) {
-    check.contrast = seen->view.assessments.back().contrast;
-    check.saturated = seen->view.assessments.back().saturated_fraction;
+  const auto& assessments = seen->view.directions.front().assessments;
+  if (!assessments.empty()) {
+    check.contrast = assessments.back().contrast;
+    check.saturated = assessments.back().saturated_fraction;
   }
   check.points = seen->points;
   check.finding = seen->finding;
