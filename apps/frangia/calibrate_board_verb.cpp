@@ -1,7 +1,6 @@
 #include "calibrate_board_verb.h"
 
 #include <filesystem>
-#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -40,8 +39,6 @@ void calibrate_board_verb(const BoardArguments& arguments, Terminal& terminal) {
   require(lowercase_extension(arguments.output) == ".pdf",
           "a board is written as .pdf, which prints at true scale; give a file name that ends with "
           ".pdf");
-  const std::map<std::string, PaperSize> papers = {
-      {"a4", {297.0, 210.0}}, {"a3", {420.0, 297.0}}, {"letter", {279.4, 215.9}}};
   const bool circles = arguments.kind == "circles";
   const bool charuco = arguments.kind == "charuco";
   const Board board = write_board_pdf(arguments.output,
@@ -53,7 +50,7 @@ void calibrate_board_verb(const BoardArguments& arguments, Terminal& terminal) {
                                        .dictionary = arguments.dictionary,
                                        .first_id = arguments.first_id,
                                        .legacy_layout = arguments.legacy_layout},
-                                      papers.at(arguments.paper));
+                                      paper_size(arguments.paper));
   if (terminal.json) {
     const nlohmann::ordered_json result{{"file", arguments.output.string()},
                                         {"kind", arguments.kind},

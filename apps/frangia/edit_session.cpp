@@ -61,8 +61,11 @@ void EditSession::redo(std::size_t count) {
 }
 
 void EditSession::check_complete() const {
-  if (state().combine == Combine::Replace) return;
-  const std::string name = state().combine == Combine::Add ? "add" : "within";
+  const Combine how = state().combine;
+  if (how == Combine::Replace) return;
+  const std::string name = how == Combine::Add      ? "add"
+                           : how == Combine::Within ? "within"
+                                                    : "without";
   throw Error(
       ErrorKind::Input,
       fmt::format("{}: no selection follows; put one after it, for example `select_box`", name));

@@ -24,7 +24,7 @@ class EditSession {
   void redo(std::size_t count);
   /// Checks that no operation waits for another one to follow.
   ///
-  /// @errors   Error(Input) when `add` or `within` is not followed by a selection
+  /// @errors   Error(Input) when `add`, `within` or `without` is not followed by a selection
   void check_complete() const;
 
   [[nodiscard]] const EditState& state() const;

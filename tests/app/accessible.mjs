@@ -28,7 +28,7 @@ await tell(home, async () => {
   const browser = await launch();
   const page = await openPage(browser, server.url);
   await page.waitForSelector('#try');
-  const looks = [['dark', 'en'], ['light', 'de']];  // contrast depends on the theme alone, words on the language alone
+  const looks = [['dark', 'en'], ['light', 'it']];  // contrast depends on the theme alone, words on the language alone
   /** Looks at the page as it opens in each theme and in each language. */
   const inEachLook = async (see) => {
     for (const [theme, language] of looks) {
@@ -73,7 +73,7 @@ await tell(home, async () => {
     const dialogs = await page.evaluate(() => [...document.querySelectorAll('dialog')].map((one) => one.id));
     expect(dialogs.includes('keys') && dialogs.includes('link'), `the dialogs are ${dialogs}`);
     for (const id of dialogs) {
-      if (id === 'link') await page.locator('.tools button').nth(2).click();
+      if (id === 'link') await page.click('[data-tool=link]');
       else await page.evaluate((name) => document.getElementById(name).showModal(), id);
       await page.waitForSelector(`#${id}[open]`);
       if (id === 'link') await page.waitForSelector('#link .qr');

@@ -93,6 +93,24 @@ await tell(home, async () => {
   expect(found.project.rig.turntable !== null, 'the axis is not in the rig');
   await idle(page);
   await look(page, shots, 'axis-found');
+  // What a search changed comes back with a click, after a question; so does what was found.
+  const restore = async (before) => {
+    await page.locator('#rig-history .earlier', { hasText: before }).first().getByRole('button').click();
+    await page.click('#ask [data-answer="0"]');
+  };
+  await restore('Before the axis was found');
+  await waitFor(page, (state) => state.project.rig.turntable === null && state.project.axis === null);
+  await restore('Before a return');
+  await waitFor(page, (state) => state.project.rig.turntable !== null);
+  await page.locator('#rig-history').scrollIntoViewIfNeeded();
+  await look(page, shots, 'rig-history');
+  await page.getByText('Print a board', { exact: true }).click();
+  const saving = page.waitForEvent('download');
+  await page.click('[data-paper=a4]');
+  const board = await saving;
+  expect(board.suggestedFilename() === 'board-a4.pdf', `the board is called ${board.suggestedFilename()}`);
+  expect(fs.readFileSync(await board.path(), 'latin1').startsWith('%PDF'), 'the board is no PDF');
+  await idle(page);
   passed(`the axis is within ${found.project.axis.axis_sigma_deg.toFixed(3)} degrees`);
 
   // The camera vanishes from the preview: the page says it, and goes on when it is plugged in again.
@@ -110,6 +128,16 @@ await tell(home, async () => {
   const before = (await stateOf(page)).project.capture.exposure_ms;
   await waitFor(page, (state) => state.project.capture.exposure_ms !== before && state.project.live !== null);
   passed(`the exposure is ${(await stateOf(page)).project.capture.exposure_ms.toFixed(1)} ms`);
+
+  const enterExposures = async (text) => {
+    await page.fill('#exposures:not([disabled])', text);
+    await page.keyboard.press('Tab');
+  };
+  await enterExposures('2 x');
+  await page.waitForSelector('.notice');
+  expect((await notice(page)).includes('no exposures'), `a text is taken for exposures: ${await notice(page)}`);
+  await enterExposures('7');
+  await waitFor(page, (state) => state.project.capture.exposure_ms === 7);
 
   // The folder of the project is deleted under the server.
   await page.keyboard.press('4');

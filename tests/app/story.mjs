@@ -85,6 +85,7 @@ await tell(home, async () => {
   await page.setViewportSize({ width: 1440, height: 900 });
 
   await page.click('[data-next=scan]');
+  await page.waitForSelector('#scan-check [data-state=done]');
   await page.waitForSelector('#scan:not([disabled])');
   await page.click('#scan');
   await page.waitForFunction(() => document.querySelectorAll('.dial-station.done, .dial-station.poor').length >= 5);
@@ -97,7 +98,7 @@ await tell(home, async () => {
   await look('surface');
 
   await page.getByText('None', { exact: true }).click();
-  await page.getByText('x', { exact: true }).click();
+  await page.locator('.seg').getByText('x', { exact: true }).click();
   await page.keyboard.press('m');
   const canvas = await page.locator('.view-canvas').boundingBox();
   const at = (x, y) => [canvas.x + x * canvas.width, canvas.y + y * canvas.height];
@@ -209,14 +210,14 @@ print(sum(1 for one in document.modelspace() if one.dxftype() == "3DFACE"))`, dx
   await page.emulateMedia({ colorScheme: 'light' });
   await page.keyboard.press('d');
   await page.keyboard.press('6');
-  await page.getByText('Deutsch').click();
+  await page.selectOption('#language', 'de');
   await look('edit-light');
   await page.keyboard.press('?');
   await page.waitForSelector('dialog[open]');
   await look('keys');
 
   await page.keyboard.press('Escape');
-  await page.locator('.tools button').nth(2).click();
+  await page.click('[data-tool=link]');
   await page.waitForSelector('#link[open] .qr');
   await look('link');
   await page.keyboard.press('Escape');

@@ -85,6 +85,7 @@ EditStep random_step(std::uint64_t seed) {
       {"select-mark", "synthesized"},
       {"add", ""},
       {"within", ""},
+      {"without", ""},
       {"grow", "1"},
       {"invert", ""},
       {"delete", ""},

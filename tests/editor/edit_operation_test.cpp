@@ -89,7 +89,7 @@ TEST(CheckStep, RefusesSizesAndCountsThatAreNotPositive) {
 
 TEST(ApplyStep, RefusesToChangeASelectionThatWasNotMade) {
   for (const EditStep& step :
-       {EditStep{"grow", "1"}, {"shrink", "1"}, {"add", ""}, {"within", ""}}) {
+       {EditStep{"grow", "1"}, {"shrink", "1"}, {"add", ""}, {"within", ""}, {"without", ""}}) {
     EditState state = ball_state();
     EXPECT_NE(error_of(state, step).find("nothing is selected"), std::string::npos)
         << step.operation;
@@ -224,6 +224,23 @@ TEST(ReadEditScript, RefusesMoreStepsDoneThanItHas) {
           << error.what();
     }
   }
+}
+
+TEST(ApplyStep, TakesTheNextSelectionOutOfThePresentOne) {
+  EditState state{.mesh = testing::box({0, 0, 0}, {10, 10, 10}), .selection = {}};
+  apply_step(state, {"invert", ""});  // all
+  apply_step(state, {"without", ""});
+  apply_step(state, {"select-plane", "0,0,1,5"});
+  std::size_t above = 0;
+  for (std::size_t i = 0; i < state.selection.size(); ++i) {
+    float height = 0.0F;
+    for (const auto vertex : state.mesh.triangles[i])
+      height += state.mesh.vertices_mm[vertex].z() / 3.0F;
+    EXPECT_EQ(state.selection[i], height > 5.0F ? 0 : 1) << height;
+    above += height > 5.0F ? 1 : 0;
+  }
+  EXPECT_GT(above, 0U);
+  EXPECT_LT(above, state.selection.size());
 }
 
 }  // namespace

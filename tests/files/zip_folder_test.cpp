@@ -37,6 +37,38 @@ TEST(ZipFolder, HoldsTheFilesOfAllSubfolders) {
   EXPECT_EQ(read("My part/link"), "missing");
 }
 
+TEST(UnzipFolder, TakesTheFolderOfItsMarkerAndNothingThatLeadsOut) {
+  const testing::TemporaryFolder folder;
+  const auto archive = folder.path() / "scan.zip";
+  const auto write = [&](const std::vector<std::string>& names) {
+    ZipWriter writer(archive);
+    for (const std::string& name : names) {
+      writer.begin(name);
+      writer.text(name);
+    }
+    writer.commit();
+  };
+  const auto into = folder.path() / "into";
+  write({"Part/scan.toml", "Part/views/000/a.png", "Part/.hidden", "beside.txt"});
+  unzip_folder(archive, "scan.toml", into);
+  EXPECT_TRUE(std::filesystem::is_regular_file(into / "scan.toml"));
+  EXPECT_EQ(std::filesystem::file_size(into / "views" / "000" / "a.png"), 20U);
+  EXPECT_FALSE(std::filesystem::exists(into / ".hidden"));
+  EXPECT_FALSE(std::filesystem::exists(into / "beside.txt"));
+  for (const std::vector<std::string>& bad : {std::vector<std::string>{"views/000/a.png"},
+                                              {"a/scan.toml", "b/scan.toml"},
+                                              {"scan.toml", "../outside"},
+                                              {"scan.toml", "views/../../outside"},
+                                              {"scan.toml", "/tmp/outside"},
+                                              {"scan.toml", "views\\..\\outside"}}) {
+    write(bad);
+    EXPECT_NE(error_of([&] { unzip_folder(archive, "scan.toml", folder.path() / "bad"); }), "")
+        << bad.back();
+    EXPECT_FALSE(std::filesystem::exists(folder.path() / "bad"));
+    EXPECT_FALSE(std::filesystem::exists(folder.path() / "outside"));
+  }
+}
+
 TEST(ZipFolder, RefusesAFolderWithoutFiles) {
   const testing::TemporaryFolder folder;
   EXPECT_NE(error_of([&] { zip_folder(folder.path(), "x", folder.path() / "x.zip"); }), "");

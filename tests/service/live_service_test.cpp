@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include "frangia/rig/write_rig.h"
+
 #include "support/text_of.h"
 
 namespace frangia {
@@ -153,6 +155,48 @@ TEST_F(LiveServiceTest, MovesTheRigUntilTheScanBegins) {
   const Rig truth = read_rig(folder_.path() / "live" / "true-rig.toml");
   EXPECT_NEAR((known.projector.rotation - truth.projector.rotation).norm(), 0.0, 1e-9);
   EXPECT_NE(error_of([&] { command("set-rig", {{"distance_mm", -1.0}}); }), "");
+
+  const auto kept = project().at("kept_rigs");
+  ASSERT_EQ(kept.size(), 1U);
+  EXPECT_EQ(kept[0].at("before"), "geometry");
+  command("restore-rig", {{"number", kept[0].at("number")}});
+  EXPECT_NEAR(project().at("rig").at("turntable").at("distance_mm").get<double>(), distance, 1e-9);
+  const Rig simulated = read_rig(folder_.path() / "live" / "true-rig.toml");
+  EXPECT_NEAR(simulated.turntable->point_mm.norm(), distance, 1e-9)
+      << "the simulated parts as well";
+  EXPECT_EQ(project().at("kept_rigs").size(), 2U);
+}
+
+TEST_F(LiveServiceTest, MovesNoRigThatIsCalibratedAndKeepsItForOtherProjects) {
+  const std::filesystem::path file = folder_.path() / "live" / "rig.toml";
+  Rig rig = read_rig(file);
+  EXPECT_TRUE(project().at("rig_adjustable").get<bool>());
+  rig.calibration = Calibration{.date = "2026-11-26", .poses = 12, .point_sigma_mm = 0.02};
+  command("close-project");
+  const std::filesystem::path fresh = folder_.path() / "live" / "fresh.toml";
+  write_rig(fresh, rig, Durability::Buffered, file);
+  std::filesystem::rename(fresh, file);
+  command("open-project", {{"name", "live"}});
+  ASSERT_TRUE(wait([&] { return !busy(); }));
+  EXPECT_FALSE(project().at("rig_adjustable").get<bool>());
+  EXPECT_NE(error_of([&] { command("set-rig", {{"distance_mm", 300.0}}); }), "");
+  EXPECT_FALSE(project().at("rig").at("calibration").is_null()) << "a slider wipes no calibration";
+
+  command("check-scan");
+  ASSERT_TRUE(wait([&] { return !busy(); }));
+  const Json check = project().at("check");
+  ASSERT_FALSE(check.is_null()) << service_.state();
+  EXPECT_GT(check.at("points").get<int>(), 1000);
+  EXPECT_GT(check.at("contrast").get<double>(), 0.5);
+  EXPECT_EQ(check.at("finding"), "");
+  command("set-capture", {{"exposure_ms", 3.0}});
+  EXPECT_TRUE(project().at("check").is_null()) << "it was of other settings";
+
+  command("keep-rig", {{"name", "Bench"}});
+  command("create-project", {{"name", "second"}, {"kept_rig", "Bench"}, {"stations", 2}});
+  ASSERT_TRUE(wait([&] { return !busy(); }));
+  EXPECT_EQ(project().at("rig").at("calibration").at("point_sigma_mm"), 0.02);
+  EXPECT_TRUE(project().at("can_scan").get<bool>());
 }
 
 }  // namespace

@@ -1,8 +1,14 @@
 #include "frangia/service/project_folder.h"
 
+#include <algorithm>
+#include <filesystem>
 #include <fstream>
+#include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
+
+#include "frangia/core/folder_lock.h"
 
 #include "support/error_of.h"
 #include "support/temporary_folder.h"
@@ -37,6 +43,44 @@ TEST(ProjectLibrary, MakesNoPathFromAName) {
     EXPECT_NE(error_of([&] { static_cast<void>(library.find(name)); }), "") << name;
   for (const auto& entry : library.list())
     EXPECT_EQ(entry.name, "inside");
+}
+
+TEST(ProjectLibrary, RenamesCopiesDeletesAndPutsBack) {
+  const testing::TemporaryFolder folder;
+  const ProjectLibrary library(folder.path());
+  const ProjectFolder made = library.create("Part");
+  std::filesystem::create_directories(made.folder / "versions" / "001");
+  std::ofstream(made.folder / "versions" / "001" / "surface.ply") << "ply";
+  std::filesystem::create_symlink("/etc/passwd", made.folder / "link");
+  const auto names = [&] {
+    std::vector<std::string> found;
+    for (const ProjectEntry& one : library.list())
+      found.push_back(one.name);
+    std::sort(found.begin(), found.end());
+    return found;
+  };
+  using Names = std::vector<std::string>;
+  library.duplicate("Part", "Copy", {});
+  EXPECT_EQ(names(), (Names{"Copy", "Part"}));
+  EXPECT_TRUE(std::filesystem::exists(folder.path() / "Copy" / "versions" / "001" / "surface.ply"));
+  EXPECT_FALSE(
+      std::filesystem::exists(std::filesystem::symlink_status(folder.path() / "Copy" / "link")));
+  library.rename("Copy", "Other");
+  EXPECT_EQ(names(), (Names{"Other", "Part"}));
+  EXPECT_NE(error_of([&] { library.rename("Other", "Part"); }), "") << "the name is taken";
+  EXPECT_NE(error_of([&] { library.rename("Other", "../out"); }), "");
+  EXPECT_NE(error_of([&] { library.duplicate("Nothing", "New", {}); }), "");
+
+  library.discard("Other");
+  EXPECT_EQ(names(), Names{"Part"});
+  EXPECT_EQ(library.discarded(), Names{"Other"});
+  EXPECT_NE(error_of([&] { static_cast<void>(library.find(".bin")); }), "");
+  static_cast<void>(library.create("Other"));
+  EXPECT_EQ(library.take_back("Other"), "Other 2") << "the name was given to another one since";
+  EXPECT_EQ(names(), (Names{"Other", "Other 2", "Part"}));
+  EXPECT_NE(error_of([&] { static_cast<void>(library.take_back("../Part")); }), "");
+  const FolderLock open(library.find("Part").derived);
+  EXPECT_NE(error_of([&] { library.discard("Part"); }), "") << "somebody has it open";
 }
 
 TEST(CheckProjectName, RefusesWhatIsNoPlainFileName) {

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "frangia/core/read_text_file.h"
 #include "frangia/editor/edit_script.h"
 #include "frangia/files/read_mesh.h"
 
@@ -306,6 +307,48 @@ TEST_F(ServiceTest, KeepsTheMeshWhenAStepFails) {
   EXPECT_NE(job.at("error").get<std::string>().find("select"), std::string::npos);
   EXPECT_EQ(service_->mesh(), mesh);
   EXPECT_NE(refusal("edit", R"({"operation": "decimate", "value": "much"})"), "");
+}
+
+TEST_F(ServiceTest, OpensAMeshInAProjectOfItsOwnAndLeavesNothingOfWhatItCannotRead) {
+  const auto send = [&](const std::string& name, const std::string& bytes) {
+    static_cast<void>(command("create-project", {{"name", name}, {"devices", true}}));
+    static_cast<void>(finish());
+    service_->add_to_reference(0, bytes);
+  };
+  const auto file = folder_.path() / "box.stl";
+  write_mesh(file, testing::box({0, 0, 0}, {10, 20, 30}));
+  const std::string bytes = read_text_file(file);
+  send("Box", bytes);
+  EXPECT_NE(refusal("open-file", R"({"format": "../x", "bytes": 3})"), "");
+  EXPECT_NE(refusal("open-file", R"({"format": "exe", "bytes": 3})"), "");
+  EXPECT_NE(refusal("open-file", R"({"format": "stl", "bytes": 3})"), "") << "not so many arrived";
+  static_cast<void>(command("open-file", {{"format", "stl"}, {"bytes", bytes.size()}}));
+  EXPECT_EQ(finish().at("state"), "done");
+  const Json surface = state().at("project").at("surface");
+  EXPECT_EQ(surface.at("triangles"), 12);
+  EXPECT_TRUE(surface.at("summary").is_null()) << "no scan made it";
+  EXPECT_NE(refusal("open-file", R"({"format": "stl", "bytes": 3})"), "") << "it has a surface";
+
+  send("Broken", "solid x\nfacet");
+  static_cast<void>(command("open-file", {{"format", "stl"}, {"bytes", 13}}));
+  EXPECT_EQ(finish().at("state"), "failed");
+  EXPECT_TRUE(state().at("project").at("surface").is_null());
+  static_cast<void>(command("discard-project", {{"name", "Broken"}}));
+  EXPECT_TRUE(state().at("project").is_null());
+  EXPECT_EQ(state().at("discarded"), Json::array({"Broken"}));
+
+  static_cast<void>(command("open-project", {{"name", "Box"}}));
+  static_cast<void>(finish());
+  static_cast<void>(command("rename-project", {{"name", "Box"}, {"to", "Cuboid"}}));
+  static_cast<void>(finish());
+  EXPECT_EQ(state().at("project").at("name"), "Cuboid") << "it stays open";
+  EXPECT_EQ(state().at("project").at("surface").at("triangles"), 12);
+  static_cast<void>(command("set-notes", {{"name", "Cuboid"}, {"text", "of brass"}}));
+  EXPECT_EQ(state().at("projects")[0].at("notes"), "of brass");
+  EXPECT_NE(refusal("set-thumbnail", R"({"picture": "bm90IGEgcGljdHVyZQ=="})"), "");
+  static_cast<void>(command("set-thumbnail", {{"picture", "iVBORw0KGgo="}}));
+  EXPECT_EQ(service_->thumbnail("Cuboid").substr(1, 3), "PNG");
+  EXPECT_NE(error_of([&] { static_cast<void>(service_->thumbnail("../x")); }), "");
 }
 
 }  // namespace

@@ -3,6 +3,7 @@ import { customElement } from 'lit/decorators.js';
 
 import type { StepName } from './app_steps';
 import { Arranging } from './arranging';
+import { Asking } from './ask';
 import { Comparing } from './comparing';
 import { Editing } from './editing';
 import { Exporting } from './exporting';
@@ -10,11 +11,12 @@ import { dialogs, footer, header, picture } from './frame_parts';
 import { onKey } from './keyboard';
 import { LiveStage } from './live_stage';
 import type { Coloring } from './mesh_colors';
+import { Measuring } from './measuring';
 import { MeshSource } from './mesh_source';
-import { t } from './messages';
-import { applyPreferences, toggleLanguage } from './preferences';
+import { type Language, setLanguage, t } from './messages';
+import { applyPreferences } from './preferences';
+import { Opening } from './opening';
 import { Projects } from './projects';
-import type { Measurement } from './ruler';
 import { Session } from './session';
 import { Setups } from './setups';
 import { blankPage, notices } from './shell';
@@ -55,18 +57,20 @@ export class App extends LitElement {
     () => this.onState(),
     (picture) => this.live.draw(picture),
   );
+  readonly asking = new Asking(this);
   readonly projects = new Projects(this);
+  readonly opening = new Opening(this);
   readonly arranging = new Arranging(this);
   readonly live = new LiveStage(this);
   readonly setups = new Setups(this);
   readonly comparing = new Comparing(this);
   readonly editing = new Editing(this);
   readonly exporting = new Exporting(this);
+  readonly measuring = new Measuring(this);
   readonly host = document.createElement('div');
   viewer!: Viewer;
   meshes!: MeshSource;
   private clouds!: StationClouds;
-  measurement: Measurement | null = null;
   problem = '';
   copied = false;
   link = '';
@@ -86,14 +90,11 @@ export class App extends LitElement {
     this.host.className = 'view';
     this.viewer = new Viewer(this.host, {
       pick: (ray) => this.pick(ray),
-      measured: (result) => {
-        this.measurement = result;
-        this.requestUpdate();
-      },
-      outlined: (outline, through) =>
-        void this.editing.selectBy(through ? 'select-outline-through' : 'select-outline', outline),
-      partPicked: (triangle) => void this.editing.selectPart(triangle),
-      picked: (tool, points) => void this.editing.picked(tool, points),
+      measured: (result) => this.measuring.add(result),
+      outlined: (outline, through, hand) =>
+        void this.editing.selectBy(through ? 'select-outline-through' : 'select-outline', outline, hand),
+      partPicked: (triangle, hand) => void this.editing.selectPart(triangle, hand),
+      picked: (tool, points, hand) => void this.editing.picked(tool, points, hand),
     });
     this.clouds = new StationClouds(
       this.session,
@@ -153,6 +154,7 @@ export class App extends LitElement {
       }
       this.showWantedSurface();
       this.comparing.follow();
+      this.opening.follow();
       this.live.follow();
       if (this.step === 'rig') this.viewer.setRig(this.arranging.drawnRig);
       void this.meshes.follow();
@@ -170,6 +172,7 @@ export class App extends LitElement {
     this.problem = '';
     this.arranging.deviceDraft = null;
     this.setups.forget();
+    this.measuring.forget();
     const created = this.projects.takeCreated();
     if (!state.project) this.go('project');
     else if (state.project.surface || state.project.surface_loading || state.project.versions.length > 0)
@@ -248,14 +251,16 @@ export class App extends LitElement {
   dialog(id: string): HTMLDialogElement {
     return this.querySelector(`#${id}`) as HTMLDialogElement;
   }
-  changeLanguage(): void {
-    toggleLanguage();
+  changeLanguage(language: Language): void {
+    setLanguage(language);
     this.requestUpdate();
   }
 
   protected override updated(): void {
     void this.exporting.follow();
     this.editing.follow();
+    this.measuring.follow();
+    if (this.session.state) this.projects.follow();
     const key = `${this.step} ${this.session.state?.project?.calibration?.active ?? false}`;
     if (key === this.panelKey) return;
     this.panelKey = key;
@@ -277,6 +282,6 @@ export class App extends LitElement {
         }
         ${notices(this)}
       </div>
-      ${footer(this)}${dialogs(this)}`;
+      ${footer(this)}${dialogs(this)} ${this.opening.over ? html`<div class="drop">${t('open.drop')}</div>` : ''}`;
   }
 }

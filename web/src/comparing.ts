@@ -18,10 +18,11 @@ export class Comparing {
     if (!format) return app.say(t('compare.wrongFile'));
     try {
       this.sent = 0;
-      await app.session.sendReference(file, format, (share) => {
+      await app.session.send(file, (share) => {
         this.sent = share;
         app.requestUpdate();
       });
+      await app.session.command('set-reference', { name: file.name.slice(0, 120), format, bytes: file.size });
       this.sent = null;
       await this.compare(-0.1, 0.1);
     } catch (error) {

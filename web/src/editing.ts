@@ -1,6 +1,9 @@
 import type { App } from './app';
+import { t } from './messages';
 import type { Combine } from './steps/edit';
-import type { Tool } from './viewer';
+import type { Hand, Tool } from './viewer';
+
+const NO_KEYS: Hand = { shift: false, ctrl: false };
 
 const round = (value: number): string => String(Math.round(value * 1000) / 1000);
 
@@ -58,19 +61,28 @@ export class Editing {
     if (!document.activeElement?.matches('input, select, textarea')) apply.focus({ preventScroll: true });
   }
 
-  async selectBy(operation: string, value: string): Promise<void> {
-    if (await this.prepareCombination()) this.run(operation, value);
+  async selectBy(operation: string, value: string, hand = NO_KEYS): Promise<void> {
+    if (await this.prepareCombination(hand)) this.run(operation, value);
   }
-  async selectPart(triangle: number): Promise<void> {
-    if (await this.prepareCombination()) await this.app.command('select-component-of', { triangle });
+  async selectPart(triangle: number, hand: Hand): Promise<void> {
+    if (await this.prepareCombination(hand)) await this.app.command('select-component-of', { triangle });
   }
-  private async prepareCombination(): Promise<boolean> {
-    if (this.combine === 'replace' || !this.app.project.surface?.selected) return true;
-    return this.app.command('edit', { operation: this.combine, value: '' });
+  /** Shift adds, Ctrl takes out, both intersect, whatever is chosen in the panel. */
+  private combineOf({ shift, ctrl }: Hand): Combine {
+    if (shift) return ctrl ? 'within' : 'add';
+    return ctrl ? 'without' : this.combine;
+  }
+  private async prepareCombination(hand: Hand): Promise<boolean> {
+    const combine = this.combineOf(hand);
+    if (combine === 'replace') return true;
+    if (this.app.project.surface?.selected) return this.app.command('edit', { operation: combine, value: '' });
+    if (combine === 'add') return true;
+    this.app.say(t('edit.nothingToTakeFrom'));
+    return false;
   }
 
   /** Points of the surface that a tool was used at. */
-  async picked(tool: Tool, points: [number, number, number][]): Promise<void> {
+  async picked(tool: Tool, points: [number, number, number][], hand: Hand): Promise<void> {
     // The tool stays: faces that cannot be aligned are chosen anew.
     if (tool === 'align') return this.preview('align', points.flat().map(round).join(','));
     const [at] = points;
@@ -82,6 +94,6 @@ export class Editing {
       far(hole.center_mm) - hole.size_mm / 2 < far(best.center_mm) - best.size_mm / 2 ? hole : best,
     );
     this.chooseHole(nearest.number, true);
-    await this.selectBy('select-loop', String(nearest.number));
+    await this.selectBy('select-loop', String(nearest.number), hand);
   }
 }

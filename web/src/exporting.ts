@@ -17,6 +17,7 @@ export class Exporting {
   /** Asks how large the file would be, when what decides it has changed. */
   async follow(): Promise<void> {
     const { app } = this;
+    if (app.session.state) this.fetchWanted();
     const surface = app.session.state?.project?.surface;
     if (app.step !== 'export' || !surface || app.session.watches || surface.triangles === 0) return;
     const wanted = exportArguments(this.choice);
@@ -33,6 +34,25 @@ export class Exporting {
     app.requestUpdate();
   }
 
+  /** Writes a board on a sheet of paper, and downloads it when it is there. */
+  async print(paper: string): Promise<void> {
+    try {
+      const { job } = await this.app.session.command<{ job: number }>('print-board', { paper });
+      this.wanted = { job, name: `board-${paper}.pdf` };
+      this.fetchWanted();
+    } catch (error) {
+      this.app.say(error);
+    }
+  }
+  private wanted: { job: number; name: string } | null = null;
+  private fetchWanted(): void {
+    const job = this.app.state.jobs.find((one) => one.number === this.wanted?.job);
+    if (!this.wanted || !job || job.state === 'waiting' || job.state === 'running') return;
+    const { name } = this.wanted;
+    this.wanted = null;
+    if (job.state === 'done') void this.download(name);
+  }
+
   async download(name: string): Promise<void> {
     try {
       await this.app.session.download(name);
@@ -42,10 +62,13 @@ export class Exporting {
   }
   async pictureFile(): Promise<void> {
     const blob = await this.app.viewer.snapshot();
-    if (!blob) return;
+    if (blob) this.save(blob, `${this.app.project.name}.png`);
+  }
+  /** Lets the browser save what was made in the page. */
+  save(blob: Blob, name: string): void {
     const anchor = document.createElement('a');
     anchor.href = URL.createObjectURL(blob);
-    anchor.download = `${this.app.project.name}.png`;
+    anchor.download = name;
     anchor.click();
     setTimeout(() => URL.revokeObjectURL(anchor.href), 10_000);
   }

@@ -5,18 +5,49 @@ import { STEPS } from './app_steps';
 import { icon, type IconName, logo } from './icons';
 import { KEYS } from './keyboard';
 import { linkDialog, share } from './link_dialog';
-import { currentLanguage, type MessageKey, number, stageName, t } from './messages';
+import { currentLanguage, type Language, LANGUAGES, type MessageKey, stageName, t } from './messages';
 import { toggleTheme } from './preferences';
-import { previewBar } from './preview_bar';
 import { residualStage } from './residuals';
 import { finished, reachable } from './step_state';
 import { liveOverlay } from './steps/live';
-import { plain, quoted } from './ui';
+import { stepWords } from './step_words';
+import type { Job, Step } from './types';
+import { plain, quoted, span } from './ui';
+import { viewOverlay } from './view_tools';
+
+/** Undo and redo, named by what they take back or do again. */
+function history(app: App): TemplateResult | string {
+  const surface = app.state.project?.surface;
+  if (!surface || surface.steps.length === 0) return '';
+  const button = (name: 'undo' | 'redo', step: Step | undefined) => {
+    const words = step ? `${t(`edit.${name}`)}: ${stepWords(step)}` : t(`edit.${name}`);
+    return html`<button
+      class="icon-btn"
+      data-history=${name}
+      title=${words}
+      aria-label=${words}
+      ?disabled=${!step || app.session.watches}
+      @click=${() => app.command(name)}
+    >
+      ${icon(name)}
+    </button>`;
+  };
+  return html`${button('undo', surface.steps[surface.steps_done - 1])}
+  ${button('redo', surface.steps[surface.steps_done])}`;
+}
+
+/** What a job may still take, by the share that it has done; empty while that says nothing. */
+function timeLeft({ kind, progress, seconds }: Job): string {
+  if (kind === 'live' || progress < 0.04 || progress >= 1 || seconds < 1.5) return '';
+  return ` · ${t('scan.left', { time: span((seconds * (1 - progress)) / progress) })}`;
+}
 
 /** The steps from left to right. */
 export function header(app: App): TemplateResult {
   const tool = (name: IconName, key: MessageKey, act: () => void) =>
-    html`<button class="icon-btn" title=${t(key)} aria-label=${t(key)} @click=${act}>${icon(name)}</button>`;
+    html`<button class="icon-btn" data-tool=${name} title=${t(key)} aria-label=${t(key)} @click=${act}>
+      ${icon(name)}
+    </button>`;
   return html`<header class="top">
     <div class="brand">
       ${logo}<b>Frangia</b>${app.state.project ? html`<span class="project">${app.project.name}</span>` : ''}
@@ -36,13 +67,15 @@ export function header(app: App): TemplateResult {
       )}
     </nav>
     <div class="tools">
-      <button
+      ${history(app)}
+      <select
+        id="language"
         class="icon-btn text"
-        lang=${currentLanguage() === 'en' ? 'de' : 'en'}
-        @click=${() => app.changeLanguage()}
+        aria-label=${t('app.language')}
+        @change=${(event: Event) => app.changeLanguage((event.target as HTMLSelectElement).value as Language)}
       >
-        ${t('app.language')}
-      </button>
+        ${LANGUAGES.map(([key, name]) => html`<option value=${key} lang=${key} ?selected=${key === currentLanguage()}>${name}</option>`)}
+      </select>
       ${tool('theme', 'app.theme', toggleTheme)} ${tool('link', 'app.link', () => void share(app))}
       ${tool('keys', 'app.keys', () => app.dialog('keys').showModal())}
     </div>
@@ -83,7 +116,7 @@ export function footer(app: App): TemplateResult {
         job
           ? html`<svg class="bar" aria-hidden="true"><rect width="${100 * job.progress}%" height="4" /></svg>
               <span
-                >${t(`job.${job.kind}`)}${job.stage && job.kind !== 'live' ? ` · ${stageName(job.stage)}` : ''}</span
+                >${t(`job.${job.kind}`)}${job.stage && job.kind !== 'live' ? ` · ${stageName(job.stage)}` : ''}${timeLeft(job)}</span
               >
               <button class="btn small" @click=${() => app.command('stop-job', { job: job.number })}>
                 ${t('job.stop')}
@@ -111,49 +144,15 @@ export function footer(app: App): TemplateResult {
 
 /** The scene or the camera, and what floats on it. */
 export function picture(app: App): TemplateResult {
-  const { viewer, measurement } = app;
+  const { viewer } = app;
   return html`<div
     class="stage ${app.showsCamera || app.showsResiduals ? 'with-camera' : ''}"
     role="region"
     aria-label=${t('app.view')}
   >
     ${viewer.supported ? app.host : app.showsCamera || app.showsResiduals ? '' : html`<div class="blank"><p>${t('app.noWebGL')}</p></div>`}
-    ${app.showsCamera ? html`<div class="camera">${app.live.view.canvas}</div>` : ''}
-    ${app.step === 'live' ? liveOverlay(app) : ''} ${app.step === 'rig' ? residualStage(app) : ''}
-    <div class="floating">
-      ${previewBar(app)}
-      ${viewer.tool === 'measure' && !measurement ? html`<div class="chip">${t('surface.measureHint')}</div>` : ''}
-      ${viewer.tool === 'angle' && !measurement ? html`<div class="chip">${t('surface.angleHint')}</div>` : ''}
-      ${viewer.tool === 'align' && !app.project.surface?.preview ? html`<div class="chip">${t('edit.alignHint')}</div>` : ''}
-      ${viewer.tool === 'loop' ? html`<div class="chip">${t('edit.loopHint')}</div>` : ''}
-      ${
-        measurement
-          ? html`<div class="chip">
-              <div class="big">
-                ${measurement.angle_deg === null ? html`${number(measurement.distance_mm ?? 0, 3)} mm` : html`${number(measurement.angle_deg, 2)}°`}
-              </div>
-              ${measurement.u95_mm === null ? '' : html`<div class="num quiet">± ${number(1000 * measurement.u95_mm, 1)} µm (k = 2)</div>`}
-              ${measurement.u95_deg === null ? '' : html`<div class="num quiet">± ${number(measurement.u95_deg, 3)}° (k = 2)</div>`}
-            </div>`
-          : ''
-      }
-    </div>
-    ${
-      viewer.supported && !app.showsCamera && !app.showsResiduals
-        ? html`<div class="view-tools">
-            <button class="icon-btn text" @click=${() => viewer.frame([0, -1, 0.18])}>${t('app.front')}</button>
-            <button class="icon-btn text" @click=${() => viewer.frame([0, -0.02, 1])}>${t('app.top')}</button>
-            <button
-              class="icon-btn"
-              title=${t('app.frame')}
-              aria-label=${t('app.frame')}
-              @click=${() => viewer.frame()}
-            >
-              ${icon('fit')}
-            </button>
-          </div>`
-        : ''
-    }
+    ${app.showsCamera ? html`<div class="camera ${app.step === 'live' && app.live.frozen_s !== null ? 'frozen' : ''}">${app.live.view.canvas}</div>` : ''}
+    ${app.step === 'live' ? liveOverlay(app) : ''} ${app.step === 'rig' ? residualStage(app) : ''} ${viewOverlay(app)}
   </div>`;
 }
 
@@ -170,5 +169,5 @@ export function dialogs(app: App): TemplateResult {
       </div>
       ${close('keys')}
     </dialog>
-    ${linkDialog(app.link, close('link'))}`;
+    ${linkDialog(app.link, close('link'))} ${app.asking.dialog()}`;
 }

@@ -4,10 +4,12 @@ import type { IconName } from './icons';
 import type { MessageKey } from './messages';
 import { toggleTheme } from './preferences';
 import { reachable } from './step_state';
+import { VIEWS } from './view_tools';
 
 export const KEYS: readonly (readonly [MessageKey | IconName, string])[] = [
   ['keys.steps', '1 – 7'],
   ['app.frame', 'F'],
+  ['app.views', 'Shift 1 – 7'],
   ['rig.poseKey', 'Enter'],
   ['edit.brush', 'B'],
   ['edit.lasso', 'L'],
@@ -37,6 +39,11 @@ export function onKey(app: App, event: KeyboardEvent): void {
     return void app.command(event.shiftKey ? 'redo' : 'undo');
   }
   if (event.altKey) return;
+  const view = event.shiftKey && /^Digit[1-7]$/.test(event.code) ? VIEWS[Number(event.code.slice(5)) - 1] : undefined;
+  if (view) {
+    const [x, y, z] = view[1];
+    return app.viewer.frame([x, y, z]);
+  }
   if (/^[1-7]$/.test(key)) {
     const step = STEPS[Number(key) - 1] as StepName;
     if (reachable(app.state.project, step)) app.go(step);

@@ -6,8 +6,29 @@ import type { LiveLayer } from './steps/live';
 export class LiveStage {
   layer: LiveLayer = 'camera';
   readonly view = new LiveView();
+  /** When the last picture came, ms. */
+  private drawnAt = 0;
 
-  constructor(private readonly app: App) {}
+  constructor(private readonly app: App) {
+    setInterval(() => this.watch(), 500);
+  }
+
+  /** Seconds since the last picture where a newer one is overdue; null while it is fresh, or without any. */
+  get frozen_s(): number | null {
+    const { figures } = this.view;
+    if (!figures) return null;
+    const age = (Date.now() - this.drawnAt) / 1000;
+    const due = Math.max(2.5, 4 / Math.max(0.1, figures.frames_per_s));
+    return age > due || !this.app.state.project?.live ? age : null;
+  }
+  private wasFrozen = false;
+  /** Nothing else comes from the server while the picture stands still. */
+  private watch(): void {
+    if (this.app.step !== 'live' || !this.app.session.state) return;
+    const frozen = this.frozen_s !== null;
+    if (frozen || this.wasFrozen) this.app.requestUpdate();
+    this.wasFrozen = frozen;
+  }
 
   setLayer(layer: LiveLayer): void {
     this.layer = layer;
@@ -27,6 +48,7 @@ export class LiveStage {
     else app.session.show('none');
   }
   draw(picture: ArrayBuffer): void {
+    this.drawnAt = Date.now();
     if (this.view.draw(picture) && this.view.positions) this.app.viewer.setCloud(-1, this.view.positions.slice());
     this.app.requestUpdate();
   }

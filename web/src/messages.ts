@@ -1,3 +1,4 @@
+import { CHECK } from './messages/check';
 import { COMPARE } from './messages/compare';
 import { EDIT } from './messages/edit';
 import { EXPORT } from './messages/export';
@@ -9,25 +10,45 @@ import { SCAN } from './messages/scan';
 import { SURFACE } from './messages/surface';
 
 /** The message catalogue, put together from its areas. */
-const CATALOGUE = { ...HOME, ...FRAME, ...RIG, ...LIVE, ...SCAN, ...SURFACE, ...COMPARE, ...EDIT, ...EXPORT } as const;
+const CATALOGUE = {
+  ...HOME,
+  ...FRAME,
+  ...RIG,
+  ...LIVE,
+  ...SCAN,
+  ...CHECK,
+  ...SURFACE,
+  ...COMPARE,
+  ...EDIT,
+  ...EXPORT,
+} as const;
 
 export type MessageKey = keyof typeof CATALOGUE;
-export type Language = 'en' | 'de';
+/** The languages in the order of the catalogue's columns, each by its own name. */
+export const LANGUAGES = [
+  ['en', 'English'],
+  ['de', 'Deutsch'],
+  ['it', 'Italiano'],
+] as const;
+export type Language = (typeof LANGUAGES)[number][0];
 
-const stored = localStorage.getItem('frangia-language');
+const LOCALES: Record<Language, string> = { en: 'en-GB', de: 'de-DE', it: 'it-IT' };
+const known = (name: string | null): Language | undefined => LANGUAGES.find(([one]) => one === name)?.[0];
 let language: Language =
-  stored === 'de' || stored === 'en' ? stored : navigator.language.startsWith('de') ? 'de' : 'en';
+  known(localStorage.getItem('frangia-language')) ?? known(navigator.language.slice(0, 2)) ?? 'en';
+let column = LANGUAGES.findIndex(([name]) => name === language) as 0 | 1 | 2;
 
 export const currentLanguage = (): Language => language;
 
 export function setLanguage(next: Language): void {
   language = next;
+  column = LANGUAGES.findIndex(([name]) => name === next) as 0 | 1 | 2;
   localStorage.setItem('frangia-language', next);
   document.documentElement.lang = next;
 }
 
 export function t(key: MessageKey, values: Record<string, string | number> = {}): string {
-  const text: string = CATALOGUE[key][language === 'en' ? 0 : 1];
+  const text: string = CATALOGUE[key][column];
   return text.replace(/\{(\w+)\}/g, (_, name: string) => String(values[name] ?? ''));
 }
 
@@ -40,7 +61,7 @@ export const count = (
 
 /** A time as the language writes it, to the minute. */
 export const moment = (seconds: number): string =>
-  new Date(1000 * seconds).toLocaleString(language === 'de' ? 'de-DE' : 'en-GB', {
+  new Date(1000 * seconds).toLocaleString(LOCALES[language], {
     dateStyle: 'medium',
     timeStyle: 'short',
   });
@@ -51,7 +72,8 @@ export const stageName = (stage: string): string =>
 
 /** A number as the language writes it; one that rounds to zero has no sign. */
 export const number = (value: number, digits = 0): string =>
-  (Math.abs(value) < 0.5 * 10 ** -digits ? 0 : value).toLocaleString(language === 'de' ? 'de-DE' : 'en-GB', {
+  (Math.abs(value) < 0.5 * 10 ** -digits ? 0 : value).toLocaleString(LOCALES[language], {
+    useGrouping: true,
     minimumFractionDigits: digits,
     maximumFractionDigits: digits,
   });

@@ -5,17 +5,25 @@ export type Tool = 'orbit' | 'measure' | 'angle' | 'brush' | 'lasso' | 'rectangl
 export const DRAWING: ReadonlySet<Tool> = new Set(['lasso', 'rectangle', 'brush']);
 const CLICKING: ReadonlySet<Tool> = new Set(['measure', 'angle', 'part', 'loop', 'align']);
 
+/** The keys that are held while the pointer draws. */
+export interface Hand {
+  shift: boolean;
+  ctrl: boolean;
+}
+
 interface Events {
   /** A stroke of a drawing tool has ended: its outline, pixels. */
-  outlined(stroke: Point[]): void;
+  outlined(stroke: Point[], hand: Hand): void;
   /** A clicking tool was used at a point, pixels. */
-  clicked(point: Point): void;
+  clicked(point: Point, hand: Hand): void;
 }
 
 /** What the pointer draws on the picture with the present tool. */
 export class PointerStrokes {
   private stroke: Point[] = [];
   private down: Point | null = null;
+  private held: Hand = { shift: false, ctrl: false };
+  private readonly fingers = new Set<number>();
 
   constructor(
     canvas: HTMLCanvasElement,
@@ -29,8 +37,11 @@ export class PointerStrokes {
       return [event.clientX - frame.left, event.clientY - frame.top];
     };
     canvas.addEventListener('pointerdown', (event) => {
+      if (event.pointerType === 'touch') this.fingers.add(event.pointerId);
+      if (this.fingers.size > 1) return this.drop(); // two fingers move the view
       if (event.button !== 0) return;
       this.down = at(event);
+      this.held = { shift: event.shiftKey, ctrl: event.ctrlKey || event.metaKey };
       if (!DRAWING.has(hand.tool)) return;
       canvas.setPointerCapture(event.pointerId);
       this.stroke = [this.down];
@@ -41,6 +52,8 @@ export class PointerStrokes {
       this.sketch();
     });
     canvas.addEventListener('pointerup', (event) => {
+      this.fingers.delete(event.pointerId);
+      if (event.button !== 0) return;
       const point = at(event);
       const still = this.down && Math.hypot(point[0] - this.down[0], point[1] - this.down[1]) < 4;
       this.down = null;
@@ -48,14 +61,19 @@ export class PointerStrokes {
       this.stroke = [];
       this.sketch();
       const outline = hand.tool === 'brush' ? brushOutline(stroke, hand.brush) : stroke;
-      if (DRAWING.has(hand.tool) && outline.length >= 3) return events.outlined(outline);
-      if (still && CLICKING.has(hand.tool)) events.clicked(point);
+      if (DRAWING.has(hand.tool) && outline.length >= 3) return events.outlined(outline, this.held);
+      if (still && CLICKING.has(hand.tool)) events.clicked(point, this.held);
     });
-    canvas.addEventListener('pointercancel', () => {
-      this.stroke = [];
-      this.down = null;
-      this.sketch();
+    canvas.addEventListener('pointercancel', (event) => {
+      this.fingers.delete(event.pointerId);
+      this.drop();
     });
+  }
+
+  private drop(): void {
+    this.stroke = [];
+    this.down = null;
+    this.sketch();
   }
 
   private extend(point: Point): void {

@@ -11,6 +11,3 @@ export function toggleTheme(): void {
   document.documentElement.dataset.theme = theme;
   localStorage.setItem('frangia-theme', theme);
 }
-export function toggleLanguage(): void {
-  setLanguage(currentLanguage() === 'en' ? 'de' : 'en');
-}

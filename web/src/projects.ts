@@ -1,19 +1,45 @@
 import type { App } from './app';
+import { t } from './messages';
 import type { Source } from './steps/project';
+import type { ProjectEntry } from './types';
 
-/** Creating and opening projects, as the step Project asks for it. */
+/** A name that no project has yet: "Bust", "Bust 2", ... */
+export function freeName(wanted: string, taken: readonly string[]): string {
+  const base = wanted.charAt(0).toUpperCase() + wanted.slice(1);
+  for (let i = 1; ; i++) {
+    const name = i === 1 ? base : `${base} ${i}`;
+    if (!taken.includes(name)) return name;
+  }
+}
+
+const THUMBNAIL = { width: 240, height: 160 };
+/** After the surface was last shown anew, until its picture is taken, ms. */
+const SETTLED_MS = 2500;
+
+/** Creating, opening and keeping projects, as the step Project asks for it. */
 export class Projects {
-  source: Source = 'simulated';
+  /** Where the rig of a new project comes from; null until somebody chooses. */
+  private chosen: Source | null = null;
   example = 'lab-piezo';
   /** Names of the chosen files of a rig. */
   files: string[] = [];
+  /** What the names or notes of the listed projects hold. */
+  wanted = '';
+  /** Addresses of the pictures, by name and time. */
+  private readonly pictures = new Map<string, string>();
+  private pictured = '';
+  private picturing = 0;
   /** Whether the project that opens next was created here. */
   private created = false;
 
   constructor(private readonly app: App) {}
 
+  /** A kept rig, where there is one: most projects use the rig that stands there. */
+  get source(): Source {
+    return this.chosen ?? (this.app.state.rigs.length > 0 ? 'kept' : 'simulated');
+  }
   setSource(source: Source): void {
-    this.source = source;
+    this.chosen = source;
     this.files = [];
     this.app.requestUpdate();
   }
@@ -40,5 +66,85 @@ export class Projects {
     if (app.state.project?.name === name)
       app.go(app.project.surface || app.project.surface_loading ? 'surface' : 'scan');
     else await app.command('open-project', { name });
+  }
+
+  search(wanted: string): void {
+    this.wanted = wanted;
+    this.app.requestUpdate();
+  }
+  /** The projects that are searched for. */
+  get listed(): ProjectEntry[] {
+    const wanted = this.wanted.trim().toLowerCase();
+    return this.app.state.projects.filter(({ name, notes }) => `${name}\n${notes}`.toLowerCase().includes(wanted));
+  }
+  private get names(): string[] {
+    return this.app.state.projects.map(({ name }) => name);
+  }
+  async rename(name: string): Promise<void> {
+    const to = await this.app.asking.write(t('home.renameAsk', { name }), name, t('home.rename'));
+    if (to && to !== name) await this.app.command('rename-project', { name, to });
+  }
+  async duplicate(name: string): Promise<void> {
+    const copy = await this.app.asking.write(
+      t('home.duplicateAsk', { name }),
+      freeName(name, this.names),
+      t('home.duplicate'),
+    );
+    if (copy) await this.app.command('duplicate-project', { name, copy });
+  }
+  async note({ name, notes }: ProjectEntry): Promise<void> {
+    const text = await this.app.asking.write(t('home.notesAsk', { name }), notes, t('home.notesKeep'), {
+      lines: 7,
+      most: 1000,
+    });
+    if (text !== null && text !== notes) await this.app.command('set-notes', { name, text });
+  }
+  async discard(name: string): Promise<void> {
+    if (await this.app.asking.confirm(t('home.discardAsk', { name }), t('home.discard')))
+      await this.app.command('discard-project', { name });
+  }
+  async forgetRig(name: string): Promise<void> {
+    if (await this.app.asking.confirm(t('rigs.discardAsk', { name }), t('rigs.discard')))
+      await this.app.command('discard-rig', { name });
+  }
+
+  /** Address of the picture of a project; empty until it has come. */
+  picture({ name, thumbnail_s: at }: ProjectEntry): string {
+    if (at === 0) return '';
+    const key = `${name} ${at}`;
+    const known = this.pictures.get(key);
+    if (known !== undefined) return known;
+    this.pictures.set(key, '');
+    this.app.session.bytes(`/api/thumbnails/${encodeURIComponent(name)}`).then(
+      (bytes) => {
+        this.pictures.set(key, URL.createObjectURL(new Blob([bytes])));
+        this.app.requestUpdate();
+      },
+      () => undefined, // the card is complete without it
+    );
+    return '';
+  }
+  /** Takes a picture of a surface that is new in the view, for the list. */
+  follow(): void {
+    const { app } = this;
+    const surface = app.state.project?.surface;
+    if (!surface || !app.viewer.supported || !app.viewer.shown || app.session.watches) return;
+    const key = `${app.project.name} ${surface.mesh_revision}`;
+    if (key === this.pictured) return;
+    this.pictured = key;
+    clearTimeout(this.picturing);
+    this.picturing = window.setTimeout(() => void this.takePicture(key), SETTLED_MS);
+  }
+  private async takePicture(key: string): Promise<void> {
+    const { app } = this;
+    const shows = app.step === 'surface' || app.step === 'edit' || app.step === 'export';
+    const entry = app.state.projects.find(({ name }) => name === app.state.project?.name);
+    if (key !== this.pictured || !app.state.project?.surface || !entry) return;
+    if (!shows || !app.viewer.atRest || app.look.coloring !== 'plain' || app.busy) {
+      this.pictured = ''; // another time
+      return;
+    }
+    const bytes = await app.viewer.thumbnail(THUMBNAIL.width, THUMBNAIL.height);
+    if (bytes) await app.session.command('set-thumbnail', { picture: bytes }).catch(() => undefined);
   }
 }

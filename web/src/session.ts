@@ -144,8 +144,8 @@ export class Session {
     }
   }
 
-  /** Sends a file to compare with, in pieces; `sent` hears the share that has arrived. */
-  async sendReference(file: File, format: string, sent: (share: number) => void): Promise<void> {
+  /** Sends a file to the open project, in pieces; `sent` hears the share that has arrived. */
+  async send(file: Blob, sent: (share: number) => void): Promise<void> {
     const piece = 768 * 1024;
     for (let offset = 0; offset < file.size || offset === 0; offset += piece) {
       await this.request(`/api/reference/${offset}`, {
@@ -155,7 +155,6 @@ export class Session {
       });
       sent(Math.min(1, (offset + piece) / Math.max(1, file.size)));
     }
-    await this.command('set-reference', { name: file.name.slice(0, 120), format, bytes: file.size });
   }
 
   /** The point of the exact mesh on a ray. */

@@ -1,8 +1,10 @@
 import { html, type TemplateResult } from 'lit';
 
+import { adviceStep } from './advice';
 import type { App } from './app';
 import { icon, logo } from './icons';
 import { t } from './messages';
+import { reachable } from './step_state';
 import { plain } from './ui';
 
 async function enter(app: App, event: SubmitEvent): Promise<void> {
@@ -38,6 +40,23 @@ export function blankPage(app: App): TemplateResult {
   </main>`;
 }
 
+/** What a failure advises, as a button. */
+function advice(app: App): TemplateResult | string {
+  const project = app.state.project;
+  const step = project ? adviceStep(app.problem, app.step) : undefined;
+  if (!step || !reachable(project, step)) return '';
+  return html`<button
+    class="btn small"
+    id="advice"
+    @click=${() => {
+      app.dismiss();
+      app.go(step);
+    }}
+  >
+    ${t('app.next', { step: t(`step.${step}`) })}
+  </button>`;
+}
+
 /** Who operates, a lost connection, and what went wrong. */
 export function notices(app: App): TemplateResult {
   const lost = app.session.link === 'lost';
@@ -57,6 +76,7 @@ export function notices(app: App): TemplateResult {
       app.problem && !lost
         ? html`<div class="notice" role="alert">
             <span>${plain(app.problem)}</span>
+            ${advice(app)}
             <button class="icon-btn" aria-label=${t('app.dismiss')} @click=${() => app.dismiss()}>
               ${icon('close')}
             </button>

@@ -17,5 +17,5 @@ export function finished(project: Project | null, step: StepName): boolean {
   if (step === 'scan') return Boolean(project?.scan_complete);
   if (step === 'surface') return Boolean(project?.surface);
   if (step === 'edit') return (project?.surface?.steps_done ?? 0) > 0;
-  return (project?.exports ?? []).some(({ name }) => name !== 'calibration.html');
+  return (project?.exports ?? []).some(({ name }) => name !== 'calibration.html' && !name.startsWith('board-'));
 }

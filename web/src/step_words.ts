@@ -39,7 +39,7 @@ export function stepWords({ operation, value, change }: Step): string {
   if (operation === 'align') return count('did.align');
   if (operation === 'invert') return count('did.invert');
   if (operation === 'grow' || operation === 'shrink') return count(`did.${operation}`);
-  if (operation === 'add' || operation === 'within') return count(`did.${operation}`);
+  if (operation === 'add' || operation === 'within' || operation === 'without') return count(`did.${operation}`);
   if (operation === 'select-sigma') return count('did.selectSigma');
   if (operation === 'select-plane') return count('did.selectPlane');
   if (operation === 'select-component') return count('did.selectPart');

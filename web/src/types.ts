@@ -20,7 +20,8 @@ export interface Job {
     | 'preview'
     | 'reference'
     | 'compare'
-    | 'export';
+    | 'export'
+    | 'copy';
   state: JobState;
   progress: number;
   stage: string;
@@ -78,6 +79,9 @@ export interface Summary {
     closure_deg: number | null;
   };
   untrusted_reason: string;
+  /** What the reconstruction warned of; missing for a surface of an older program. */
+  warnings?: string[];
+  views_of_scan?: number;
   /** How the setups join; missing or empty for a scan of one. */
   setups?: SetupJoin[];
 }
@@ -270,6 +274,34 @@ export interface Surface {
   fits: Fit[];
   summary: Summary | null;
 }
+/** What a list shows of a rig. */
+export interface RigFigures {
+  date: string;
+  poses: number;
+  point_sigma_mm: number | null;
+  has_turntable: boolean;
+  has_axis: boolean;
+  drivers: string[];
+}
+/** A rig that the project had before a change. */
+export interface KeptRig extends RigFigures {
+  number: number;
+  kept_s: number;
+  before: 'geometry' | 'devices' | 'calibration' | 'axis' | 'restored';
+}
+/** A rig that is kept for any project. */
+export interface LibraryRig extends RigFigures {
+  name: string;
+  kept_s: number;
+}
+/** What one view tells of light and focus. */
+export interface ScanCheck {
+  at_s: number;
+  contrast: number;
+  saturated: number;
+  points: number;
+  finding: string;
+}
 export interface Project {
   name: string;
   can_scan: boolean;
@@ -279,6 +311,11 @@ export interface Project {
   rig: RigGeometry | null;
   rig_fault: string;
   rig_begun: boolean;
+  /** Its parts can be moved by hand: they are simulated, and nothing was measured of them. */
+  rig_adjustable: boolean;
+  /** The newest first. */
+  kept_rigs: KeptRig[];
+  check: ScanCheck | null;
   residuals_s: number;
   devices: Device[];
   live: { pattern: LivePattern; table_deg: number } | null;
@@ -305,6 +342,9 @@ export interface ProjectEntry {
   modified_s: number;
   scanned: boolean;
   has_surface: boolean;
+  /** When its picture was written; 0: there is none. */
+  thumbnail_s: number;
+  notes: string;
 }
 export interface State {
   version: string;
@@ -313,6 +353,9 @@ export interface State {
   examples: { name: string; description: string }[];
   search: DeviceSearch | null;
   projects: ProjectEntry[];
+  /** Names of the projects in the bin. */
+  discarded: string[];
+  rigs: LibraryRig[];
   project: Project | null;
   jobs: Job[];
 }

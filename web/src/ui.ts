@@ -63,9 +63,14 @@ export const numberForm = (
     <button class="btn" ?disabled=${disabled}>${button}</button>
   </form>`;
 
-/** A sentence of the library, whose option names stand in backticks. */
+/** A sentence of the library for the page: no backticks around names, views by their number, a file by its name alone. */
 export const plain = (sentence: string): string =>
-  sentence.replace(/`([\w-]+)`/g, (_, name: string) => name.replaceAll('_', ' '));
+  sentence
+    .replace(/\bviews\/0*(\d+)/g, (_, number: string) => t('findings.view', { number: Number(number) + 1 }))
+    .replace(/`([^`]+)`/g, (_, name: string) => (/^[\w-]+$/.test(name) ? name.replaceAll('_', ' ') : name))
+    .replace(/(?<![\w.])(?:\/[^\s/:;,()]+(?: [^\s/:;,()]+)*?)+\/([^\s/:;,()]+)/g, '$1');
+
+export const capitalized = (sentence: string): string => sentence.charAt(0).toUpperCase() + sentence.slice(1);
 
 /** A word as a POSIX shell reads it back. */
 export const quoted = (word: string): string =>

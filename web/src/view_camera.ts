@@ -47,6 +47,24 @@ export class ViewCamera {
     controls.update();
   }
 
+  /** Whether the left button and one finger draw; wheel, other buttons and two fingers move the view all the same. */
+  setDrawing(drawing: boolean): void {
+    const { controls } = this;
+    controls.mouseButtons = {
+      LEFT: drawing ? null : THREE.MOUSE.ROTATE,
+      MIDDLE: drawing ? THREE.MOUSE.ROTATE : THREE.MOUSE.DOLLY,
+      RIGHT: THREE.MOUSE.PAN,
+    };
+    controls.touches = { ONE: drawing ? null : THREE.TOUCH.ROTATE, TWO: THREE.TOUCH.DOLLY_PAN };
+  }
+
+  /** Millimetres that a pixel of the screen stands for at the middle of the picture. */
+  get mmPerPixel(): number {
+    const { camera, controls } = this;
+    const distance = camera.position.distanceTo(controls.target);
+    return (2 * distance * Math.tan((camera.fov * Math.PI) / 360)) / Math.max(1, this.canvas.clientHeight);
+  }
+
   setAspect(aspect: number): void {
     this.camera.aspect = aspect;
     this.camera.updateProjectionMatrix();

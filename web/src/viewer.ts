@@ -10,12 +10,13 @@ import { type Measurement, type MeasureKind, Ruler } from './ruler';
 import { RigModel } from './rig_model';
 import { addLights, addTable } from './stage_props';
 import { Smoothing } from './smoothing';
-import { DRAWING, PointerStrokes, type Tool } from './pointer_strokes';
+import { DRAWING, type Hand, PointerStrokes, type Tool } from './pointer_strokes';
 import { type SectionAxis, type Shading, SurfaceView } from './surface_view';
 import type { Hole, RigGeometry } from './types';
 import { type Outline, ViewCamera } from './view_camera';
+import { ViewMarks } from './view_marks';
 
-export type { Tool } from './pointer_strokes';
+export type { Hand, Tool } from './pointer_strokes';
 export type { SectionAxis, Shading } from './surface_view';
 
 /** A ray through the picture, and the half-space that a section leaves. */
@@ -34,11 +35,11 @@ export interface Hit {
 interface Events {
   /** Asks for the point of the exact mesh on a ray. */
   pick(ray: Ray): Promise<Hit | null>;
-  measured(result: Measurement | null): void;
-  outlined(outline: Outline, through: boolean): void;
-  partPicked(triangle: number): void;
+  measured(result: Measurement): void;
+  outlined(outline: Outline, through: boolean, hand: Hand): void;
+  partPicked(triangle: number, hand: Hand): void;
   /** A point of the surface, or three of them for an alignment. */
-  picked(tool: Tool, points: [number, number, number][]): void;
+  picked(tool: Tool, points: [number, number, number][], hand: Hand): void;
 }
 
 /** After a move, until the finest level is drawn, ms: later where it takes long and would hold up the next move. */
@@ -58,6 +59,7 @@ export class Viewer {
   private renderer!: THREE.WebGLRenderer;
   private smoothing!: Smoothing;
   private view!: ViewCamera;
+  private readonly marks = new ViewMarks();
   private readonly scene = new THREE.Scene();
   private readonly lights = new THREE.Group();
   private readonly clouds = new CloudsView();
@@ -84,7 +86,7 @@ export class Viewer {
     this.overlay = document.createElementNS('http://www.w3.org/2000/svg', 'svg');
     this.overlay.setAttribute('class', 'view-overlay');
     this.overlay.setAttribute('aria-hidden', 'true');
-    host.append(this.canvas, this.overlay);
+    host.append(this.canvas, this.overlay, this.ruler.labels, this.marks.element);
     try {
       // three.js would complain on the console; the page says it in words.
       const context = document.createElement('canvas').getContext('webgl2');
@@ -121,11 +123,11 @@ export class Viewer {
     addTable(this.table);
     new ResizeObserver(() => this.resize()).observe(host);
     new PointerStrokes(this.canvas, this.overlay, this, {
-      outlined: (stroke) => this.events.outlined(this.view.outlineOf(stroke), this.through),
-      clicked: (point) => {
+      outlined: (stroke, hand) => this.events.outlined(this.view.outlineOf(stroke), this.through, hand),
+      clicked: (point, hand) => {
         const { tool } = this;
         void this.events.pick(this.pickRay(point)).then((hit) => {
-          if (hit && tool === this.tool) this.onHit(hit);
+          if (hit && tool === this.tool) this.onHit(hit, hand);
         });
       },
     });
@@ -162,8 +164,24 @@ export class Viewer {
     return new Promise((resolve) => this.canvas.toBlob(resolve, 'image/png'));
   }
 
+  /** The present view in a small JPEG, base64; empty where the browser makes none. */
+  async thumbnail(width: number, height: number): Promise<string> {
+    this.drawNow();
+    const { width: w, height: h } = this.canvas;
+    const scale = Math.max(width / w, height / h);
+    const small = document.createElement('canvas');
+    small.width = width;
+    small.height = height;
+    const pen = small.getContext('2d') as CanvasRenderingContext2D;
+    pen.fillStyle = '#20292b';
+    pen.fillRect(0, 0, width, height);
+    pen.drawImage(this.canvas, (width - w * scale) / 2, (height - h * scale) / 2, w * scale, h * scale);
+    return small.toDataURL('image/jpeg', 0.85).split(',')[1] ?? '';
+  }
+
   showSurface(shown: boolean): void {
-    this.surface.group.visible = this.preview.group.visible = shown;
+    this.surface.group.visible = this.preview.group.visible = this.ruler.group.visible = shown;
+    this.ruler.labels.style.display = shown ? '' : 'none';
     this.draw();
   }
   /** Draws the coarsest level until nothing has moved for a while. */
@@ -295,30 +313,36 @@ export class Viewer {
   setTool(tool: Tool): void {
     this.tool = tool;
     if (!this.supported) return;
-    this.view.controls.enabled = !DRAWING.has(tool);
+    this.view.setDrawing(DRAWING.has(tool));
     this.canvas.dataset.tool = tool;
     this.clearMeasurement();
   }
 
+  /** Drops points that were clicked and make nothing yet. */
   clearMeasurement(): void {
     this.ruler.clear();
     this.picks = [];
-    this.events.measured(null);
+    this.draw();
+  }
+  showMeasurements(list: readonly { label: string; result: Measurement }[]): void {
+    this.ruler.show(list, this.size.length() / 260);
     this.draw();
   }
 
-  private onHit(hit: Hit): void {
-    if (this.tool === 'part') return this.events.partPicked(hit.triangle);
-    if (this.tool === 'loop') return this.events.picked('loop', [hit.point_mm]);
+  private onHit(hit: Hit, hand: Hand): void {
+    if (this.tool === 'part') return this.events.partPicked(hit.triangle, hand);
+    if (this.tool === 'loop') return this.events.picked('loop', [hit.point_mm], hand);
     const kind: MeasureKind = this.tool === 'measure' ? 'distance' : this.tool === 'angle' ? 'angle' : 'points';
     const point = new THREE.Vector3(...hit.point_mm);
-    this.events.measured(this.ruler.add(point, hit.sigma_mm ?? NaN, kind, this.size.length() / 260));
+    const result = this.ruler.add(point, hit.sigma_mm ?? NaN, kind, this.size.length() / 260);
+    if (result) this.events.measured(result);
     if (this.tool === 'align') {
       this.picks.push(point);
       if (this.picks.length === 3) {
         this.events.picked(
           'align',
           this.picks.map((one) => one.toArray()),
+          hand,
         );
         this.clearMeasurement();
       }
@@ -351,6 +375,8 @@ export class Viewer {
   drawNow(): void {
     const { camera } = this.view;
     this.lights.quaternion.copy(camera.quaternion);
+    this.marks.update(camera, this.view.mmPerPixel);
+    this.ruler.place(camera, this.canvas.clientWidth, this.canvas.clientHeight);
     this.smoothing.render(this.scene, camera, !(this.moving && this.smoothing.software));
   }
 }

@@ -255,6 +255,11 @@ HttpResponse AppRoutes::get(const std::string& path) const {
     return found(service_.cloud(*station), "this station has no points");
   if (const auto joined = number_after(path, "/api/setups/"))
     return found(service_.setup_cloud(*joined), "there is no such setup");
+  if (const auto text = rest_of(path, "/api/thumbnails/")) {
+    const auto name = percent_decoded(*text);
+    if (!name) return failure(kBadRequest, "the name is not percent-encoded");
+    return found(service_.thumbnail(*name), "this project has no picture");
+  }
   if (const auto text = rest_of(path, "/api/exports/")) {
     const auto name = percent_decoded(*text);
     if (!name) return failure(kBadRequest, "the name is not percent-encoded");

@@ -14,7 +14,8 @@ namespace frangia {
 enum class Combine {
   Replace,  ///< the next selection replaces the present one
   Add,      ///< selects what is in either
-  Within    ///< selects what is in both
+  Within,   ///< selects what is in both
+  Without   ///< selects what is in the present one and not in the next
 };
 
 /// The state that operations change.

@@ -8,6 +8,7 @@
 
 #include "frangia/core/atomic_file.h"
 #include "frangia/core/error.h"
+#include "frangia/core/make_folder.h"
 #include "frangia/files/internal/zip_file.h"
 
 namespace frangia {
@@ -26,7 +27,72 @@ std::vector<std::filesystem::path> files_below(const std::filesystem::path& fold
   return files;
 }
 
+[[noreturn]] void refuse_archive(const std::filesystem::path& archive, const std::string& why) {
+  throw Error(ErrorKind::Input, fmt::format("{}: {}", archive.string(), why));
+}
+
+/// Whether every part of a name is that of an entry in its own folder.
+bool stays_inside(const std::string& name) {
+  const std::filesystem::path path(name);
+  return path.is_relative() && name.find('\\') == std::string::npos &&
+         name.find('\0') == std::string::npos &&
+         std::none_of(path.begin(), path.end(), [](const std::filesystem::path& part) {
+           return part == ".." || part == ".";
+         });
+}
+
+bool is_hidden(const std::string& name) {
+  const std::filesystem::path path(name);
+  return std::any_of(path.begin(), path.end(), [](const std::filesystem::path& part) {
+    return part.string().starts_with('.') || part == "__MACOSX";
+  });
+}
+
+/// The folder of the only entry with a file name, with its slash; empty for the top.
+std::string folder_with(const std::filesystem::path& archive,
+                        const std::vector<std::string>& names,
+                        const std::string& marker) {
+  std::vector<std::string> folders;
+  for (const std::string& name : names) {
+    if (is_hidden(name) || std::filesystem::path(name).filename() != marker) continue;
+    folders.push_back(name.substr(0, name.size() - marker.size()));
+  }
+  if (folders.empty())
+    refuse_archive(archive, fmt::format("holds no {}; choose another archive", marker));
+  if (folders.size() > 1) {
+    refuse_archive(
+        archive,
+        fmt::format("holds {} files {}; pack each of them on its own", folders.size(), marker));
+  }
+  return folders.front();
+}
+
 }  // namespace
+
+void unzip_folder(const std::filesystem::path& archive,
+                  const std::string& marker,
+                  const std::filesystem::path& folder,
+                  const Run& run) {
+  constexpr std::size_t kMostEntries = 200'000;
+  const ZipReader reader(archive);
+  const std::vector<std::string> names = reader.names();
+  if (names.size() > kMostEntries) refuse_archive(archive, "holds more entries than any scan");
+  const std::string inside = folder_with(archive, names, marker);
+  for (const std::string& name : names)
+    if (!stays_inside(name))
+      refuse_archive(archive, "an entry leads out of the archive; it is refused");
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    run.report(static_cast<double>(i) / static_cast<double>(names.size()));
+    const std::string& name = names[i];
+    if (!name.starts_with(inside) || name.ends_with('/') || is_hidden(name)) continue;
+    const auto target = folder / name.substr(inside.size());
+    make_folder(target.parent_path());
+    AtomicFile file(target);
+    static_cast<void>(
+        reader.read(name, [&](std::string_view piece, double) { file.stream() << piece; }));
+    file.commit();
+  }
+}
 
 void zip_folder(const std::filesystem::path& folder,
                 const std::string& name,

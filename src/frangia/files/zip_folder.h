@@ -17,4 +17,16 @@ void zip_folder(const std::filesystem::path& folder,
                 const std::filesystem::path& archive,
                 const Run& run = {});
 
+/// Unpacks the entries of an archive that lie in the folder of its only file `marker`, such as
+/// "scan.toml", into a new folder, with their subfolders. Hidden entries are left out.
+///
+/// @errors   Error(Input) that names the archive: it is none, is damaged, expands beyond all
+/// measure,
+///          has no or several files `marker`, or an entry whose name leads out of the folder;
+///          Error(File) when the folder cannot be written; Error(Cancelled)
+void unzip_folder(const std::filesystem::path& archive,
+                  const std::string& marker,
+                  const std::filesystem::path& folder,
+                  const Run& run = {});
+
 }  // namespace frangia

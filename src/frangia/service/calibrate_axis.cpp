@@ -12,6 +12,7 @@
 #include "frangia/rig/read_rig.h"
 #include "frangia/rig/write_rig.h"
 #include "frangia/service/internal/opened_devices.h"
+#include "frangia/service/rig_history.h"
 #include "frangia/simulate/default_patterns.h"
 
 namespace frangia {
@@ -59,6 +60,7 @@ FoundAxis calibrate_axis(const ProjectFolder& project,
   run.stage("axis");
   const TurntableCalibration found = calibrate_turntable(
       read_scan(plan.folder, run, RigContent::StartValues), plan.rig, {}, 5.0, run);
+  keep_rig(project, RigChange::Axis);
   const std::filesystem::path fresh = project.folder / "rig-with-axis.toml";
   write_rig(fresh, found.rig, Durability::Synced, project.rig());
   std::filesystem::rename(fresh, project.rig());

@@ -17,6 +17,7 @@
 #include "frangia/service/calibration_wizard.h"
 #include "frangia/service/internal/calibrate_residuals_json.h"
 #include "frangia/service/internal/opened_devices.h"
+#include "frangia/service/rig_history.h"
 #include "frangia/simulate/default_patterns.h"
 
 namespace frangia {
@@ -160,6 +161,7 @@ void CalibrationWizard::solve(const Board& board, const Run& run) {
   options.pose.keep_picture = true;
   const RigCalibration result =
       calibrate_rig(read_scan(folder_, listening, RigContent::StartValues), options, listening);
+  keep_rig(project_, RigChange::Calibration);
   keep(result, board);
   const std::filesystem::path fresh = project_.in_folder("rig-calibrated.toml");
   write_rig(fresh, result.rig, Durability::Synced, project_.rig());

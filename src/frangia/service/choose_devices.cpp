@@ -18,6 +18,7 @@
 #include "frangia/rig/read_rig.h"
 #include "frangia/rig/write_rig.h"
 #include "frangia/service/given_rig.h"
+#include "frangia/service/rig_history.h"
 
 namespace frangia {
 namespace {
@@ -179,6 +180,7 @@ void choose_devices(const ProjectFolder& project,
     devices.push_back(std::move(camera));
   for (const DeviceSettings& device : devices)
     text += fmt::format("\n[devices.{}]\n{}", device.device(), device_table_lines(device));
+  keep_rig(project, RigChange::Devices);
   AtomicFile out(file);
   out.stream() << text;
   out.commit();

@@ -8,9 +8,12 @@
 
 #include "frangia/core/atomic_file.h"
 #include "frangia/core/error.h"
+#include "frangia/core/folder_lock.h"
 #include "frangia/core/make_folder.h"
 #include "frangia/core/open_below.h"
 #include "frangia/core/read_json_below.h"
+#include "frangia/core/read_text_file.h"
+#include "frangia/core/sync_to_disk.h"
 
 namespace frangia {
 namespace {
@@ -43,6 +46,58 @@ bool is_project(const std::filesystem::path& folder) {
   return is_file(folder / kProjectFile) || is_file(folder / "scan.toml");
 }
 
+std::string notes_of(const ProjectFolder& project) {
+  constexpr std::uint64_t kMostNoteBytes = 10'000;
+  try {
+    const auto file = project.notes();
+    return is_file(file) ? read_text_file(file, kMostNoteBytes) : std::string();
+  } catch (const Error&) {
+    return {};
+  }
+}
+
+void move_folder(const std::filesystem::path& from, const std::filesystem::path& to) {
+  std::error_code error;
+  std::filesystem::rename(from, to, error);
+  if (error) {
+    throw Error(ErrorKind::File,
+                fmt::format("{}: cannot be moved: {}", from.string(), error.message()));
+  }
+  sync_to_disk(folder_of(to));
+}
+
+/// Copies regular files and folders, not links, and not the lock of another process.
+void copy_folder(const std::filesystem::path& from,
+                 const std::filesystem::path& to,
+                 const Run& run) {
+  make_folder(to);
+  std::error_code error;
+  for (const auto& entry : std::filesystem::directory_iterator(from, error)) {
+    run.check();
+    const auto target = to / entry.path().filename();
+    if (entry.is_symlink() || entry.path().filename() == FolderLock::kFileName) continue;
+    if (entry.is_directory()) {
+      copy_folder(entry.path(), target, run);
+    } else if (entry.is_regular_file()) {
+      std::filesystem::copy_file(entry.path(), target, error);
+    }
+    if (error) break;
+  }
+  if (error) {
+    throw Error(ErrorKind::File,
+                fmt::format("{}: cannot be copied: {}", from.string(), error.message()));
+  }
+}
+
+/// "Bust", "Bust 2", ...: the first that a folder does not hold.
+std::filesystem::path free_name(const std::filesystem::path& folder, const std::string& name) {
+  std::error_code ignored;
+  for (int i = 1;; ++i) {
+    const auto path = folder / (i == 1 ? name : fmt::format("{} {}", name, i));
+    if (!std::filesystem::exists(std::filesystem::symlink_status(path, ignored))) return path;
+  }
+}
+
 /// A project that holds a link is listed by its name: opening it says which one.
 ProjectEntry entry_of(const std::filesystem::path& folder) {
   try {
@@ -50,7 +105,9 @@ ProjectEntry entry_of(const std::filesystem::path& folder) {
     return {project.name,
             newest_s(project),
             is_file(project.in_scan("scan.toml")),
-            is_file(project.versions()) || is_file(project.in_derived("surface.ply"))};
+            is_file(project.versions()) || is_file(project.in_derived("surface.ply")),
+            modified_s(project.thumbnail()),
+            notes_of(project)};
   } catch (const Error&) {
     return {.name = folder.filename().string(), .modified_s = modified_s(folder)};
   }
@@ -143,6 +200,67 @@ void check_project_name(const std::string& name) {
               fmt::format("a project's name has 1 to {} letters, no slash, and begins with a "
                           "letter or a digit; write another one",
                           kLongest));
+}
+
+std::filesystem::path ProjectLibrary::free_folder(const std::string& name) const {
+  check_project_name(name);
+  const auto folder = root_ / name;
+  std::error_code ignored;
+  if (std::filesystem::exists(std::filesystem::symlink_status(folder, ignored))) {
+    throw Error(ErrorKind::Input,
+                fmt::format("there is a project {} already; write another name", name));
+  }
+  return folder;
+}
+
+void ProjectLibrary::rename(const std::string& name, const std::string& to) const {
+  const ProjectFolder project = find(name);
+  const auto folder = free_folder(to);
+  const FolderLock lock(project.derived);
+  move_folder(project.folder, folder);
+}
+
+void ProjectLibrary::duplicate(const std::string& name,
+                               const std::string& copy,
+                               const Run& run) const {
+  const ProjectFolder project = find(name);
+  const auto folder = free_folder(copy);
+  const auto unfinished = root_ / ".copy";
+  std::error_code ignored;
+  std::filesystem::remove_all(unfinished, ignored);
+  try {
+    copy_folder(project.folder, unfinished, run);
+  } catch (const Error&) {
+    std::filesystem::remove_all(unfinished, ignored);
+    throw;
+  }
+  move_folder(unfinished, folder);
+}
+
+void ProjectLibrary::discard(const std::string& name) const {
+  const ProjectFolder project = find(name);
+  make_folder(bin());
+  const FolderLock lock(project.derived);
+  move_folder(project.folder, free_name(bin(), name));
+}
+
+std::vector<std::string> ProjectLibrary::discarded() const {
+  std::vector<std::string> names;
+  std::error_code error;
+  for (const auto& entry : std::filesystem::directory_iterator(bin(), error))
+    if (!entry.is_symlink() && is_project(entry.path()))
+      names.push_back(entry.path().filename().string());
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+std::string ProjectLibrary::take_back(const std::string& name) const {
+  const std::vector<std::string> names = discarded();
+  if (std::find(names.begin(), names.end(), name) == names.end())
+    throw Error(ErrorKind::Input, "there is no deleted project of this name");
+  const auto folder = free_name(root_, name);
+  move_folder(bin() / name, folder);
+  return folder.filename().string();
 }
 
 ProjectFolder ProjectLibrary::create(const std::string& name) const {

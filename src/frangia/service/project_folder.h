@@ -8,6 +8,7 @@
 
 #include "frangia/core/file_descriptor.h"
 #include "frangia/core/open_below.h"
+#include "frangia/core/run.h"
 
 namespace frangia {
 
@@ -63,6 +64,10 @@ struct ProjectFolder {
   [[nodiscard]] std::filesystem::path axis() const { return in_derived("axis"); }
   /// Residuals of the calibration, JSON.
   [[nodiscard]] std::filesystem::path residuals() const { return in_derived("residuals.json"); }
+  /// A small picture of the surface for the list of projects: PNG or JPEG.
+  [[nodiscard]] std::filesystem::path thumbnail() const { return in_derived("thumbnail"); }
+  /// What the user noted, plain text.
+  [[nodiscard]] std::filesystem::path notes() const { return in_derived("notes.txt"); }
   /// Folder of the exported files.
   [[nodiscard]] std::filesystem::path exports() const { return in_derived("exports"); }
   /// Points of a station, packed by encode_points.
@@ -71,10 +76,12 @@ struct ProjectFolder {
 
 /// What a list of projects shows of one.
 struct ProjectEntry {
-  std::string name;             ///< name of its folder, unique in a library
-  std::int64_t modified_s = 0;  ///< of its newest derived file, seconds since 1970
-  bool scanned = false;         ///< its scan is complete
-  bool has_surface = false;     ///< a surface was reconstructed
+  std::string name;              ///< name of its folder, unique in a library
+  std::int64_t modified_s = 0;   ///< of its newest derived file, seconds since 1970
+  bool scanned = false;          ///< its scan is complete
+  bool has_surface = false;      ///< a surface was reconstructed
+  std::int64_t thumbnail_s = 0;  ///< when its picture was written, seconds since 1970; 0: none
+  std::string notes = {};        ///< of its user; may be empty
 };
 
 /// Recognizes the project in a folder.
@@ -99,8 +106,31 @@ class ProjectLibrary {
   /// @errors   Error(Input) for a name that is no plain file name of 1 to 60 bytes, or that is
   ///          taken; Error(File) when the folder cannot be written
   [[nodiscard]] ProjectFolder create(const std::string& name) const;
+  /// Gives a project another name.
+  ///
+  /// @errors   as `find` and `create`; Error(Input) while another process has it open
+  void rename(const std::string& name, const std::string& to) const;
+  /// Copies a project, without links. The copy appears when it is complete.
+  ///
+  /// @errors   as `find` and `create`; Error(File) when it cannot be written; Error(Cancelled)
+  void duplicate(const std::string& name, const std::string& copy, const Run& run) const;
+  /// Moves a project into the bin.
+  ///
+  /// @errors   as `find`; Error(Input) while another process has it open
+  void discard(const std::string& name) const;
+  /// Folder of what was deleted.
+  [[nodiscard]] std::filesystem::path bin() const { return root_ / ".bin"; }
+  /// Names of the projects in the bin, sorted.
+  [[nodiscard]] std::vector<std::string> discarded() const;
+  /// Brings a project back from the bin. Returns its name, which has a number where that of the
+  /// bin is taken.
+  ///
+  /// @errors   Error(Input) when the bin holds none of this name
+  std::string take_back(const std::string& name) const;
 
  private:
+  /// The folder of a name that no project has.
+  [[nodiscard]] std::filesystem::path free_folder(const std::string& name) const;
   std::filesystem::path root_;
 };
 

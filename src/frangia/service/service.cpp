@@ -18,45 +18,6 @@
 namespace frangia {
 namespace {
 
-ProjectProgress progress_of(const OpenProject& project) {
-  ProjectProgress progress;
-  progress.folder = project.folder;
-  progress.can_scan = project.can_scan;
-  progress.setup = present_setup(project.stations);
-  progress.stations = static_cast<std::size_t>(std::count_if(
-      project.stations.begin(), project.stations.end(), [&](const ProjectStation& station) {
-        return station.setup == progress.setup;
-      }));
-  progress.scan_complete = project.scan_complete;
-  progress.capture = project.capture;
-  if (project.wizard) {
-    const WizardState state = project.wizard->state();
-    progress.calibration = {
-        project.wizard->folder(), state.board, state.wanted, !state.verdict.grade.empty()};
-  }
-  progress.has_surface = project.surface != nullptr;
-  if (project.surface) {
-    if (project.versions) {
-      if (const SurfaceVersion* version = project.versions->find(project.surface->version))
-        progress.surface = files_of(project.folder, *version).surface();
-    }
-    const auto& steps = project.surface->steps;
-    const auto done = static_cast<std::ptrdiff_t>(project.surface->done);
-    progress.steps.assign(steps.begin(), steps.begin() + done);
-    if (const auto& shown = project.surface->comparison) {
-      const ToleranceLimits& limits = shown->found.verdict.rule.limits;
-      progress.comparison = {
-          project.folder.reference(project.reference.format, project.reference.number),
-          shown->best_fit,
-          shown->start + 1,
-          shown->found.poses.size(),
-          limits.lower,
-          limits.upper};
-    }
-  }
-  return progress;
-}
-
 /// Whether a job has finished; false for number 0.
 bool is_over(const std::vector<Job>& jobs, int number) {
   const bool begun = !jobs.empty() && jobs.back().number >= number;
@@ -71,6 +32,7 @@ bool is_over(const std::vector<Job>& jobs, int number) {
 Service::Implementation::Implementation(ServiceOptions options, std::function<void()> on_change)
     : options_(std::move(options)),
       library_(options_.projects),
+      rigs_(options_.projects / ".rigs"),
       on_change_([told = std::move(on_change)]() noexcept {
         try {
           told();
@@ -78,6 +40,8 @@ Service::Implementation::Implementation(ServiceOptions options, std::function<vo
         }
       }),
       projects_(library_.list()),
+      kept_rigs_(rigs_.list()),
+      discarded_(library_.discarded()),
       queue_(on_change_) {}
 
 std::string Service::Implementation::command(const std::string& name, const std::string& text) {
@@ -85,6 +49,13 @@ std::string Service::Implementation::command(const std::string& name, const std:
       {"create-project", &Implementation::create_project},
       {"open-project", &Implementation::open_project},
       {"close-project", &Implementation::close_project},
+      {"rename-project", &Implementation::rename_project},
+      {"duplicate-project", &Implementation::duplicate_project},
+      {"discard-project", &Implementation::discard_project},
+      {"take-back-project", &Implementation::take_back_project},
+      {"set-notes", &Implementation::set_notes},
+      {"set-thumbnail", &Implementation::set_thumbnail},
+      {"open-file", &Implementation::open_file},
       {"set-capture", &Implementation::set_capture},
       {"start-live", &Implementation::start_live},
       {"set-live", &Implementation::set_live},
@@ -98,7 +69,12 @@ std::string Service::Implementation::command(const std::string& name, const std:
       {"test-devices", &Implementation::start_test_devices},
       {"find-exposure", &Implementation::start_find_exposure},
       {"set-rig", &Implementation::set_rig},
+      {"restore-rig", &Implementation::restore_rig_before},
+      {"keep-rig", &Implementation::keep_rig_as},
+      {"discard-rig", &Implementation::discard_rig},
+      {"check-scan", &Implementation::start_check_scan},
       {"start-calibration", &Implementation::start_calibration},
+      {"print-board", &Implementation::print_board},
       {"find-axis", &Implementation::find_axis},
       {"capture-pose", &Implementation::capture_pose},
       {"end-poses", &Implementation::end_poses},
@@ -116,8 +92,17 @@ std::string Service::Implementation::command(const std::string& name, const std:
       {"stop-job", &Implementation::stop_job}};
   const auto found = kCommands.find(name);
   require(found != kCommands.end(), "there is no such command");
-  static const std::set<std::string> kWithoutFolder = {
-      "create-project", "open-project", "close-project", "find-devices", "stop-job"};
+  static const std::set<std::string> kWithoutFolder = {"create-project",
+                                                       "open-project",
+                                                       "close-project",
+                                                       "rename-project",
+                                                       "duplicate-project",
+                                                       "discard-project",
+                                                       "take-back-project",
+                                                       "set-notes",
+                                                       "find-devices",
+                                                       "discard-rig",
+                                                       "stop-job"};
   CommandArguments arguments(text, name);
   // A job is stopped at once, whatever another command is at.
   if (name == "stop-job") return stop_job(arguments).dump();
@@ -155,6 +140,8 @@ std::string Service::Implementation::state() const {
     const std::lock_guard lock(mutex_);
     view.version = options_.version;
     view.projects = projects_;
+    view.rigs = kept_rigs_;
+    view.discarded = discarded_;
     view.project = project_;
     view.search = search_;
   }
@@ -264,9 +251,13 @@ void Service::Implementation::change(const std::function<void(OpenProject&)>& ed
 }
 void Service::Implementation::refresh_projects() {
   auto entries = library_.list();
+  auto rigs = rigs_.list();
+  auto discarded = library_.discarded();
   {
     const std::lock_guard lock(mutex_);
     projects_ = std::move(entries);
+    kept_rigs_ = std::move(rigs);
+    discarded_ = std::move(discarded);
   }
   on_change_();
 }
@@ -367,6 +358,9 @@ LivePicture Service::live_picture(LiveLayer layer, std::uint64_t after) const {
   return implementation_->live_picture(layer, after);
 }
 
+std::string Service::thumbnail(const std::string& name) const {
+  return implementation_->thumbnail(name);
+}
 std::string Service::residuals() const {
   return implementation_->residuals();
 }

@@ -146,6 +146,10 @@ class Service {
   ///
   /// @errors   Error(Input) when no project is open, or it was not calibrated here
   [[nodiscard]] std::string residuals() const;
+  /// The small picture of a project of the list, PNG or JPEG; empty without one.
+  ///
+  /// @errors   Error(Input) when there is no project of this name
+  [[nodiscard]] std::string thumbnail(const std::string& name) const;
   /// A file that was exported.
   ///
   /// @errors   Error(Input) when there is no export of this name

@@ -7,7 +7,7 @@ import { stepWords } from '../step_words';
 import type { Tool } from '../viewer';
 import { fitting, selectingByValue, shaping } from './edit_more';
 
-export type Combine = 'replace' | 'add' | 'within';
+export type Combine = 'replace' | 'add' | 'without' | 'within';
 const SHOWN_HOLES = 6;
 
 /** An icon whose name shows when it is pointed at. */
@@ -43,10 +43,12 @@ function selecting(app: App): TemplateResult {
       [
         ['replace', t('edit.replace')],
         ['add', t('edit.add')],
+        ['without', t('edit.without')],
         ['within', t('edit.within')],
       ],
       (combine) => app.editing.setCombine(combine),
     )}
+    <p class="quiet">${t('edit.modeKeys')}</p>
     <label class="switch"
       >${t('edit.through')}<input
         type="checkbox"

@@ -37,6 +37,8 @@ const stepOf = (exposure: number): number => Math.round(20 * Math.log10(exposure
 /** What stands on the picture: layers, figures and the scale of its colours. */
 export function liveOverlay(app: App): TemplateResult {
   const { figures } = app.live.view;
+  const age = app.live.frozen_s;
+  const frozen = age === null ? '' : app.project.live ? t('live.frozen', { seconds: number(age) }) : t('live.stopped');
   return html`<div class="layers">
       ${choice<LiveLayer>(
         t('live.layer'),
@@ -45,6 +47,7 @@ export function liveOverlay(app: App): TemplateResult {
         (layer) => app.live.setLayer(layer),
       )}
     </div>
+    ${frozen ? html`<div class="live-frozen" role="status"><span class="dot poor"></span>${frozen}</div>` : ''}
     ${(app.project.live || app.job('live')) && !figures ? html`<div class="live-wait quiet">${t('live.waiting')}</div>` : ''}
     ${
       figures
@@ -185,15 +188,22 @@ function exposure(app: App): TemplateResult {
 /** The exposures of each frame of the scan; what several of them measure is merged. */
 function exposures(app: App, several: boolean, fixed: boolean): TemplateResult {
   const { exposures_ms } = app.project.capture;
+  const shown = several ? exposures_ms.map((value) => Number(value.toPrecision(3))).join(' ') : '';
   const enter = (event: Event) => {
-    const text = (event.target as HTMLInputElement).value;
-    const values = text
+    const input = event.target as HTMLInputElement;
+    const values = input.value
       .split(/[;\s]+|,(?=\s)|,(?=\d+(?:[.;,\s]|$))/)
       .filter(Boolean)
-      .map(Number);
-    if (values.every((value) => value > 0))
-      void app.command('set-capture', { exposures_ms: values.length > 1 ? values : [] });
-    else app.requestUpdate();
+      .map((text) => Number(text.replace(',', '.')));
+    if (!values.every((value) => value > 0 && Number.isFinite(value))) {
+      app.say(t('live.badExposures', { text: input.value }));
+      input.value = shown;
+      return;
+    }
+    const [one] = values;
+    if (values.length === 1 && one !== undefined)
+      void app.command('set-capture', { exposure_ms: one, exposures_ms: [] }).then(() => (input.value = ''));
+    else void app.command('set-capture', { exposures_ms: values });
   };
   return html`<label class="field"
     ><span>${t('live.exposures')}</span
@@ -204,7 +214,7 @@ function exposures(app: App, several: boolean, fixed: boolean): TemplateResult {
       inputmode="decimal"
       placeholder=${t('live.exposuresHint')}
       ?disabled=${fixed}
-      .value=${several ? exposures_ms.map((value) => Number(value.toPrecision(3))).join(' ') : ''}
+      .value=${shown}
       @change=${enter}
   /></label>`;
 }

@@ -2,28 +2,16 @@ import { html, svg, type TemplateResult } from 'lit';
 import type { App } from '../app';
 import { fringePaths } from '../fringes';
 import { icon } from '../icons';
-import { currentLanguage, type MessageKey, t } from '../messages';
+import { type MessageKey, moment, number, t } from '../messages';
+import { freeName } from '../projects';
+import type { ProjectEntry } from '../types';
 import { choice } from '../ui';
+import { rigWords } from './rig_history';
 
 const FRINGES = fringePaths(720, 420);
 
-const when = (seconds: number): string =>
-  new Date(seconds * 1000).toLocaleString(currentLanguage() === 'de' ? 'de-DE' : 'en-GB', {
-    dateStyle: 'medium',
-    timeStyle: 'short',
-  });
-
-/** A name that no project has yet: "Bust", "Bust 2", ... */
-function freeName(wanted: string, taken: string[]): string {
-  const base = wanted.charAt(0).toUpperCase() + wanted.slice(1);
-  for (let i = 1; ; i++) {
-    const name = i === 1 ? base : `${base} ${i}`;
-    if (!taken.includes(name)) return name;
-  }
-}
-
 /** Where the rig of a new project comes from. */
-export const SOURCES = ['simulated', 'devices', 'file', 'example'] as const;
+export const SOURCES = ['kept', 'simulated', 'devices', 'file', 'example'] as const;
 export type Source = (typeof SOURCES)[number];
 
 /** The rig.toml among chosen files, and the CSV file with its covariance. */
@@ -37,8 +25,32 @@ async function rigOf(files: FileList): Promise<{ rig: string; covariance: string
   return texts;
 }
 
+/** The kept rigs, of which one is chosen. */
+const keptRigs = (app: App): TemplateResult =>
+  html`<div class="rigs" role="radiogroup" aria-label=${t('home.source.kept')}>
+    ${app.state.rigs.map(
+      (rig, i) =>
+        html`<div class="rig">
+          <label
+            ><input type="radio" name="kept" value=${rig.name} ?checked=${i === 0} /><b>${rig.name}</b
+            ><span class="quiet num">${rigWords(rig)}</span></label
+          >
+          <button
+            type="button"
+            class="icon-btn"
+            title=${t('rigs.discard')}
+            aria-label="${t('rigs.discard')}: ${rig.name}"
+            @click=${() => void app.projects.forgetRig(rig.name)}
+          >
+            ${icon('close')}
+          </button>
+        </div>`,
+    )}
+  </div>`;
+
 function sourceFields(app: App): TemplateResult {
   const { state } = app;
+  if (app.projects.source === 'kept') return keptRigs(app);
   if (app.projects.source === 'simulated')
     return html`<label class="field"
       ><span>${t('home.part')}</span
@@ -84,6 +96,8 @@ function newProject(app: App): TemplateResult {
     const common = { name: String(form.get('name')).trim(), stations: Number(form.get('stations')) };
     const files = (event.target as HTMLFormElement).querySelector<HTMLInputElement>('input[type=file]')?.files;
     if (app.projects.source === 'simulated') await app.projects.create({ ...common, part: String(form.get('part')) });
+    else if (app.projects.source === 'kept')
+      await app.projects.create({ ...common, kept_rig: String(form.get('kept')) });
     else if (app.projects.source === 'devices') await app.projects.create({ ...common, devices: true });
     else if (app.projects.source === 'example')
       await app.projects.create({ ...common, example: String(form.get('example')) });
@@ -104,7 +118,9 @@ function newProject(app: App): TemplateResult {
       ${choice<Source>(
         t('home.source'),
         app.projects.source,
-        SOURCES.map((source) => [source, t(`home.source.${source}` as MessageKey)] as const),
+        SOURCES.filter((source) => source !== 'kept' || app.state.rigs.length > 0).map(
+          (source) => [source, t(`home.source.${source}` as MessageKey)] as const,
+        ),
         (source) => app.projects.setSource(source),
       )}
     </div>
@@ -113,10 +129,92 @@ function newProject(app: App): TemplateResult {
   </form>`;
 }
 
+function card(app: App, one: ProjectEntry): TemplateResult {
+  const picture = app.projects.picture(one);
+  const act = (key: MessageKey, name: string, run: () => Promise<void>) =>
+    html`<button class="btn small" data-act=${name} ?disabled=${app.session.watches} @click=${() => void run()}>
+      ${t(key)}
+    </button>`;
+  const state = one.has_surface ? 'home.surface' : one.scanned ? 'home.scanned' : 'home.empty';
+  return html`<div class="project-card" data-project=${one.name}>
+    <button class="card" @click=${() => app.projects.open(one.name)}>
+      ${picture ? html`<img src=${picture} alt="" />` : icon('folder')}<b>${one.name}</b>
+      <span class="quiet num">${moment(one.modified_s)}</span>
+      <span class="tag ${one.has_surface ? 'on' : ''}">${t(state)}</span>
+      ${one.notes ? html`<span class="notes quiet">${one.notes}</span>` : ''}
+    </button>
+    <details class="menu">
+      <summary class="icon-btn" title=${t('home.more')} aria-label="${t('home.more')}: ${one.name}">⋯</summary>
+      <div class="acts">
+        ${act('home.rename', 'rename', () => app.projects.rename(one.name))}
+        ${act('home.duplicate', 'duplicate', () => app.projects.duplicate(one.name))}
+        ${act('home.notes', 'notes', () => app.projects.note(one))}
+        ${act('home.discard', 'discard', () => app.projects.discard(one.name))}
+      </div>
+    </details>
+  </div>`;
+}
+
+/** The projects that were deleted, each of which can be put back. */
+function bin(app: App): TemplateResult | string {
+  const { discarded } = app.state;
+  if (discarded.length === 0) return '';
+  return html`<details class="more" id="bin">
+    <summary>${t('home.bin', { count: discarded.length })}</summary>
+    ${discarded.map(
+      (name) =>
+        html`<div class="file">
+          <b>${name}</b><span></span>
+          <button class="btn small" @click=${() => app.command('take-back-project', { name })}>
+            ${icon('undo')}${t('home.takeBack')}
+          </button>
+        </div>`,
+    )}
+  </details>`;
+}
+
+function projectList(app: App): TemplateResult {
+  const { projects } = app.state;
+  const { sent } = app.opening;
+  return html`<section>
+    <div class="list-head">
+      <h2>${t('home.recent')}</h2>
+      <div class="row">
+        <button class="btn small" id="open-file" @click=${() => app.opening.choose(false)}>
+          ${icon('folder')}${sent === null ? t('open.file') : t('compare.sending', { share: number(100 * sent) })}
+        </button>
+        <button class="btn small" id="open-folder" @click=${() => app.opening.choose(true)}>${t('open.folder')}</button>
+      </div>
+    </div>
+    <p class="quiet">${t('open.hint')}</p>
+    ${
+      projects.length > 3
+        ? html`<div class="field">
+            <input
+              id="search"
+              type="search"
+              autocomplete="off"
+              aria-label=${t('home.search')}
+              placeholder=${t('home.search')}
+              .value=${app.projects.wanted}
+              @input=${(event: Event) => app.projects.search((event.target as HTMLInputElement).value)}
+            />
+          </div>`
+        : ''
+    }
+    <div class="cards">
+      ${projects.length === 0 ? html`<p class="quiet">${t('home.none')}</p>` : ''}
+      ${projects.length > 0 && app.projects.listed.length === 0 ? html`<p class="quiet">${t('home.noMatch')}</p>` : ''}
+      ${app.projects.listed.map((one) => card(app, one))}
+    </div>
+    ${bin(app)}
+  </section>`;
+}
+
 export function projectStep(app: App): TemplateResult {
   const state = app.state;
   const taken = state.projects.map((one) => one.name);
-  return html`<main class="home">
+  return html`<main class="home ${state.projects.length > 0 || state.rigs.length > 0 ? 'used' : ''}">
     <section class="hero">
       <svg class="fringes" viewBox="0 0 760 420" preserveAspectRatio="xMidYMid slice" aria-hidden="true">
         ${FRINGES.map(({ d, strength }) => svg`<path d=${d} opacity=${strength.toFixed(2)} />`)}
@@ -135,22 +233,7 @@ export function projectStep(app: App): TemplateResult {
       </div>
     </section>
     <div class="home-grid">
-      <section>
-        <h2>${t('home.recent')}</h2>
-        <div class="cards">
-          ${state.projects.length === 0 ? html`<p class="quiet">${t('home.none')}</p>` : ''}
-          ${state.projects.map(
-            (one) =>
-              html`<button class="card" @click=${() => app.projects.open(one.name)}>
-                ${icon('folder')}<b>${one.name}</b>
-                <span class="quiet num">${when(one.modified_s)}</span>
-                <span class="tag ${one.has_surface ? 'on' : ''}"
-                  >${one.has_surface ? t('home.surface') : one.scanned ? t('home.scanned') : t('home.empty')}</span
-                >
-              </button>`,
-          )}
-        </div>
-      </section>
+      ${projectList(app)}
       <section>
         <h2>${t('home.new')}</h2>
         ${newProject(app)}

@@ -6,15 +6,25 @@ import { number, t, type MessageKey } from '../messages';
 import { poseTable } from '../residuals';
 import type { Calibration, RigGeometry } from '../types';
 import { nextStep, plain } from '../ui';
-import { axisCard, axisIsKnown, boardField, boardFields, boardOf, hasTable } from './rig_axis';
+import { axisCard, axisIsKnown, hasTable } from './rig_axis';
+import { boardField, boardFields, boardOf, boardPrints } from './rig_board';
 import { devices } from './rig_devices';
+import { keepRig, rigHistory } from './rig_history';
 
 /** The report of `frangia calibrate rig`, which the calibration writes to the exports. */
 const REPORT = 'calibration.html';
 
-/** One figure of the rig; the picture follows while it is dragged, the rig when it is let go. */
+/**
+ * One figure of the rig. Those of a simulated, uncalibrated one can be moved: the picture follows while it is dragged, the
+ * rig when it is let go.
+ */
 function figure(app: App, key: RigFigure, label: string, value: number, unit: string): TemplateResult {
-  const fixed = app.project.scan_begun || app.occupied;
+  if (!app.project.rig_adjustable || app.project.scan_begun)
+    return html`<dl class="figures">
+      <dt>${label}</dt>
+      <dd class="num">${number(value, 1)}<span>${unit}</span></dd>
+    </dl>`;
+  const fixed = app.occupied || app.session.watches;
   return html`<label class="slider"
     ><span>${label}</span><b class="num">${number(value, 1)} ${unit}</b>
     <input
@@ -135,7 +145,11 @@ function calibration(app: App): TemplateResult {
   const start = (event: SubmitEvent) => {
     event.preventDefault();
     const form = new FormData(event.target as HTMLFormElement);
-    void app.command('start-calibration', { ...boardOf(form), poses: Number(form.get('poses')) });
+    const wanted = { ...boardOf(form), poses: Number(form.get('poses')) };
+    void (async () => {
+      if (!known || (await app.asking.confirm(t('rig.againAsk'), t('rig.again'))))
+        await app.command('start-calibration', wanted);
+    })();
   };
   return html`<section class="group">
     <h2>
@@ -173,7 +187,7 @@ function calibration(app: App): TemplateResult {
         ? ''
         : html`${project.exports.some(({ name }) => name === REPORT) ? html`<button class="btn wide" id="report" @click=${() => app.exporting.download(REPORT)}>${icon('download')}${t('rig.report')}</button>` : ''}
             <form class="form-plain" @submit=${start}>
-              <div class="four">${boardFields()}${boardField('poses', t('rig.poses'), 12)}</div>
+              <div class="four">${boardFields(app)}${boardField('poses', t('rig.poses'), 12)}</div>
               <button
                 class="btn wide"
                 id="calibrate"
@@ -181,7 +195,8 @@ function calibration(app: App): TemplateResult {
               >
                 ${t(state?.verdict || known ? 'rig.again' : 'rig.start')}
               </button>
-            </form>`
+            </form>
+            ${boardPrints(app)}`
     }
   </section>`;
 }
@@ -193,6 +208,6 @@ export function rigStep(app: App): TemplateResult {
     ? t('rig.uncalibrated')
     : project.rig_fault || (project.can_scan ? '' : t(project.scan_complete ? 'scan.noRig' : 'rig.none'));
   const axisFirst = !axisIsKnown(app) && !project.calibration?.active;
-  return html`${devices(app)}${axisFirst ? axisCard(app) : ''}${project.can_scan || project.calibration ? calibration(app) : ''}${axisFirst ? '' : axisCard(app)}${rig ? geometry(app, rig) : fault ? html`<section class="group"><p class="quiet">${fault}</p></section>` : ''}
+  return html`${devices(app)}${axisFirst ? axisCard(app) : ''}${project.can_scan || project.calibration ? calibration(app) : ''}${axisFirst ? '' : axisCard(app)}${keepRig(app)}${rigHistory(app)}${rig ? geometry(app, rig) : fault ? html`<section class="group"><p class="quiet">${fault}</p></section>` : ''}
   ${project.can_scan && !project.calibration?.active ? nextStep(app, 'live', axisIsKnown(app) || !hasTable(app)) : ''}`;
 }

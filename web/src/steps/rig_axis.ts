@@ -1,6 +1,7 @@
 import { html, type TemplateResult } from 'lit';
 import type { App } from '../app';
 import { number, t } from '../messages';
+import { boardFields, boardOf } from './rig_board';
 
 /** Whether a scan of several stations can be built: the axis about which they turn is known. */
 export const axisIsKnown = (app: App): boolean => !app.project.rig || app.project.rig.turntable !== null;
@@ -8,42 +9,21 @@ export const axisIsKnown = (app: App): boolean => !app.project.rig || app.projec
 /** Whether the rig turns its part. */
 export const hasTable = (app: App): boolean => app.project.devices.some(({ table }) => table === 'turntable');
 
-/** A number of the board, or of its poses. */
-export const boardField = (name: string, label: string, value: number, step = 1): TemplateResult =>
-  html`<label class="field"
-    ><span>${label}</span
-    ><input
-      class="num"
-      name=${name}
-      type="number"
-      min=${step < 1 ? 0.1 : 3}
-      max="100"
-      step=${step}
-      required
-      .defaultValue=${String(value)}
-  /></label>`;
-
-/** What describes a checkerboard. */
-export const boardFields = (): TemplateResult =>
-  html`${boardField('columns', t('rig.columns'), 10)}${boardField('rows', t('rig.rows'), 7)}${boardField('square_mm', t('rig.square'), 14, 0.01)}`;
-
-/** The board of a form with these fields. */
-export function boardOf(form: FormData): Record<string, number> {
-  return Object.fromEntries(['columns', 'rows', 'square_mm'].map((name) => [name, Number(form.get(name))]));
-}
-
 /** The card that finds the axis of the turntable with the board of the calibration. */
 export function axisCard(app: App): TemplateResult | string {
   const { project } = app;
   if (!project.rig || !project.can_scan || !hasTable(app)) return '';
-  if (axisIsKnown(app) && !project.rig.calibration && !project.axis) return '';
+  if (project.rig_adjustable && axisIsKnown(app) && !project.axis) return '';
   const job = app.job('axis');
   const found = project.axis;
   const known = axisIsKnown(app);
   const ownBoard = project.residuals_s > 0; // that of the calibration here
   const find = (event: SubmitEvent) => {
     event.preventDefault();
-    void app.command('find-axis', ownBoard ? {} : boardOf(new FormData(event.target as HTMLFormElement)));
+    const board = ownBoard ? {} : boardOf(new FormData(event.target as HTMLFormElement));
+    void (async () => {
+      if (!known || (await app.asking.confirm(t('axis.ask'), t('axis.again')))) await app.command('find-axis', board);
+    })();
   };
   return html`<section class="group" id="axis">
     <h2>
@@ -70,7 +50,7 @@ export function axisCard(app: App): TemplateResult | string {
               ${t('axis.stop')}
             </button>`
         : html`<form class="form-plain" @submit=${find}>
-            ${ownBoard ? '' : html`<div class="four">${boardFields()}</div>`}
+            ${ownBoard ? '' : html`<div class="four">${boardFields(app)}</div>`}
             <button
               class="btn ${known ? '' : 'primary'} wide"
               id="find-axis"

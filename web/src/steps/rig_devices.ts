@@ -62,7 +62,10 @@ function choosing(app: App, draft: DeviceDraft): TemplateResult {
   const { search } = app.state;
   const use = () => {
     const devices = Object.fromEntries(Object.entries(draft).filter(([, lines]) => lines.trim()));
-    void app.arranging.useDevices(devices);
+    void (async () => {
+      const asked = !app.project.rig?.calibration || (await app.asking.confirm(t('rig.devicesAsk'), t('rig.use')));
+      if (asked) await app.arranging.useDevices(devices);
+    })();
   };
   const ready = draft.camera.trim() && draft.fringes.trim();
   return html`<p class="quiet">${search ? t('rig.chooseHint') : t('rig.searchFirst')}</p>

@@ -6,6 +6,7 @@ import { number, t } from '../messages';
 import type { Station } from '../types';
 import { numberForm, span } from '../ui';
 import { axisIsKnown } from './rig_axis';
+import { scanCheck } from './scan_check';
 import { joins, nextSetup, presentSetup, setupChoice } from './scan_setups';
 
 /** Whether the present setup is captured. */
@@ -46,6 +47,9 @@ export function scanStep(app: App): TemplateResult {
     project.stations.some((station) => station.setup === present && station.state !== 'waiting');
   const measured = stations.some((station) => station.points > 0);
   const complete = done(app);
+  const before = !job && !begun && !complete;
+  const resumed = !job && begun && !complete;
+  const lead = resumed ? t('scan.resume') : !project.can_scan ? t('scan.noRig') : before ? '' : t('scan.lead');
   if (app.setups.turning && complete && !job) return nextSetup(app);
   return html`<section class="group">
       ${setupChoice(app)}
@@ -84,10 +88,9 @@ export function scanStep(app: App): TemplateResult {
                     </button>`
                   : ''
       }
-      <p class="quiet">
-        ${!job && begun && !complete ? t('scan.resume') : project.can_scan ? t('scan.lead') : t('scan.noRig')}
-      </p>
+      ${lead ? html`<p class="quiet">${lead}</p>` : ''}
     </section>
+    ${before ? scanCheck(app) : ''}
     ${complete && !job && project.can_scan && !app.session.watches ? nextSetup(app) : ''} ${job ? '' : joins(app)}
     <section class="group">
       <table class="table">

@@ -1,12 +1,12 @@
-import { html, svg, type TemplateResult } from 'lit';
+import { html, type TemplateResult } from 'lit';
 import type { App } from '../app';
-import { css, MARK_COLORS, type Rgb, SEVERAL_SETUPS, setupColor } from '../colors';
 import { icon } from '../icons';
-import { legend } from '../legend';
+import { joinedSetups } from '../legend';
 import type { Coloring } from '../mesh_colors';
 import { number, t } from '../messages';
 import { choice, plain } from '../ui';
 import { comparing } from './compare';
+import { findings } from './surface_findings';
 import { joins } from './scan_setups';
 import { versions } from './surface_versions';
 import type { Summary } from '../types';
@@ -33,19 +33,8 @@ function registrationWords(summary: Summary): string {
   return `${agree} ${axis}${closes}`;
 }
 
-/** Whether setups were joined. */
-const several = (app: App): boolean =>
-  (app.project.surface?.summary?.setups ?? []).filter((setup) => setup.joined).length > 1;
-
-const swatch = (color: Rgb, text: string): TemplateResult =>
-  html`<span
-    ><svg viewBox="0 0 14 14" aria-hidden="true">${svg`<rect width="14" height="14" rx="3" fill=${css(color)} />`}</svg
-    >${text}</span
-  >`;
-
 export function appearance(app: App): TemplateResult {
   const { look, viewer } = app;
-  const scale = viewer.legend;
   return html`<section class="group">
     <h2>${t('surface.shading')}</h2>
     ${choice<Shading>(
@@ -68,33 +57,11 @@ export function appearance(app: App): TemplateResult {
         ['sigma', t('surface.sigma')],
         ['views', t('surface.views')],
         ['marks', t('surface.marks')],
-        ...(several(app) ? ([['setup', t('surface.setup')]] as const) : []),
+        ...(joinedSetups(app).length > 0 ? ([['setup', t('surface.setup')]] as const) : []),
         ...(app.project.surface?.comparison ? ([['deviation', t('surface.deviation')]] as const) : []),
       ],
       (coloring) => app.setLook({ coloring }),
     )}
-    ${look.coloring === 'sigma' && scale ? legend(t('surface.sigmaLegend'), scale, 1000, 1) : ''}
-    ${look.coloring === 'views' && scale ? legend(t('surface.viewsLegend'), scale, 1, 0) : ''}
-    ${look.coloring === 'deviation' && scale ? legend(t('surface.deviationLegend'), scale, 1, 2) : ''}
-    ${
-      look.coloring === 'setup' && several(app)
-        ? html`<div class="swatches">
-            ${(app.project.surface?.summary?.setups ?? [])
-              .filter((setup) => setup.joined)
-              .map((setup, i) => swatch(setupColor(i), t('surface.setupOnly', { number: setup.number + 1 })))}
-            ${swatch(SEVERAL_SETUPS[0] as Rgb, t('surface.setupBoth'))}
-          </div>`
-        : ''
-    }
-    ${
-      look.coloring === 'marks'
-        ? html`<div class="swatches">
-            ${(['surface.measured', 'surface.displaced', 'surface.synthesized'] as const).map((key, i) =>
-              swatch(MARK_COLORS[i] ?? [0, 0, 0], t(key)),
-            )}
-          </div>`
-        : ''
-    }
   </section>`;
 }
 
@@ -165,7 +132,7 @@ export function surfaceStep(app: App): TemplateResult {
   const { look, viewer } = app;
   const size = viewer.size;
   const { summary } = surface;
-  return html`${appearance(app)}
+  return html`${findings(app)}${appearance(app)}
     <section class="group">
       <h2>
         ${t('surface.section')}<small class="num"
@@ -183,6 +150,7 @@ export function surfaceStep(app: App): TemplateResult {
             ${icon(tool)}${t(tool === 'measure' ? 'surface.measure' : 'surface.measureAngle')}
           </button>`,
       )}
+      ${app.measuring.panel()}
     </section>
     ${joins(app)} ${comparing(app)}
     <section class="group">
@@ -218,7 +186,6 @@ export function surfaceStep(app: App): TemplateResult {
         <dd class="num">${number(surface.hole_count)}</dd>
       </dl>
       ${summary?.registration ? html`<p class="quiet">${registrationWords(summary)}</p>` : ''}
-      ${summary?.untrusted_reason ? html`<p><span class="dot poor"></span>${summary.untrusted_reason}</p>` : ''}
       ${
         app.project.scan_complete
           ? html`<button class="btn wide" ?disabled=${app.busy} @click=${() => app.build()}>

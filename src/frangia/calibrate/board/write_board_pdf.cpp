@@ -143,6 +143,13 @@ void save(HPDF_Doc document, const std::filesystem::path& path) {
 
 }  // namespace
 
+PaperSize paper_size(const std::string& name) {
+  if (name == "a4") return {297.0, 210.0};
+  if (name == "a3") return {420.0, 297.0};
+  require(name == "letter", "a board is printed on a4, a3 or letter");
+  return {279.4, 215.9};
+}
+
 Board write_board_pdf(const std::filesystem::path& path,
                       const Board& given,
                       const PaperSize& paper) {

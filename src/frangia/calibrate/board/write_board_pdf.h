@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 #include "frangia/rig/board.h"
 
@@ -11,6 +12,11 @@ struct PaperSize {
   double width_mm = 297.0;   ///< longer side; A4
   double height_mm = 210.0;  ///< shorter side; A4
 };
+
+/// The sheet of a name: "a4", "a3" or "letter".
+///
+/// @errors   Error(Input) for another name
+[[nodiscard]] PaperSize paper_size(const std::string& name);
 
 /// Writes a board to print at true scale as PDF, with a ruler to check the scale. Returns the board
 /// as drawn: a `square_mm` of 0 chooses the largest whole number of millimetres that fits.

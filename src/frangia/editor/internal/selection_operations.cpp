@@ -23,15 +23,26 @@ using Numbers = std::vector<double>;
 
 constexpr const char* kSelectionGroup = "Selection";
 
+bool is_selected(Combine how, bool before, bool next) {
+  switch (how) {
+    case Combine::Replace:
+      return next;
+    case Combine::Add:
+      return before || next;
+    case Combine::Within:
+      return before && next;
+    case Combine::Without:
+      return before && !next;
+  }
+  return next;
+}
+
 /// Combines a new selection with the present one as the state asks. Warns when it selects nothing.
 void combine(EditState& state, Selection fresh, const char* name, const Run& run) {
   const Combine how = std::exchange(state.combine, Combine::Replace);
   if (how != Combine::Replace && !state.selection.empty()) {
-    for (std::size_t i = 0; i < fresh.size(); ++i) {
-      const bool both = how == Combine::Add ? (fresh[i] | state.selection[i]) != 0
-                                            : (fresh[i] & state.selection[i]) != 0;
-      fresh[i] = both ? 1 : 0;
-    }
+    for (std::size_t i = 0; i < fresh.size(); ++i)
+      fresh[i] = is_selected(how, state.selection[i] != 0, fresh[i] != 0) ? 1 : 0;
   }
   if (count_selected(fresh) == 0) run.warn(fmt::format("{}: no triangle is selected", name));
   state.selection = std::move(fresh);
@@ -209,6 +220,14 @@ std::vector<EditOperation> selection_changes() {
        [](EditState& state, const std::string&, const Run&) {
          require_selection(state);
          state.combine = Combine::Within;
+       }},
+      {"without",
+       kSelectionGroup,
+       "",
+       "take the next selection out of the present one",
+       [](EditState& state, const std::string&, const Run&) {
+         require_selection(state);
+         state.combine = Combine::Without;
        }},
       {"grow",
        kSelectionGroup,

@@ -1,5 +1,6 @@
 #include "frangia/files/internal/zip_file.h"
 
+#include <algorithm>
 #include <array>
 #include <utility>
 #include <vector>
@@ -86,6 +87,22 @@ bool ZipReader::read(const std::string& name,
     fail(path_, fmt::format("entry {} is damaged; copy the file again", name));
   }
   return true;
+}
+
+std::vector<std::string> ZipReader::names() const {
+  std::vector<std::string> names;
+  std::array<char, 4096> name{};
+  for (int code = unzGoToFirstFile(archive_->file); code != UNZ_END_OF_LIST_OF_FILE;
+       code = unzGoToNextFile(archive_->file)) {
+    unz_file_info64 info{};
+    const bool known =
+        code == UNZ_OK &&
+        unzGetCurrentFileInfo64(
+            archive_->file, &info, name.data(), name.size() - 1, nullptr, 0, nullptr, 0) == UNZ_OK;
+    if (!known) fail(path_, "the directory of the archive is damaged; copy the file again");
+    names.emplace_back(name.data(), std::min<std::size_t>(info.size_filename, name.size() - 1));
+  }
+  return names;
 }
 
 struct ZipWriter::Archive {

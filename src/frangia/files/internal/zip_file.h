@@ -6,6 +6,7 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace frangia {
 
@@ -27,6 +28,8 @@ class ZipReader {
   /// to 1; false when no entry has this name (case-sensitive).
   bool read(const std::string& name,
             const std::function<void(std::string_view, double)>& consume) const;
+  /// Names of all entries, in the order of the archive; those of folders end with a slash.
+  [[nodiscard]] std::vector<std::string> names() const;
 
  private:
   struct Archive;

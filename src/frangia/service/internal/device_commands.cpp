@@ -75,6 +75,7 @@ nlohmann::ordered_json Service::Implementation::start_set_devices(CommandArgumen
       WatchedDevices watched(options_.capture);
       choose_devices(folder, choices, options_.capture.drivers(), watched.watcher(), run);
     }
+    forget_verdicts();
     reload_rig(folder);
     run_device_test(folder, run);
   });
@@ -86,6 +87,22 @@ nlohmann::ordered_json Service::Implementation::start_test_devices(CommandArgume
   require(project.can_scan, "this project has no rig with devices");
   return started("devices",
                  [this, folder = project.folder](const Run& run) { run_device_test(folder, run); });
+}
+
+/// Tests the devices and, with a calibrated rig, looks at one view: all that a scan needs.
+nlohmann::ordered_json Service::Implementation::start_check_scan(CommandArguments& arguments) {
+  arguments.check_all_read();
+  const OpenProject project = opened();
+  require(project.can_scan, "this project has no rig with devices");
+  require_idle();
+  stop_live();
+  return started("devices", [this, project](const Run& run) {
+    change([](OpenProject& now) { now.check.reset(); });
+    run_device_test(project.folder, run);
+    if (!project.rig) return;
+    const ScanCheck found = check_scan(project.folder, project.capture, options_.capture, run);
+    change([&](OpenProject& now) { now.check = found; });
+  });
 }
 
 void Service::Implementation::run_device_test(const ProjectFolder& folder, const Run& run) {

@@ -20,6 +20,7 @@
 #include "frangia/service/job_queue.h"
 #include "frangia/service/live_preview.h"
 #include "frangia/service/project_folder.h"
+#include "frangia/service/rig_history.h"
 #include "frangia/service/service.h"
 
 namespace frangia {
@@ -41,6 +42,7 @@ class Service::Implementation {
   /// The residuals of the project's calibration, as docs/service-api.md describes them.
   /// @errors   Error(Input) without a calibration
   [[nodiscard]] std::string residuals() const;
+  [[nodiscard]] std::string thumbnail(const std::string& name) const;
   [[nodiscard]] ExportedFile exported(const std::string& name) const;
   [[nodiscard]] LivePicture live_picture(LiveLayer layer, std::uint64_t after) const;
 
@@ -58,6 +60,16 @@ class Service::Implementation {
   Json open_project(CommandArguments& arguments);
   Json close_project(CommandArguments& arguments);
 
+  Json rename_project(CommandArguments& arguments);
+  Json duplicate_project(CommandArguments& arguments);
+  Json discard_project(CommandArguments& arguments);
+  Json take_back_project(CommandArguments& arguments);
+  Json set_notes(CommandArguments& arguments);
+  Json set_thumbnail(CommandArguments& arguments);
+  Json open_file(CommandArguments& arguments);
+  /// Leaves the open project when it has this name, and says whether it had.
+  bool leave(const std::string& name);
+
   Json set_capture(CommandArguments& arguments);
   Json start_live(CommandArguments& arguments);
   Json set_live(CommandArguments& arguments);
@@ -70,9 +82,14 @@ class Service::Implementation {
   Json start_find_devices(CommandArguments& arguments);
   Json start_set_devices(CommandArguments& arguments);
   Json start_test_devices(CommandArguments& arguments);
+  Json start_check_scan(CommandArguments& arguments);
   Json start_find_exposure(CommandArguments& arguments);
   Json set_rig(CommandArguments& arguments);
+  Json restore_rig_before(CommandArguments& arguments);
+  Json keep_rig_as(CommandArguments& arguments);
+  Json discard_rig(CommandArguments& arguments);
   Json start_calibration(CommandArguments& arguments);
+  Json print_board(CommandArguments& arguments);
   Json find_axis(CommandArguments& arguments);
   Json capture_pose(CommandArguments& arguments);
   Json end_poses(CommandArguments& arguments);
@@ -103,6 +120,8 @@ class Service::Implementation {
   Json started_view(const char* kind, SurfaceWork work);
   Json started_live(const LiveSettings& settings);
   void stop_live();
+  /// Drops what was found about a rig that has changed.
+  void forget_verdicts();
   /// Reads the rig, its devices and the settings of the capture again.
   void reload_rig(const ProjectFolder& folder);
   /// On the queue's thread: tests the devices of the project's rig.
@@ -134,6 +153,11 @@ class Service::Implementation {
                        const CommandKey& key,
                        const ReconstructOptions& options,
                        const Run& run);
+  /// Makes the surface that `write` writes into a new folder the present version.
+  void add_version(const ProjectFolder& project,
+                   const CommandKey& key,
+                   const std::function<void(const std::filesystem::path&)>& write,
+                   const Run& run);
   void open_version(const ProjectFolder& project,
                     const CommandKey& key,
                     int number,
@@ -161,11 +185,14 @@ class Service::Implementation {
 
   ServiceOptions options_;
   ProjectLibrary library_;
+  RigLibrary rigs_;
   std::function<void()> on_change_;  ///< does not throw
   std::mutex command_mutex_;         ///< one command at a time is accepted
   AnsweredCommands answered_;
   mutable std::mutex mutex_;
   std::vector<ProjectEntry> projects_;
+  std::vector<LibraryRig> kept_rigs_;
+  std::vector<std::string> discarded_;
   std::shared_ptr<const DeviceSearch> search_;
   std::optional<OpenProject> project_;
   // The following are of the queue's thread.

@@ -64,7 +64,10 @@ nlohmann::ordered_json Service::Implementation::set_capture(CommandArguments& ar
   if (!(settings == project.capture)) {
     make_folder(project.folder.derived);
     write_capture_settings(project.folder.capture(), settings);
-    change([&](OpenProject& now) { now.capture = settings; });
+    change([&](OpenProject& now) {
+      now.capture = settings;
+      now.check.reset();
+    });
   }
   if (project.live) {
     LiveSettings live = project.live->settings();
@@ -155,7 +158,10 @@ nlohmann::ordered_json Service::Implementation::start_find_exposure(CommandArgum
     settings.camera.exposure_ms = chosen.front();
     if (chosen.size() > 1) settings.exposures_ms = chosen;
     write_capture_settings(project.folder.capture(), settings);
-    change([&](OpenProject& now) { now.capture = settings; });
+    change([&](OpenProject& now) {
+      now.capture = settings;
+      now.check.reset();
+    });
   });
   if (project.live) static_cast<void>(started_live(project.live->settings()));
   return job;

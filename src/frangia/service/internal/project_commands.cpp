@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <chrono>
 #include <filesystem>
 
@@ -59,9 +60,11 @@ struct NewRig {
   std::string example;   ///< name
   GivenRig given;        ///< its text may be empty
   bool devices = false;  ///< none yet: the devices are chosen in the step Rig
+  std::string kept;      ///< name of a rig that was kept
 
-  void write(const ProjectFolder& project) const {
+  void write(const ProjectFolder& project, const RigLibrary& rigs) const {
     if (devices) return;
+    if (!kept.empty()) return rigs.give(kept, project);
     if (!given.rig.empty()) return write_given_rig(project, given);
     if (!example.empty()) return write_example_rig(project.rig(), example);
     write_simulated_rig(project.rig(), part);
@@ -77,6 +80,7 @@ void read_rig_of(const ProjectFolder& folder, OpenProject& project) {
   project.devices.clear();
   project.can_scan = names_devices(folder) && folder.scan != folder.folder;
   project.residuals_s = written_s(folder.residuals());
+  project.kept_rigs = kept_rigs(folder);
   std::error_code ignored;
   if (!std::filesystem::exists(folder.rig(), ignored)) return;
   try {
@@ -91,6 +95,14 @@ void read_rig_of(const ProjectFolder& folder, OpenProject& project) {
     project.rig_fault = error.what();
     project.start = start_values(folder.rig());
   }
+}
+
+bool is_adjustable(const OpenProject& project) {
+  const bool simulated =
+      std::any_of(project.devices.begin(), project.devices.end(), [](const ProjectDevice& device) {
+        return device.test.table == "camera" && device.test.driver == "simulated";
+      });
+  return simulated && project.rig && !project.rig->calibration;
 }
 
 void Service::Implementation::reload_rig(const ProjectFolder& folder) {
@@ -110,6 +122,7 @@ void Service::Implementation::reload_rig(const ProjectFolder& folder) {
     now.exports = exports_of(folder);
     now.can_scan = fresh.can_scan;
     now.residuals_s = fresh.residuals_s;
+    now.kept_rigs = fresh.kept_rigs;
   });
 }
 
@@ -176,17 +189,18 @@ nlohmann::ordered_json Service::Implementation::create_project(CommandArguments&
                    .example = arguments.text_or("example", ""),
                    .given = {.rig = arguments.text_or("rig", ""),
                              .covariance = arguments.text_or("covariance", "")},
-                   .devices = arguments.flag("devices")};
+                   .devices = arguments.flag("devices"),
+                   .kept = arguments.text_or("kept_rig", "")};
   constexpr std::size_t kUsual = 8;
   const std::size_t stations = arguments.whole_or("stations", kUsual, 1, kMostStations);
   arguments.check_all_read();
-  const int sources =
-      (rig.example.empty() ? 0 : 1) + (rig.given.rig.empty() ? 0 : 1) + (rig.devices ? 1 : 0);
-  require(sources <= 1, "example, rig and devices exclude each other; give one of them");
+  const int sources = (rig.example.empty() ? 0 : 1) + (rig.given.rig.empty() ? 0 : 1) +
+                      (rig.devices ? 1 : 0) + (rig.kept.empty() ? 0 : 1);
+  require(sources <= 1, "example, rig, kept_rig and devices exclude each other; give one of them");
   require_idle();
   const ProjectFolder project = library_.create(name);
   try {
-    rig.write(project);
+    rig.write(project, rigs_);
     write_stations(project, planned_stations(stations));
   } catch (const Error&) {
     std::error_code ignored;

@@ -2,16 +2,20 @@
 #include <filesystem>
 #include <memory>
 
+#include "frangia/calibrate/board/write_board_pdf.h"
 #include "frangia/core/error.h"
 #include "frangia/dataset/scan_folder.h"
 #include "frangia/rig/read_rig.h"
 #include "frangia/rig/write_rig.h"
 #include "frangia/service/arrange_rig.h"
 #include "frangia/service/internal/implementation.h"
+#include "frangia/service/rig_history.h"
 #include "frangia/service/simulated_rig.h"
 
 namespace frangia {
 namespace {
+
+constexpr std::size_t kMostRigNumber = 1'000'000;
 
 /// Replaces a rig.toml; its [devices] tables stay.
 void replace_rig(const std::filesystem::path& file, const Rig& rig) {
@@ -33,16 +37,62 @@ nlohmann::ordered_json Service::Implementation::set_rig(CommandArguments& argume
   require(project.rig.has_value(), "this project has no rig");
   require(!project.scan_begun,
           "the scan has begun with this rig; create a project for another one");
+  require(is_adjustable(project),
+          "only the parts of a simulated rig that is not calibrated can be moved here");
   require_idle();
   stop_live();
+  keep_rig(project.folder, RigChange::Geometry);
   const std::filesystem::path truth = true_rig_beside(project.folder.rig());
   std::error_code ignored;
   if (std::filesystem::exists(truth, ignored))  // the simulated parts move as well
     replace_rig(truth, arrange_rig(read_rig(truth), wanted));
   const Rig rig = arrange_rig(*project.rig, wanted);
   replace_rig(project.folder.rig(), rig);
-  change([&](OpenProject& now) { now.rig = rig; });
+  forget_verdicts();
+  reload_rig(project.folder);
   return Json::object();
+}
+
+/// Brings an earlier rig of the project back.
+nlohmann::ordered_json Service::Implementation::restore_rig_before(CommandArguments& arguments) {
+  const OpenProject project = opened();
+  const auto number = static_cast<int>(arguments.whole("number", 1, kMostRigNumber));
+  arguments.check_all_read();
+  require(!project.scan_begun,
+          "the scan has begun with this rig; create a project for another one");
+  require_idle();
+  stop_live();
+  restore_rig(project.folder, number);
+  forget_verdicts();
+  reload_rig(project.folder);
+  return Json::object();
+}
+
+/// Keeps the rig of the project for other projects.
+nlohmann::ordered_json Service::Implementation::keep_rig_as(CommandArguments& arguments) {
+  const std::string name = arguments.text("name");
+  arguments.check_all_read();
+  const OpenProject project = opened();
+  require_idle();
+  rigs_.keep(project.folder, name);
+  refresh_projects();
+  return Json::object();
+}
+
+nlohmann::ordered_json Service::Implementation::discard_rig(CommandArguments& arguments) {
+  const std::string name = arguments.text("name");
+  arguments.check_all_read();
+  rigs_.discard(name, library_.bin() / "rigs");
+  refresh_projects();
+  return Json::object();
+}
+
+void Service::Implementation::forget_verdicts() {
+  change([](OpenProject& now) {
+    now.wizard.reset();
+    now.axis.reset();
+    now.check.reset();
+  });
 }
 
 #ifdef FRANGIA_WITH_CALIBRATION
@@ -75,7 +125,10 @@ nlohmann::ordered_json Service::Implementation::start_calibration(CommandArgumen
                  [this, wizard, board, poses, settings = project.capture, folder = project.folder](
                      const Run& run) {
                    wizard->run(board, poses, settings, options_.capture, run);
-                   change([](OpenProject& now) { now.axis.reset(); });
+                   change([](OpenProject& now) {
+                     now.axis.reset();
+                     now.check.reset();
+                   });
                    reload_rig(folder);
                  });
 }
@@ -113,9 +166,28 @@ nlohmann::ordered_json Service::Implementation::find_axis(CommandArguments& argu
   return started(
       "axis", [this, board, settings = project.capture, folder = project.folder](const Run& run) {
         const FoundAxis found = calibrate_axis(folder, board, settings, options_.capture, run);
-        change([&](OpenProject& now) { now.axis = found; });
+        change([&](OpenProject& now) {
+          now.axis = found;
+          now.check.reset();
+        });
         reload_rig(folder);
       });
+}
+
+/// A checkerboard to print, as an export.
+nlohmann::ordered_json Service::Implementation::print_board(CommandArguments& arguments) {
+  const std::string paper = arguments.text("paper");
+  arguments.check_all_read();
+  const PaperSize size = paper_size(paper);
+  constexpr int kColumns = 10;
+  constexpr int kRows = 7;
+  return started("export", [this, paper, size, project = folder()](const Run& run) {
+    run.stage("files");
+    const auto write = [&](const std::filesystem::path& path) {
+      static_cast<void>(write_board_pdf(path, {.columns = kColumns, .rows = kRows}, size));
+    };
+    put_export(project, "board-" + paper + ".pdf", std::nullopt, write, run);
+  });
 }
 
 nlohmann::ordered_json Service::Implementation::capture_pose(CommandArguments& arguments) {
@@ -141,6 +213,9 @@ namespace {
 }  // namespace
 
 nlohmann::ordered_json Service::Implementation::start_calibration(CommandArguments& /*none*/) {
+  fail_without_calibration();
+}
+nlohmann::ordered_json Service::Implementation::print_board(CommandArguments& /*none*/) {
   fail_without_calibration();
 }
 nlohmann::ordered_json Service::Implementation::find_axis(CommandArguments& /*none*/) {

@@ -1,6 +1,7 @@
 #include "frangia/service/internal/rig_json.h"
 
 #include <array>
+#include <cmath>
 #include <variant>
 
 #include <nlohmann/json.hpp>
@@ -115,6 +116,35 @@ RigJson json_of_axis(const FoundAxis& axis) {
           {"point_sigma_mm", axis.point_sigma_mm},
           {"angles_rms_deg", axis.angles_rms_deg},
           {"distance_mm", axis.distance_mm}};
+}
+
+RigJson json_of_figures(const RigFigures& figures) {
+  RigJson sigma;  // null
+  if (std::isfinite(figures.point_sigma_mm)) sigma = figures.point_sigma_mm;
+  return {{"date", figures.date},
+          {"poses", figures.poses},
+          {"point_sigma_mm", sigma},
+          {"has_turntable", figures.has_turntable},
+          {"has_axis", figures.has_axis},
+          {"drivers", figures.drivers}};
+}
+
+RigJson json_of_kept(const std::vector<KeptRig>& kept) {
+  RigJson all = RigJson::array();
+  for (const KeptRig& rig : kept) {
+    RigJson one{{"number", rig.number}, {"kept_s", rig.kept_s}, {"before", rig.before}};
+    one.update(json_of_figures(rig.figures));
+    all.push_back(one);
+  }
+  return all;
+}
+
+RigJson json_of_check(const ScanCheck& check) {
+  return {{"at_s", check.at_s},
+          {"contrast", check.contrast},
+          {"saturated", check.saturated},
+          {"points", check.points},
+          {"finding", check.finding}};
 }
 
 RigJson json_of_wizard(const WizardState& state) {

@@ -17,5 +17,9 @@ namespace frangia {
 [[nodiscard]] nlohmann::ordered_json json_of_search(const DeviceSearch& search);
 [[nodiscard]] nlohmann::ordered_json json_of_axis(const FoundAxis& axis);
 [[nodiscard]] nlohmann::ordered_json json_of_wizard(const WizardState& state);
+/// The members that kept rigs have in common.
+[[nodiscard]] nlohmann::ordered_json json_of_figures(const RigFigures& figures);
+[[nodiscard]] nlohmann::ordered_json json_of_kept(const std::vector<KeptRig>& kept);
+[[nodiscard]] nlohmann::ordered_json json_of_check(const ScanCheck& check);
 
 }  // namespace frangia

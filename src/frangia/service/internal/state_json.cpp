@@ -1,5 +1,6 @@
 #include "frangia/service/internal/state_json.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -84,6 +85,9 @@ Json json_of_project(const OpenProject& project, const CommandLines& commands) {
             {"rig", project.rig ? json_of_rig(*project.rig) : Json()},
             {"rig_fault", project.rig_fault},
             {"rig_begun", project.start.has_value()},
+            {"rig_adjustable", is_adjustable(project)},
+            {"kept_rigs", json_of_kept(project.kept_rigs)},
+            {"check", project.check ? json_of_check(*project.check) : Json()},
             {"residuals_s", project.residuals_s},
             {"devices", json_of_devices(project.devices)},
             {"live", project.live ? json_of_live(*project.live) : Json()},
@@ -120,6 +124,45 @@ Json json_of_project(const OpenProject& project, const CommandLines& commands) {
 
 }  // namespace
 
+ProjectProgress progress_of(const OpenProject& project) {
+  ProjectProgress progress;
+  progress.folder = project.folder;
+  progress.can_scan = project.can_scan;
+  progress.setup = present_setup(project.stations);
+  progress.stations = static_cast<std::size_t>(std::count_if(
+      project.stations.begin(), project.stations.end(), [&](const ProjectStation& station) {
+        return station.setup == progress.setup;
+      }));
+  progress.scan_complete = project.scan_complete;
+  progress.capture = project.capture;
+  if (project.wizard) {
+    const WizardState state = project.wizard->state();
+    progress.calibration = {
+        project.wizard->folder(), state.board, state.wanted, !state.verdict.grade.empty()};
+  }
+  progress.has_surface = project.surface != nullptr;
+  if (project.surface) {
+    if (project.versions) {
+      if (const SurfaceVersion* version = project.versions->find(project.surface->version))
+        progress.surface = files_of(project.folder, *version).surface();
+    }
+    const auto& steps = project.surface->steps;
+    const auto done = static_cast<std::ptrdiff_t>(project.surface->done);
+    progress.steps.assign(steps.begin(), steps.begin() + done);
+    if (const auto& shown = project.surface->comparison) {
+      const ToleranceLimits& limits = shown->found.verdict.rule.limits;
+      progress.comparison = {
+          project.folder.reference(project.reference.format, project.reference.number),
+          shown->best_fit,
+          shown->start + 1,
+          shown->found.poses.size(),
+          limits.lower,
+          limits.upper};
+    }
+  }
+  return progress;
+}
+
 std::string state_json(const ServiceView& view) {
   Json json{{"version", view.version}};
   json["parts"] = part_names();
@@ -132,13 +175,22 @@ std::string state_json(const ServiceView& view) {
   for (const ExampleRig& example : example_rigs())
     json["examples"].push_back({{"name", example.name}, {"description", description_of(example)}});
   json["search"] = view.search ? json_of_search(*view.search) : Json();
+  json["rigs"] = Json::array();
+  for (const LibraryRig& rig : view.rigs) {
+    Json one{{"name", rig.name}, {"kept_s", rig.kept_s}};
+    one.update(json_of_figures(rig.figures));
+    json["rigs"].push_back(one);
+  }
   json["projects"] = Json::array();
   for (const ProjectEntry& entry : view.projects) {
     json["projects"].push_back({{"name", entry.name},
                                 {"modified_s", entry.modified_s},
                                 {"scanned", entry.scanned},
-                                {"has_surface", entry.has_surface}});
+                                {"has_surface", entry.has_surface},
+                                {"thumbnail_s", entry.thumbnail_s},
+                                {"notes", entry.notes}});
   }
+  json["discarded"] = view.discarded;
   json["project"] = view.project ? json_of_project(*view.project, view.commands) : Json();
   json["jobs"] = Json::array();
   for (const Job& job : view.jobs)

@@ -15,6 +15,7 @@
 #include "frangia/service/calibrate_axis.h"
 #include "frangia/service/calibration_wizard.h"
 #include "frangia/service/capture_settings.h"
+#include "frangia/service/check_scan.h"
 #include "frangia/service/internal/exported_files.h"
 #include "frangia/service/internal/surface_model.h"
 #include "frangia/service/internal/surface_versions.h"
@@ -22,6 +23,7 @@
 #include "frangia/service/live_preview.h"
 #include "frangia/service/project_folder.h"
 #include "frangia/service/project_scan.h"
+#include "frangia/service/rig_history.h"
 #include "frangia/service/service.h"
 
 namespace frangia {
@@ -67,6 +69,8 @@ struct OpenProject {
   std::shared_ptr<LivePreview> live;          ///< while a preview runs
   std::shared_ptr<CalibrationWizard> wizard;  ///< since a calibration began
   std::optional<FoundAxis> axis;              ///< of the turntable, since it was searched for
+  std::optional<ScanCheck> check;             ///< what the devices see before a scan
+  std::vector<KeptRig> kept_rigs;             ///< that the project had, the newest first
   std::vector<ProjectStation> stations;
   /// Why the scan did not go on: the angle of its turntable is unknown.
   std::optional<UnknownTableAngle> unknown_angle;
@@ -79,10 +83,19 @@ struct OpenProject {
   ProjectReference reference;
 };
 
+/// Whether the parts of its rig can be moved by hand: they are simulated, and nothing was measured
+/// of them.
+[[nodiscard]] bool is_adjustable(const OpenProject& project);
+
+/// How far a project has come, for those who word its command lines.
+[[nodiscard]] ProjectProgress progress_of(const OpenProject& project);
+
 /// All that the state of a service shows.
 struct ServiceView {
   std::string version;
   std::vector<ProjectEntry> projects;
+  std::vector<LibraryRig> rigs;
+  std::vector<std::string> discarded;          ///< names of the projects in the bin
   std::shared_ptr<const DeviceSearch> search;  ///< null before the first one
   std::optional<OpenProject> project;
   CommandLines commands;  ///< of the project

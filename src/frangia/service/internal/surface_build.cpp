@@ -30,7 +30,7 @@ nlohmann::ordered_json json_of_turntable(const RegistrationReport& report) {
 }
 
 /// Figures of a reconstruction, as surface.json keeps them.
-std::string summary_of(const Reconstruction& result) {
+std::string summary_of(const Reconstruction& result, const std::vector<std::string>& warnings) {
   nlohmann::ordered_json json{{"points", result.points}, {"views", result.views}};
   if (result.registration) {
     json["registration"] = result.registration->text();
@@ -39,6 +39,8 @@ std::string summary_of(const Reconstruction& result) {
     json["turntable"] = json_of_turntable(*result.registration);
   }
   json["untrusted_reason"] = result.untrusted_reason;
+  json["warnings"] = warnings;
+  json["views_of_scan"] = result.view_summaries.size();
   json["setups"] = nlohmann::ordered_json::array();
   for (const SetupJoin& join : result.setups) {
     const Eigen::AngleAxisd turn(join.part_pose.linear());
@@ -64,6 +66,7 @@ void write_synced(const std::filesystem::path& path, const std::string& bytes) {
 
 void write_surface_build(const std::filesystem::path& folder,
                          const Reconstruction& result,
+                         const std::vector<std::string>& warnings,
                          const Run& run) {
   std::error_code ignored;
   std::filesystem::remove_all(folder, ignored);
@@ -71,10 +74,20 @@ void write_surface_build(const std::filesystem::path& folder,
   const VersionFiles files{folder, {}};
   write_mesh(files.surface(), result.mesh, {}, run);
   sync_to_disk(files.surface());
-  write_synced(files.summary(), summary_of(result));
+  write_synced(files.summary(), summary_of(result, warnings));
   if (!result.setup_points.empty()) make_folder(folder / "clouds", Durability::Synced);
   for (std::size_t i = 0; i < result.setup_points.size(); ++i)
     write_synced(files.setup_cloud(i), encode_points(result.setup_points[i], kPointsOfSetup));
+  sync_to_disk(folder);
+}
+
+void write_given_surface(const std::filesystem::path& folder, const Mesh& mesh, const Run& run) {
+  std::error_code ignored;
+  std::filesystem::remove_all(folder, ignored);
+  make_folder(folder, Durability::Synced);
+  const VersionFiles files{folder, {}};
+  write_mesh(files.surface(), mesh, {}, run);
+  sync_to_disk(files.surface());
   sync_to_disk(folder);
 }
 

@@ -1,6 +1,8 @@
 #include <chrono>
 #include <filesystem>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -13,7 +15,7 @@
 namespace frangia {
 namespace {
 
-std::int64_t now_s() {
+std::int64_t built_now_s() {
   const auto since = std::chrono::system_clock::now().time_since_epoch();
   return std::chrono::duration_cast<std::chrono::seconds>(since).count();
 }
@@ -193,24 +195,43 @@ void Service::Implementation::rebuild_surface(const ProjectFolder& project,
                                               const CommandKey& key,
                                               const ReconstructOptions& options,
                                               const Run& run) {
+  std::string untrusted;
+  add_version(
+      project,
+      key,
+      [&](const std::filesystem::path& folder) {
+        std::vector<std::string> warnings;
+        Run listening = run;
+        listening.on_warning = [&](const std::string& sentence) {
+          warnings.push_back(sentence);
+          run.warn(sentence);
+        };
+        const Reconstruction result =
+            reconstruct(read_scan(project.scan, listening), options, listening);
+        run.stage("files");
+        write_surface_build(folder, result, warnings, run);
+        untrusted = result.untrusted_reason;
+      },
+      run);
+  if (!untrusted.empty()) run.warn("do not trust this surface: " + untrusted);
+}
+
+void Service::Implementation::add_version(
+    const ProjectFolder& project,
+    const CommandKey& key,
+    const std::function<void(const std::filesystem::path&)>& write,
+    const Run& run) {
   use(project);
   SurfaceVersions versions = *versions_of(project);
   if (versions.find(key) != nullptr) return;
   Uncommitted fresh(new_version_folder(project));
-  std::string untrusted;
-  {
-    const Reconstruction result = reconstruct(read_scan(project.scan, run), options, run);
-    run.stage("files");
-    write_surface_build(fresh.path(), result, run);
-    untrusted = result.untrusted_reason;
-  }
+  write(fresh.path());
   SurfaceVersion version{.number = next_version_number(project, versions),
                          .previous = versions.current,
-                         .built_s = now_s()};
+                         .built_s = built_now_s()};
   ++versions.revision;
   // Read as it will be read from now on: what cannot be read is not committed.
   SurfaceModel next({fresh.path(), {}}, version.number, versions.revision, run);
-  if (!untrusted.empty()) run.warn("do not trust this surface: " + untrusted);
   versions.current = version.number;
   versions.all.push_back(version);
   versions.answer(key);

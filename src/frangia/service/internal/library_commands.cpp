@@ -1,0 +1,241 @@
+#include <algorithm>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <sodium.h>
+
+#include "frangia/cad/read_cad.h"
+#include "frangia/core/atomic_file.h"
+#include "frangia/core/error.h"
+#include "frangia/core/make_folder.h"
+#include "frangia/core/open_below.h"
+#include "frangia/dataset/scan_folder.h"
+#include "frangia/files/mesh_formats.h"
+#include "frangia/files/read_mesh.h"
+#include "frangia/files/zip_folder.h"
+#include "frangia/service/internal/implementation.h"
+#include "frangia/service/internal/surface_build.h"
+
+namespace frangia {
+namespace {
+
+constexpr std::size_t kMostNotes = 4000;         // letters: a page
+constexpr std::size_t kMostThumbnail = 300'000;  // bytes: ten times that of a small picture
+constexpr std::size_t kMostFileBytes = 512UL * 1024 * 1024;
+
+void put_text(const std::filesystem::path& path, std::string_view text) {
+  make_folder(path.parent_path());
+  AtomicFile file(path);
+  file.stream() << text;
+  file.commit();
+}
+
+/// The bytes of a PNG or JPEG picture in base64.
+std::string thumbnail_of(const std::string& text) {
+  std::string bytes(text.size(), '\0');
+  std::size_t length = 0;
+  const bool decoded = sodium_base642bin(reinterpret_cast<unsigned char*>(bytes.data()),
+                                         bytes.size(),
+                                         text.data(),
+                                         text.size(),
+                                         nullptr,
+                                         &length,
+                                         nullptr,
+                                         sodium_base64_VARIANT_ORIGINAL) == 0;
+  bytes.resize(decoded ? length : 0);
+  const bool is_picture = bytes.starts_with("\x89PNG\r\n") || bytes.starts_with("\xFF\xD8\xFF");
+  require(is_picture && bytes.size() <= kMostThumbnail,
+          "picture: is a PNG or JPEG of at most 300 kB, in base64");
+  return bytes;
+}
+
+/// The file that arrived for a project, under a name that ends as its readers want it.
+class ArrivedFile {
+ public:
+  ArrivedFile(const ProjectFolder& project, const std::string& format)
+      : path_(project.in_derived("arrived." + format)) {
+    std::error_code error;
+    std::filesystem::rename(project.reference_part(), path_, error);
+    if (error) {
+      throw Error(ErrorKind::File, "the file that arrived cannot be renamed: " + error.message());
+    }
+  }
+  ArrivedFile(const ArrivedFile&) = delete;
+  ArrivedFile& operator=(const ArrivedFile&) = delete;
+  ArrivedFile(ArrivedFile&&) = delete;
+  ArrivedFile& operator=(ArrivedFile&&) = delete;
+  ~ArrivedFile() {
+    std::error_code ignored;
+    std::filesystem::remove(path_, ignored);
+  }
+  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+Mesh surface_in(const std::filesystem::path& file, const Run& run) {
+  Mesh mesh = is_cad_file(file) ? read_cad(file, {}, run)->mesh() : read_mesh(file, run);
+  require(!mesh.triangles.empty(),
+          "this file has points and no triangles; choose one with a surface");
+  return mesh;
+}
+
+void unpack_scan(const ProjectFolder& project, const std::filesystem::path& file, const Run& run) {
+  const auto unpacked = project.in_folder("scan-arriving");
+  std::error_code ignored;
+  std::filesystem::remove_all(unpacked, ignored);
+  try {
+    unzip_folder(file, "scan.toml", unpacked, run);
+    static_cast<void>(read_scan(unpacked, run));
+  } catch (const Error&) {
+    std::filesystem::remove_all(unpacked, ignored);
+    throw;
+  }
+  std::filesystem::rename(unpacked, project.in_folder("scan"));
+}
+
+}  // namespace
+
+bool Service::Implementation::leave(const std::string& name) {
+  {
+    const std::lock_guard lock(mutex_);
+    if (!project_ || project_->folder.folder != library_.find(name).folder) return false;
+  }
+  require_idle();
+  stop_live();
+  const std::lock_guard lock(mutex_);
+  project_.reset();
+  return true;
+}
+
+nlohmann::ordered_json Service::Implementation::rename_project(CommandArguments& arguments) {
+  const std::string name = arguments.text("name");
+  const std::string to = arguments.text("to");
+  arguments.check_all_read();
+  check_project_name(to);
+  const bool was_open = leave(name);
+  try {
+    library_.rename(name, to);
+  } catch (const Error&) {
+    if (was_open) open(library_.find(name));
+    throw;
+  }
+  refresh_projects();
+  if (was_open) open(library_.find(to));
+  return Json::object();
+}
+
+nlohmann::ordered_json Service::Implementation::duplicate_project(CommandArguments& arguments) {
+  const std::string name = arguments.text("name");
+  const std::string copy = arguments.text("copy");
+  arguments.check_all_read();
+  check_project_name(copy);
+  static_cast<void>(library_.find(name));
+  require_idle();
+  return started("copy", [this, name, copy](const Run& run) {
+    run.stage("files");
+    library_.duplicate(name, copy, run);
+    refresh_projects();
+  });
+}
+
+nlohmann::ordered_json Service::Implementation::discard_project(CommandArguments& arguments) {
+  const std::string name = arguments.text("name");
+  arguments.check_all_read();
+  require_idle();
+  try {
+    static_cast<void>(leave(name));
+    library_.discard(name);
+  } catch (const Error&) {
+    refresh_projects();
+    throw;
+  }
+  refresh_projects();
+  return Json::object();
+}
+
+nlohmann::ordered_json Service::Implementation::take_back_project(CommandArguments& arguments) {
+  const std::string name = arguments.text("name");
+  arguments.check_all_read();
+  const std::string now = library_.take_back(name);
+  refresh_projects();
+  return {{"name", now}};
+}
+
+nlohmann::ordered_json Service::Implementation::set_notes(CommandArguments& arguments) {
+  const std::string name = arguments.text("name");
+  const std::string text = arguments.text("text");
+  arguments.check_all_read();
+  require(text.size() <= kMostNotes, "text: notes have at most 4000 letters; shorten them");
+  put_text(library_.find(name).notes(), text);
+  refresh_projects();
+  return Json::object();
+}
+
+/// Keeps a small picture of the open project, which a browser drew.
+nlohmann::ordered_json Service::Implementation::set_thumbnail(CommandArguments& arguments) {
+  const std::string bytes = thumbnail_of(arguments.text("picture"));
+  arguments.check_all_read();
+  put_text(folder().thumbnail(), bytes);
+  refresh_projects();
+  return Json::object();
+}
+
+std::string Service::Implementation::thumbnail(const std::string& name) const {
+  const ProjectFolder project = library_.find(name);
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(project.thumbnail(), ignored)) return {};
+  return read_below(
+      project.folder, project.thumbnail().lexically_relative(project.folder), kMostThumbnail);
+}
+
+/// The file that arrived becomes the surface of the open project, or its scan; it has neither yet.
+nlohmann::ordered_json Service::Implementation::open_file(CommandArguments& arguments) {
+  const std::string format = arguments.text("format");
+  const std::size_t bytes = arguments.whole("bytes", 1, kMostFileBytes);
+  arguments.check_all_read();
+  const std::filesystem::path named = "file." + format;
+  const bool is_plain = !format.empty() && std::all_of(format.begin(), format.end(), [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9');
+  });
+  const bool is_scan = format == "zip";
+  require(is_plain && (is_scan || is_cad_file(named) || find_mesh_format(named) != nullptr),
+          "format: the app opens meshes, STEP and IGES files, and zip archives of a scan folder");
+  const OpenProject project = opened();
+  require(project.folder.scan != project.folder.folder && !project.scan_begun &&
+              !project.scan_complete && project.versions && project.versions->current == 0,
+          "this project has a scan or a surface; open the file in a project of its own");
+  require_idle();
+  stop_live();
+  std::error_code error;
+  const auto present = std::filesystem::file_size(project.folder.reference_part(), error);
+  require(!error && present == bytes, "the file has not arrived completely; send it again");
+  return started(
+      "open",
+      [this, folder = project.folder, format, is_scan, key = arguments.key()](const Run& run) {
+        const ArrivedFile file(folder, format);
+        run.stage("files");
+        if (!is_scan) {
+          const Mesh mesh = surface_in(file.path(), run);
+          return add_version(
+              folder,
+              key,
+              [&](const std::filesystem::path& into) { write_given_surface(into, mesh, run); },
+              run);
+        }
+        unpack_scan(folder, file.path(), run);
+        std::error_code ignored;
+        std::filesystem::remove(folder.stations(), ignored);
+        const auto stations = read_stations(folder, run);
+        change([&](OpenProject& now) {
+          now.stations = stations;
+          now.scan_complete = true;
+        });
+        refresh_projects();
+      });
+}
+
+}  // namespace frangia

@@ -1,0 +1,291 @@
+#include "frangia/service/rig_history.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <chrono>
+#include <optional>
+#include <system_error>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "frangia/core/atomic_file.h"
+#include "frangia/core/error.h"
+#include "frangia/core/make_folder.h"
+#include "frangia/core/read_text_file.h"
+#include "frangia/devices/device_settings.h"
+#include "frangia/rig/read_rig.h"
+#include "frangia/service/simulated_rig.h"
+
+namespace frangia {
+namespace {
+
+constexpr const char* kHistory = "rigs";
+constexpr const char* kWhy = "before.txt";
+constexpr std::array kChanges = {RigChange::Geometry,
+                                 RigChange::Devices,
+                                 RigChange::Calibration,
+                                 RigChange::Axis,
+                                 RigChange::Restored};
+
+bool holds_file(const std::filesystem::path& path) {
+  std::error_code ignored;
+  return std::filesystem::is_regular_file(std::filesystem::symlink_status(path, ignored));
+}
+
+std::int64_t kept_at_s(const std::filesystem::path& file) {
+  std::error_code error;
+  const auto time = std::filesystem::last_write_time(file, error);
+  if (error) return 0;
+  const auto system = std::chrono::file_clock::to_sys(time);
+  return std::chrono::duration_cast<std::chrono::seconds>(system.time_since_epoch()).count();
+}
+
+/// Where a rig and what belongs to it are.
+struct RigPlace {
+  std::filesystem::path rig;
+  std::filesystem::path residuals;
+  std::filesystem::path report;
+
+  [[nodiscard]] std::filesystem::path truth() const { return true_rig_beside(rig); }
+  [[nodiscard]] std::filesystem::path beside(const std::string& name) const {
+    return rig.parent_path() / name;
+  }
+};
+
+RigPlace place_of(const ProjectFolder& project) {
+  static_cast<void>(project.in_folder("true-rig.toml"));  // through no link
+  return {project.rig(),
+          project.residuals(),
+          project.in_derived(std::filesystem::path("exports") / "calibration.html")};
+}
+
+RigPlace place_in(const std::filesystem::path& folder) {
+  return {folder / "rig.toml", folder / "residuals.json", folder / "calibration.html"};
+}
+
+/// The CSV file that a rig.toml names; empty without one, and where the rig cannot be read.
+std::string covariance_of(const std::filesystem::path& rig) {
+  try {
+    const Rig read = read_rig(rig, {}, RigContent::StartValues);  // opens no other file
+    const std::string name = read.calibration ? read.calibration->covariance_file : std::string();
+    return std::filesystem::path(name).filename() == name ? name : std::string();
+  } catch (const Error&) {
+    return {};
+  }
+}
+
+void copy_bytes(const std::filesystem::path& from, const std::filesystem::path& to) {
+  constexpr std::uint64_t kMostRigBytes = 64'000'000;
+  AtomicFile file(to, Durability::Synced);
+  file.stream() << read_text_file(from, kMostRigBytes);
+  file.commit();
+}
+
+/// Copies what there is; what the source lacks goes at the destination. rig.toml comes last: it
+/// names the others.
+void copy_rig(const RigPlace& from, const RigPlace& to) {
+  make_folder(to.rig.parent_path(), Durability::Synced);
+  const std::string covariance = covariance_of(from.rig);
+  if (!covariance.empty() && holds_file(from.beside(covariance)))
+    copy_bytes(from.beside(covariance), to.beside(covariance));
+  const std::array<std::pair<std::filesystem::path, std::filesystem::path>, 3> others = {
+      {{from.truth(), to.truth()}, {from.residuals, to.residuals}, {from.report, to.report}}};
+  for (const auto& [source, target] : others) {
+    std::error_code ignored;
+    if (holds_file(source)) {
+      make_folder(target.parent_path());
+      copy_bytes(source, target);
+    } else {
+      std::filesystem::remove(target, ignored);
+    }
+  }
+  copy_bytes(from.rig, to.rig);
+}
+
+RigFigures figures_of(const std::filesystem::path& file) {
+  RigFigures figures;
+  try {
+    for (DeviceSettings& device : read_device_settings(file)) {
+      figures.drivers.push_back(device.text_or("driver", ""));
+      figures.has_turntable = figures.has_turntable || device.device() == "turntable";
+    }
+    const Rig rig = read_rig(file, {}, RigContent::StartValues);
+    figures.has_axis = rig.turntable.has_value();
+    if (!rig.calibration) return figures;
+    figures.date = rig.calibration->date;
+    figures.poses = rig.calibration->poses;
+    figures.point_sigma_mm = rig.calibration->point_sigma_mm;
+  } catch (const Error&) {  // NOLINT(bugprone-empty-catch): whoever takes it reads what is wrong
+  }
+  return figures;
+}
+
+std::filesystem::path inner_of(int number) {
+  return std::filesystem::path(kHistory) / fmt::format("{:04}", number);
+}
+
+/// The number of a folder of the history; 0 for another one.
+int number_of(const std::filesystem::path& folder) {
+  const std::string name = folder.filename().string();
+  int number = 0;
+  const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), number);
+  return error == std::errc() && end == name.data() + name.size() ? number : 0;
+}
+
+/// Numbers of the kept rigs, ascending.
+std::vector<int> numbers_of(const ProjectFolder& project) {
+  std::vector<int> numbers;
+  std::error_code error;
+  for (const auto& entry :
+       std::filesystem::directory_iterator(project.in_derived(kHistory), error)) {
+    const int number = number_of(entry.path());
+    if (number > 0 && !entry.is_symlink() && holds_file(entry.path() / "rig.toml"))
+      numbers.push_back(number);
+  }
+  std::sort(numbers.begin(), numbers.end());
+  return numbers;
+}
+
+std::string change_before(const ProjectFolder& project, int number) {
+  try {
+    const std::string name = read_text_file(project.in_derived(inner_of(number) / kWhy));
+    const bool known = std::any_of(kChanges.begin(), kChanges.end(), [&](RigChange change) {
+      return name == name_of(change);
+    });
+    return known ? name : name_of(RigChange::Restored);
+  } catch (const Error&) {
+    return name_of(RigChange::Restored);
+  }
+}
+
+/// Keeps the present rig. Of the rigs beyond the limit, `spared` is not removed.
+void keep_but(const ProjectFolder& project, RigChange before, int spared) {
+  const RigPlace present = place_of(project);
+  if (!holds_file(present.rig)) return;
+  const std::vector<int> numbers = numbers_of(project);
+  if (before == RigChange::Geometry && !numbers.empty() &&
+      change_before(project, numbers.back()) == name_of(before))
+    return;
+  const int number = numbers.empty() ? 1 : numbers.back() + 1;
+  const auto unfinished = project.in_derived(std::filesystem::path(kHistory) / "new");
+  std::filesystem::remove_all(unfinished);
+  copy_rig(present, place_in(unfinished));
+  AtomicFile why(unfinished / kWhy, Durability::Synced);
+  why.stream() << name_of(before);
+  why.commit();
+  std::error_code error;
+  std::filesystem::rename(unfinished, project.in_derived(inner_of(number)), error);
+  if (error) {
+    throw Error(ErrorKind::File,
+                fmt::format("{}: cannot be renamed: {}", unfinished.string(), error.message()));
+  }
+  std::size_t kept = numbers.size() + 1;
+  for (std::size_t i = 0; i < numbers.size() && kept > kMostKeptRigs; ++i) {
+    if (numbers[i] == spared) continue;
+    std::filesystem::remove_all(project.in_derived(inner_of(numbers[i])), error);
+    --kept;
+  }
+}
+
+}  // namespace
+
+const char* name_of(RigChange change) {
+  switch (change) {
+    case RigChange::Geometry:
+      return "geometry";
+    case RigChange::Devices:
+      return "devices";
+    case RigChange::Calibration:
+      return "calibration";
+    case RigChange::Axis:
+      return "axis";
+    case RigChange::Restored:
+      return "restored";
+  }
+  return "restored";
+}
+
+std::vector<KeptRig> kept_rigs(const ProjectFolder& project) {
+  std::vector<KeptRig> kept;
+  try {
+    for (const int number : numbers_of(project)) {
+      const auto file = project.in_derived(inner_of(number) / "rig.toml");
+      kept.push_back({.number = number,
+                      .kept_s = kept_at_s(file),
+                      .before = change_before(project, number),
+                      .figures = figures_of(file)});
+    }
+  } catch (const Error&) {  // NOLINT(bugprone-empty-catch): a link, which whatever changes names
+  }
+  std::reverse(kept.begin(), kept.end());
+  return kept;
+}
+
+void keep_rig(const ProjectFolder& project, RigChange before) {
+  keep_but(project, before, 0);
+}
+
+void restore_rig(const ProjectFolder& project, int number) {
+  const std::vector<int> numbers = numbers_of(project);
+  if (std::find(numbers.begin(), numbers.end(), number) == numbers.end())
+    throw Error(ErrorKind::Input, "there is no earlier rig of this number");
+  const RigPlace kept = place_in(project.in_derived(inner_of(number)));
+  static_cast<void>(read_rig(kept.rig, {}, RigContent::StartValues));
+  keep_but(project, RigChange::Restored, number);
+  copy_rig(kept, place_of(project));
+}
+
+std::vector<LibraryRig> RigLibrary::list() const {
+  std::vector<LibraryRig> rigs;
+  std::error_code error;
+  for (const auto& entry : std::filesystem::directory_iterator(root_, error)) {
+    const auto file = entry.path() / "rig.toml";
+    if (entry.is_symlink() || !entry.is_directory(error) || !holds_file(file)) continue;
+    rigs.push_back({entry.path().filename().string(), kept_at_s(file), figures_of(file)});
+  }
+  std::sort(rigs.begin(), rigs.end(), [](const LibraryRig& a, const LibraryRig& b) {
+    return a.kept_s != b.kept_s ? a.kept_s > b.kept_s : a.name < b.name;
+  });
+  return rigs;
+}
+
+std::filesystem::path RigLibrary::find(const std::string& name) const {
+  for (const LibraryRig& rig : list())
+    if (rig.name == name) return root_ / rig.name;
+  throw Error(ErrorKind::Input, "there is no kept rig of this name; choose one of the list");
+}
+
+void RigLibrary::keep(const ProjectFolder& project, const std::string& name) const {
+  check_project_name(name);
+  const RigPlace present = place_of(project);
+  require(holds_file(present.rig), "this project has no rig");
+  const auto folder = root_ / name;
+  std::error_code ignored;
+  if (std::filesystem::exists(std::filesystem::symlink_status(folder, ignored))) {
+    throw Error(ErrorKind::Input,
+                fmt::format("there is a kept rig {} already; write another name", name));
+  }
+  copy_rig(present, place_in(folder));
+}
+
+void RigLibrary::give(const std::string& name, const ProjectFolder& project) const {
+  copy_rig(place_in(find(name)), place_of(project));
+}
+
+void RigLibrary::discard(const std::string& name, const std::filesystem::path& bin) const {
+  const auto folder = find(name);
+  make_folder(bin);
+  auto target = bin / name;
+  std::error_code error;
+  for (int i = 2; std::filesystem::exists(target, error); ++i)
+    target = bin / fmt::format("{} {}", name, i);
+  std::filesystem::rename(folder, target, error);
+  if (error) {
+    throw Error(ErrorKind::File,
+                fmt::format("{}: cannot be moved: {}", folder.string(), error.message()));
+  }
+}
+
+}  // namespace frangia

@@ -1,0 +1,95 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "frangia/core/missing.h"
+#include "frangia/service/project_folder.h"
+
+namespace frangia {
+
+/// What a change of a project's rig is, and so what the rig before it was kept for.
+enum class RigChange {
+  Geometry,     ///< its parts were moved
+  Devices,      ///< other devices, or other settings of them
+  Calibration,  ///< it was calibrated
+  Axis,         ///< the axis of its turntable was found
+  Restored      ///< an earlier one was brought back
+};
+
+/// Name of a change in the protocol: "geometry", "devices", "calibration", "axis" or "restored".
+[[nodiscard]] const char* name_of(RigChange change);
+
+/// What a list shows of a rig.toml.
+struct RigFigures {
+  std::string date = {};                  ///< day of its calibration; empty without one
+  int poses = 0;                          ///< of the board; 0 without a calibration
+  double point_sigma_mm = kMissing;       ///< as Calibration; NaN without one
+  bool has_turntable = false;             ///< devices turn the part
+  bool has_axis = false;                  ///< the axis of its turntable is known
+  std::vector<std::string> drivers = {};  ///< of its devices, in the order of the file
+};
+
+/// A rig that a project had before a change.
+struct KeptRig {
+  int number = 0;           ///< from 1, the newest is the largest
+  std::int64_t kept_s = 0;  ///< seconds since 1970
+  std::string before;       ///< name of the change that it was kept for
+  RigFigures figures;
+};
+
+/// The rigs that a project had, the newest first. What cannot be read is left out.
+[[nodiscard]] std::vector<KeptRig> kept_rigs(const ProjectFolder& project);
+
+/// Keeps the rig.toml of a project, with the covariance, residuals and report of its calibration,
+/// before it is changed. Of several moves of its parts in a row only the rig before the first is
+/// kept; the oldest ones beyond kMostKeptRigs are removed. Without a rig.toml nothing happens.
+///
+/// @errors   Error(File) when it cannot be written; Error(Input) for a link in the project
+void keep_rig(const ProjectFolder& project, RigChange before);
+
+/// Brings an earlier rig back; the present one is kept before.
+///
+/// @errors   Error(Input) when there is none of this number; as `keep_rig`
+void restore_rig(const ProjectFolder& project, int number);
+
+constexpr std::size_t kMostKeptRigs = 30;  ///< of a project; each takes some 100 kB
+
+/// A rig that is kept for any project.
+struct LibraryRig {
+  std::string name;
+  std::int64_t kept_s = 0;  ///< seconds since 1970
+  RigFigures figures;
+};
+
+/// Rigs outside of projects, each in a folder of its name. Names reach the file system only by
+/// comparison with the folder's entries, as in ProjectLibrary.
+class RigLibrary {
+ public:
+  /// `root` is created when the first rig is kept.
+  explicit RigLibrary(std::filesystem::path root) : root_(std::move(root)) {}
+
+  /// The rigs, the newest first.
+  [[nodiscard]] std::vector<LibraryRig> list() const;
+  /// Keeps the rig of a project under a name.
+  ///
+  /// @errors   Error(Input) as `check_project_name`, for a name that is taken, and for a project
+  ///           without a rig; Error(File)
+  void keep(const ProjectFolder& project, const std::string& name) const;
+  /// Writes a rig into a project that has none.
+  ///
+  /// @errors   Error(Input) when there is no rig of this name; Error(File)
+  void give(const std::string& name, const ProjectFolder& project) const;
+  /// Moves a rig into the folder `bin`.
+  ///
+  /// @errors   as `give`
+  void discard(const std::string& name, const std::filesystem::path& bin) const;
+
+ private:
+  [[nodiscard]] std::filesystem::path find(const std::string& name) const;
+  std::filesystem::path root_;
+};
+
+}  // namespace frangia

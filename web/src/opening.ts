@@ -1,0 +1,158 @@
+import type { App } from './app';
+import { t } from './messages';
+import { freeName } from './projects';
+import { type PlacedFile, zipOf } from './zip_files';
+
+const SURFACES = /\.(stl|ply|obj|3mf|glb|gltf|off|dxf|step|stp|iges|igs)$/i;
+/** What a surface can be compared with. */
+const REFERENCES = /\.(stl|ply|obj|3mf|step|stp)$/i;
+const OPENABLE = '.stl,.ply,.obj,.3mf,.glb,.off,.dxf,.step,.stp,.iges,.igs,.zip,.toml,.csv';
+
+const stem = (name: string): string => name.replace(/\.[^.]*$/, '').slice(0, 50) || 'File';
+
+/** The files below an entry that was dropped. */
+async function below(entry: FileSystemEntry, folder: string): Promise<PlacedFile[]> {
+  const path = `${folder}${entry.name}`;
+  if (entry.isFile)
+    return [{ path, file: await new Promise<File>((done, fail) => (entry as FileSystemFileEntry).file(done, fail)) }];
+  const reader = (entry as FileSystemDirectoryEntry).createReader();
+  const found: PlacedFile[] = [];
+  for (;;) {
+    const some = await new Promise<FileSystemEntry[]>((done, fail) => reader.readEntries(done, fail));
+    if (some.length === 0) return found;
+    for (const one of some) if (!one.name.startsWith('.')) found.push(...(await below(one, `${path}/`)));
+  }
+}
+
+/** Opens what is dropped on the page or chosen where it belongs: surfaces, scans and rigs. */
+export class Opening {
+  /** Whether something is held over the page that could be dropped. */
+  over = false;
+  /** Share of a file that has been sent; null while none is. */
+  sent: number | null = null;
+  /** The job that reads a file into a project of its own. */
+  private pending: { job: number; name: string; step: 'surface' | 'scan' } | null = null;
+
+  constructor(private readonly app: App) {
+    addEventListener('dragover', (event) => this.onOver(event));
+    addEventListener('dragleave', (event) => {
+      if (!event.relatedTarget) this.setOver(false);
+    });
+    addEventListener('drop', (event) => void this.onDrop(event));
+  }
+
+  private setOver(over: boolean): void {
+    if (over === this.over) return;
+    this.over = over;
+    this.app.requestUpdate();
+  }
+  private onOver(event: DragEvent): void {
+    if (!event.dataTransfer?.types.includes('Files') || !this.app.session.state) return;
+    event.preventDefault();
+    this.setOver(true);
+  }
+  private async onDrop(event: DragEvent): Promise<void> {
+    if (!event.dataTransfer?.types.includes('Files')) return;
+    event.preventDefault();
+    this.setOver(false);
+    const entries = [...event.dataTransfer.items].map((item) => item.webkitGetAsEntry()).filter((one) => one !== null);
+    await this.open((await Promise.all(entries.map((entry) => below(entry, '')))).flat());
+  }
+  /** Lets a person choose files, or a folder. */
+  choose(folder: boolean): void {
+    const input = document.createElement('input');
+    input.type = 'file';
+    input.multiple = true;
+    input.webkitdirectory = folder;
+    if (!folder) input.accept = OPENABLE;
+    input.addEventListener('change', () => {
+      const files = [...(input.files ?? [])].map((file) => ({ path: file.webkitRelativePath || file.name, file }));
+      void this.open(files.filter(({ path }) => !/(^|\/)\./.test(path)));
+    });
+    input.click();
+  }
+
+  async open(files: readonly PlacedFile[]): Promise<void> {
+    const { app } = this;
+    if (files.length === 0) return;
+    if (app.session.watches) return app.say(t('app.watching'));
+    if (app.occupied) return app.say(t('open.busy'));
+    const named = (pattern: RegExp) => files.find(({ path }) => pattern.test(path));
+    try {
+      const scan = named(/(^|\/)scan\.toml$/i);
+      const zip = named(/\.zip$/i);
+      const surface = named(SURFACES);
+      const rig = named(/\.toml$/i);
+      if (scan) {
+        const folder = scan.path.split('/').at(-2);
+        await this.own(await zipOf(files), 'zip', folder ?? 'Scan', 'scan');
+      } else if (zip) await this.own(zip.file, 'zip', stem(zip.file.name), 'scan');
+      else if (surface) await this.surface(surface.file);
+      else if (rig) await this.rig(rig.file, named(/\.csv$/i)?.file);
+      else app.say(t('open.unknown', { name: files[0]?.file.name ?? '' }));
+    } catch (error) {
+      app.say(error);
+    }
+    this.sent = null;
+    app.requestUpdate();
+  }
+
+  private async surface(file: File): Promise<void> {
+    const { app } = this;
+    const format = SURFACES.exec(file.name)?.[1]?.toLowerCase() as string;
+    if (app.state.project?.surface && REFERENCES.test(file.name)) {
+      const answers = [t('open.compare'), t('open.own')];
+      const answer = await app.asking.choose(t('open.which', { name: file.name }), answers);
+      if (answer === null) return;
+      if (answer === 0) {
+        app.go('surface');
+        return app.comparing.send(file);
+      }
+    }
+    await this.own(file, format, stem(file.name), 'surface');
+  }
+  private async rig(file: File, covariance?: File): Promise<void> {
+    const { app } = this;
+    await app.projects.create({
+      name: this.freeName(stem(file.name)),
+      stations: 8,
+      rig: await file.text(),
+      ...(covariance ? { covariance: await covariance.text() } : {}),
+    });
+  }
+  private freeName(wanted: string): string {
+    return freeName(
+      wanted,
+      this.app.state.projects.map((one) => one.name),
+    );
+  }
+
+  /** Opens a file in a project that is made for it. */
+  private async own(file: Blob, format: string, wanted: string, step: 'surface' | 'scan'): Promise<void> {
+    const { app } = this;
+    const name = this.freeName(wanted);
+    await app.session.command('create-project', { name, stations: 8, devices: true });
+    try {
+      this.sent = 0;
+      await app.session.send(file, (share) => {
+        this.sent = share;
+        app.requestUpdate();
+      });
+      const { job } = await app.session.command<{ job: number }>('open-file', { format, bytes: file.size });
+      this.pending = { job, name, step };
+      this.follow();
+    } catch (error) {
+      await app.session.command('discard-project', { name });
+      throw error;
+    }
+  }
+  /** Goes to what was opened when it is there; what could not be read leaves no project behind. */
+  follow(): void {
+    const { app, pending } = this;
+    const job = app.state.jobs.find((one) => one.number === pending?.job);
+    if (!pending || !job || job.state === 'waiting' || job.state === 'running') return;
+    this.pending = null;
+    if (job.state === 'done') app.go(pending.step);
+    else void app.session.command('discard-project', { name: pending.name }).catch((error) => app.say(error));
+  }
+}

@@ -1,0 +1,57 @@
+import { html, type TemplateResult } from 'lit';
+import type { App } from './app';
+import { icon } from './icons';
+import { surfaceLegend } from './legend';
+import { type MessageKey, t } from './messages';
+import { previewBar } from './preview_bar';
+
+/** Where the eye of each standard view is, and the key that takes it there, with Shift. Slightly off the poles, where up has no direction. */
+export const VIEWS = [
+  ['front', [0, -1, 0]],
+  ['back', [0, 1, 0]],
+  ['left', [-1, 0, 0]],
+  ['right', [1, 0, 0]],
+  ['top', [0, -0.001, 1]],
+  ['bottom', [0, -0.001, -1]],
+  ['iso', [1, -1, 0.816]],
+] as const satisfies readonly (readonly [string, readonly [number, number, number]])[];
+
+const viewButtons = (app: App): TemplateResult =>
+  html`<div class="view-tools" role="group" aria-label=${t('app.views')}>
+    ${VIEWS.map(
+      ([name, [x, y, z]], i) =>
+        html`<button
+          class="icon-btn text"
+          data-view=${name}
+          title="${t(`app.${name}` as MessageKey)} (⇧ ${i + 1})"
+          @click=${() => app.viewer.frame([x, y, z])}
+        >
+          ${t(`app.${name}` as MessageKey)}
+        </button>`,
+    )}
+    <button
+      class="icon-btn"
+      title="${t('app.frame')} (F)"
+      aria-label=${t('app.frame')}
+      @click=${() => app.viewer.frame()}
+    >
+      ${icon('fit')}
+    </button>
+  </div>`;
+
+const chip = (text: string): TemplateResult => html`<div class="chip">${text}</div>`;
+
+/** What stands on the 3D picture: what a tool waits for, what was measured, the scale of the colours, standard views. */
+export function viewOverlay(app: App): TemplateResult {
+  const { viewer } = app;
+  const scene = viewer.supported && !app.showsCamera && !app.showsResiduals;
+  const showsSurface = scene && (app.step === 'surface' || app.step === 'edit' || app.step === 'export');
+  return html`<div class="floating">
+      ${previewBar(app)} ${viewer.tool === 'measure' && !app.measuring.last ? chip(t('surface.measureHint')) : ''}
+      ${viewer.tool === 'angle' && !app.measuring.last ? chip(t('surface.angleHint')) : ''}
+      ${viewer.tool === 'align' && !app.project.surface?.preview ? chip(t('edit.alignHint')) : ''}
+      ${viewer.tool === 'loop' ? chip(t('edit.loopHint')) : ''} ${app.measuring.chip()}
+      ${showsSurface ? surfaceLegend(app) : ''}
+    </div>
+    ${scene ? viewButtons(app) : ''}`;
+}
