@@ -45,9 +45,10 @@ std::string why_empty(const Scan& scan, std::size_t view, const Image<PixelStatu
 /// harmonics are those of the first view.
 void report_assessments(const Scan& scan,
                         std::size_t view,
-                        const std::vector<FrameAssessment>& assessments,
+                        const DecodedView& decoded,
                         const Run& run) {
-  for (const FrameAssessment& assessment : assessments) {
+  if (leaves_out_view(decoded.frames)) return;  // their cause is said
+  for (const FrameAssessment& assessment : decoded.assessments) {
     const std::string folder = scan.views[view].folder.string();
     const bool varies = assessment.vibration_suspected || assessment.flicker_error_rad > 0.0;
     if (varies || (view == 0 && needs_attention(assessment))) {
@@ -160,7 +161,7 @@ std::vector<std::unique_ptr<CameraScan>> survey_cameras(const Scan& scan,
 /// Decodes a view of a camera and decides which of its phases are used.
 DecodedCamera decode_camera(CameraScan& camera, std::size_t view, const Run& run) {
   DecodedCamera out{camera.scan.rig, camera.rays, camera.decoder->next()};
-  report_assessments(camera.scan, view, out.decoded.assessments, run);
+  report_assessments(camera.scan, view, out.decoded, run);
   out.fit =
       check_view(out.decoded, camera.scan.rig, camera.rays, camera.options.accept_inconsistent);
   out.used = camera.fit.add(view, out.fit);
@@ -221,11 +222,13 @@ MeasuredViews measure_views(const Scan& scan,
     summary.points = count_points(measured);
     summary.sigma_mm = median_sigma_mm(measured.cameras.front().range);
     summary.left_out = summary.points == 0 && reference.unresolved.empty();
-    all.summaries.push_back(summary);
     if (summary.left_out) {
-      run.warn(why_empty(scan, i, reference.phase.status));
+      summary.reason = why_empty(scan, i, reference.phase.status);
+      run.warn(summary.reason);
+      all.summaries.push_back(summary);
       continue;
     }
+    all.summaries.push_back(summary);
     for (UnresolvedRegion& region : reference.unresolved)
       all.unresolved.push_back({all.views.size(), std::move(region)});
     all.unwrapped_spatially = reference.relative.has_value();
