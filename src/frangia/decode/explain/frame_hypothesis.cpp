@@ -116,8 +116,11 @@ std::vector<FrameHypothesis> frame_hypotheses(const Pattern& pattern) {
     for (std::size_t l = k; l < frames; ++l)
       out.back().shifts_rad[l] = declared.shifts_rad[l - 1];
     if (frames > kMinFramesOfLamp) {
-      add(FrameCause::Moved, k, 0, frames - 2);
-      out.back().moved_at = k;
+      for (const bool moves_texture : {false, true}) {
+        add(FrameCause::Moved, k, 0, frames - 2);
+        out.back().moved_at = k;
+        out.back().moves_texture = moves_texture;
+      }
     }
     if (frames < kMinFramesOfLamp || k < 2) continue;
     add(FrameCause::Lamp, k, 0, frames - 3);
@@ -205,8 +208,8 @@ bool is_lit_by_lamp(const FrameHypothesis& hypothesis, std::size_t frame) {
 }
 
 bool predict_alike(const FrameHypothesis& a, const FrameHypothesis& b) {
-  if (a.free != b.free || a.moved_at != b.moved_at || a.has_free_steps != b.has_free_steps ||
-      a.lamp_on.has_value() != b.lamp_on.has_value() ||
+  if (a.free != b.free || a.moved_at != b.moved_at || a.moves_texture != b.moves_texture ||
+      a.has_free_steps != b.has_free_steps || a.lamp_on.has_value() != b.lamp_on.has_value() ||
       (a.cause == FrameCause::Unexplained) != (b.cause == FrameCause::Unexplained))
     return false;
   constexpr double kSame = 1e-6;

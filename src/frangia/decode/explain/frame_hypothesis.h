@@ -44,10 +44,11 @@ struct FrameHypothesis {
   std::optional<std::size_t> lamp_on;          ///< first frame with the light L of another lamp
   std::size_t lamp_off = SIZE_MAX;             ///< first frame after it without that light
   std::optional<std::size_t> moved_at;         ///< first frame after the part moved
-  bool has_free_steps = false;                 ///< each shift has an error of its own
-  int faults = 0;                              ///< 0 as described, 1, or 2
-  int parameters = 0;                          ///< fitted for all pixels together
-  std::size_t choices = 1;                     ///< hypotheses of its kind: "which frame"
+  bool moves_texture = false;   ///< the movement shifts the image, not only the phase
+  bool has_free_steps = false;  ///< each shift has an error of its own
+  int faults = 0;               ///< 0 as described, 1, or 2
+  int parameters = 0;           ///< fitted for all pixels together
+  std::size_t choices = 1;      ///< hypotheses of its kind: "which frame"
 };
 
 /// All hypotheses with one fault, "as described" first. Gains are 1 until they are fitted.

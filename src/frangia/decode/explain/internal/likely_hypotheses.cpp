@@ -66,23 +66,14 @@ bool fit_gain(const FrameMoments& moments, std::size_t frame, FrameHypothesis& h
 /// coarse fringe looks like a black frame otherwise.
 bool show_whole_fringe(const FrameSample& sample, const FrameHypothesis& hypothesis) {
   if (hypothesis.shifts_rad.size() > kMinFrames) return true;
-  constexpr double kAbove = 0.2;     // of the scale, above ambient light
-  constexpr double kDarkest = 0.45;  // more is no dark part, but ambient light may be below it
-  constexpr double kLeast = 0.1;     // of the pixels
-  double ambient = 1.0;
-  std::vector<Eigen::ArrayXd> shown;
+  constexpr double kDark = 0.3;
+  constexpr double kLeast = 0.1;
   for (std::size_t k = 0; k < hypothesis.free.size(); ++k) {
     if (hypothesis.free[k]) continue;
-    shown.emplace_back(sample.counts.col(static_cast<Eigen::Index>(k)) / sample.scale_counts);
-    Eigen::ArrayXd ordered = shown.back();
-    const Eigen::Index low = ordered.size() / 50;
-    std::nth_element(ordered.begin(), ordered.begin() + low, ordered.end());
-    ambient = std::min(ambient, ordered(low));
+    const auto dark = sample.counts.col(static_cast<Eigen::Index>(k)) < kDark * sample.scale_counts;
+    if (dark.cast<double>().mean() < kLeast) return false;
   }
-  return std::all_of(shown.begin(), shown.end(), [&](const Eigen::ArrayXd& relative) {
-    const double dark = std::min(ambient + kAbove, kDarkest);
-    return (relative < dark).cast<double>().mean() >= kLeast;
-  });
+  return true;
 }
 
 /// A fifth of the blocks of a sample.
@@ -200,6 +191,8 @@ std::vector<FrameHypothesis> likely_pairs(const FrameMoments& moments,
 std::vector<FrameHypothesis> likely_hypotheses(const FrameSample& sample, const Pattern& pattern) {
   const FrameMoments moments = moments_of(sample);
   std::vector<FrameHypothesis> all = likely_singles(sample, moments, pattern);
+  constexpr std::size_t kMinFramesOfPairs = 6;  // fewer leave too little that checks a pair
+  if (pattern.shifts_rad.size() < kMinFramesOfPairs) return all;
   for (FrameHypothesis& both : likely_pairs(moments, all))
     all.push_back(std::move(both));
   return all;

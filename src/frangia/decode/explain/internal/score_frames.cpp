@@ -63,7 +63,8 @@ class FrameFit {
     for (std::size_t i = 0; i < design_.shown.size(); ++i)
       shown_.col(static_cast<Eigen::Index>(i)) = sample.counts.col(design_.shown[i]).matrix();
     rest_ = shown_ * design_.rest;
-    if (hypothesis.moved_at) {  // the slopes of the fringes, with less noise than those of a frame
+    if (hypothesis
+            .moves_texture) {  // the slopes of the fringes, with less noise than those of a frame
       const auto of_fringes = [&](const Eigen::ArrayXXd& slopes) -> Eigen::MatrixXd {
         return slopes(Eigen::all, design_.shown).matrix() * design_.span * design_.span.transpose();
       };
@@ -89,8 +90,11 @@ class FrameFit {
   }
 
  private:
+  [[nodiscard]] Eigen::Index movement_count() const {
+    return hypothesis_.moved_at ? (hypothesis_.moves_texture ? 3 : 1) : 0;
+  }
   [[nodiscard]] Eigen::Index nuisance_count() const {
-    return shown_.cols() + 2 * std::ssize(waves_) + (hypothesis_.moved_at ? 3 : 0) +
+    return shown_.cols() + 2 * std::ssize(waves_) + movement_count() +
            (hypothesis_.has_free_steps ? shown_.cols() : 0) + (hypothesis_.lamp_on ? 4 : 0);
   }
 
@@ -122,11 +126,13 @@ class FrameFit {
       column = after_waves;
       if (hypothesis_.moved_at) {
         if (k >= *hypothesis_.moved_at) {
-          effects(i, column) = kPriorMovement_px * slope_x_(pixel, i);
-          effects(i, column + 1) = kPriorMovement_px * slope_y_(pixel, i);
-          effects(i, column + 2) = kPriorMovement_rad * slope;
+          effects(i, column) = kPriorMovement_rad * slope;
+          if (hypothesis_.moves_texture) {
+            effects(i, column + 1) = kPriorMovement_px * slope_x_(pixel, i);
+            effects(i, column + 2) = kPriorMovement_px * slope_y_(pixel, i);
+          }
         }
-        column += 3;
+        column += movement_count();
       }
       if (hypothesis_.has_free_steps) effects(i, column + i) = kPriorStep_rad * slope;
       if (is_lit_by_lamp(hypothesis_, k)) {
@@ -221,10 +227,6 @@ class FrameFit {
     if (count > 0) {
       const Eigen::VectorXd gains = kPriorGain * found.head(shown_.cols());
       out.largest_gain = (gains.array() - gains.mean()).abs().maxCoeff();
-      const Eigen::Index extra = shown_.cols() + 2 * std::ssize(waves_);
-      if (hypothesis_.moved_at)
-        out.movement = found.segment(extra, 3).cwiseProduct(
-            Eigen::Vector3d(kPriorMovement_px, kPriorMovement_px, kPriorMovement_rad));
       if (hypothesis_.has_free_steps)
         out.step_errors_rad = kPriorStep_rad * found.tail(shown_.cols());
     }
