@@ -136,7 +136,7 @@ std::string remedy_of(const FrameHypothesis& hypothesis) {
     case FrameCause::Moved:
       return "hold the part still while it is captured, and capture the frames again";
     case FrameCause::Steps:
-      return "correct shifts_deg of scan.toml, or the projector's images";
+      return "hold the part still while it is captured, or correct shifts_deg of scan.toml";
     case FrameCause::Lamp:
       return "keep the light of the room as it is, and capture the frames again";
     case FrameCause::Unexplained:

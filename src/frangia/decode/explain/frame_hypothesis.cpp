@@ -41,7 +41,7 @@ std::string clause_of(FrameCause cause, std::size_t frame, const FrameHypothesis
     case FrameCause::Moved:
       return fmt::format("the part moved before frame {}", frame);
     case FrameCause::Steps:
-      return "the shifts differ from those of scan.toml";
+      return "the shifts differ from those of scan.toml, or the part moved between the frames";
     case FrameCause::Start:
       return "the shifts begin elsewhere";
     case FrameCause::Direction:

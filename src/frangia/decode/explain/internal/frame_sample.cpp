@@ -111,9 +111,10 @@ std::vector<bool> changed_by_one_cause(const Eigen::ArrayXXd& counts,
   }
   std::vector<double> ordered = shares;
   std::sort(ordered.begin(), ordered.end(), std::greater<>());
-  constexpr double kLeastShare = 0.05;
+  // Two of three frames are alike on a good part of one coarse fringe, too.
+  const double least = frames > 3 ? 0.05 : 0.4;
   constexpr double kOverOthers = 3.0;  // square fringes look like each of the causes alike
-  if (ordered[0] < kLeastShare || ordered[0] < kOverOthers * ordered[1])
+  if (ordered[0] < least || ordered[0] < kOverOthers * ordered[1])
     return std::vector<bool>(usable.size());
   const auto most = std::max_element(shares.begin(), shares.end()) - shares.begin();
   return by_cause[static_cast<std::size_t>(most)];

@@ -73,7 +73,15 @@ bool show_whole_fringe(const FrameSample& sample, const FrameHypothesis& hypothe
     const auto dark = sample.counts.col(static_cast<Eigen::Index>(k)) < kDark * sample.scale_counts;
     if (dark.cast<double>().mean() < kLeast) return false;
   }
-  return true;
+  // Nor is a frame lost that is the brightest at most pixels, unless it outshines them all.
+  constexpr double kBright = 0.9;
+  constexpr double kMost = 0.5;
+  Eigen::ArrayXd brightest = Eigen::ArrayXd::Zero(sample.counts.rows());
+  for (std::size_t k = 0; k < hypothesis.free.size(); ++k) {
+    if (!hypothesis.free[k])
+      brightest = brightest.max(sample.counts.col(static_cast<Eigen::Index>(k)));
+  }
+  return (brightest > kBright * sample.scale_counts).cast<double>().mean() > kMost;
 }
 
 /// A fifth of the blocks of a sample.
