@@ -68,9 +68,7 @@ bool cover_fringe(const FrameSample& sample, const FrameHypothesis& declared) {
     }
     return (bins > kLeast * static_cast<double>(values.rows())).count() >= kCovered;
   };
-  constexpr std::size_t kMinWithout = 5;  // three frames see phases in all that they show
   if (covers(others)) return true;
-  if (others.free.size() < kMinWithout) return false;
   for (std::size_t k = 0; k < others.free.size(); ++k) {  // no single frame hides the fringes
     if (others.free[k]) continue;
     FrameHypothesis without = others;
