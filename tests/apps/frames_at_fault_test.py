@@ -309,10 +309,9 @@ class FramesAtFault(unittest.TestCase):
         def lost(view, name, frames):
             return [0 * counts + 5 if name == "c" and k == 2 else counts for k, counts in enumerate(frames)]
 
-        code, answer, text, error, sigma = self.scan(6, coarse=True).capture(lost).reconstruct()
+        code, _, text, error, sigma = self.scan(6, coarse=True).capture(lost).reconstruct()
         self.assertEqual(code, 0, text)
         self.assertIn('pattern \\"c\\": frame 2 is black', text)
-        self.assertEqual(len(answer["warnings"]), 1)
         self.assertLess(error, 1.8 * sigma)
 
     def test_a_lost_frame_of_a_gray_code_is_named(self):

@@ -129,6 +129,7 @@ std::vector<FrameHypothesis> frame_hypotheses(const Pattern& pattern) {
   if (frames > kMinFramesOfLamp) {
     add(FrameCause::Steps, 0, 0, 1);
     out.back().has_free_steps = true;
+    out.back().frames.clear();
   }
   add(FrameCause::Start, 0, 1, 1);
   add(FrameCause::Direction, 0, 0, 1);
@@ -190,7 +191,8 @@ std::string describe(const FrameHypothesis& hypothesis) {
     default:
       break;
   }
-  std::string text = clause_of(hypothesis.cause, hypothesis.frames.front(), hypothesis);
+  const std::size_t first = hypothesis.frames.empty() ? 0 : hypothesis.frames.front();
+  std::string text = clause_of(hypothesis.cause, first, hypothesis);
   for (std::size_t i = 1; i < hypothesis.frames.size(); ++i) {
     const std::size_t frame = hypothesis.frames[i];
     const FrameCause cause = hypothesis.free[frame]           ? FrameCause::Lost

@@ -84,9 +84,9 @@ bool show_whole_fringe(const FrameSample& sample, const FrameHypothesis& hypothe
   return (brightest > kBright * sample.scale_counts).cast<double>().mean() > kMost;
 }
 
-/// A fifth of the blocks of a sample.
+/// An eighth of the blocks of a sample.
 FrameSample thinned(const FrameSample& sample) {
-  constexpr int kEvery = 5;
+  constexpr int kEvery = 8;
   std::vector<Eigen::Index> kept;
   FrameSample out;
   for (std::size_t i = 0; i < sample.blocks.size(); ++i) {
