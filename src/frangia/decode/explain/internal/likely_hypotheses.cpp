@@ -13,7 +13,7 @@
 namespace frangia {
 namespace {
 
-constexpr std::size_t kMinFrames = 3;
+constexpr std::size_t kThreeSteps = 3;
 constexpr std::size_t kScoredSingles = 8;
 constexpr std::size_t kPairedSingles = 5;
 /// Logarithm of the least gain that is a fault of a single frame; less is flicker.
@@ -65,7 +65,7 @@ bool fit_gain(const FrameMoments& moments, std::size_t frame, FrameHypothesis& h
 /// With three frames, those that remain must show the whole fringe; a part in the dark part of one
 /// coarse fringe looks like a black frame otherwise.
 bool show_whole_fringe(const FrameSample& sample, const FrameHypothesis& hypothesis) {
-  if (hypothesis.shifts_rad.size() > kMinFrames) return true;
+  if (hypothesis.shifts_rad.size() > kThreeSteps) return true;
   constexpr double kDark = 0.3;
   constexpr double kLeast = 0.1;
   for (std::size_t k = 0; k < hypothesis.free.size(); ++k) {
