@@ -200,7 +200,7 @@ class GrayCodeSample {
                                         const std::vector<std::uint32_t>& stripes) const {
     std::size_t agreeing = 0;
     for (std::size_t i = 0; i < pixels.size(); ++i)
-      agreeing += agrees_with_fringes(trial, pixels[i], stripes[i]) ? 1 : 0;
+      if (agrees_with_fringes(trial, pixels[i], stripes[i])) ++agreeing;
     return static_cast<double>(agreeing) / static_cast<double>(pixels.size());
   }
   [[nodiscard]] bool agrees_with_fringes(const GrayTrial& trial,
