@@ -68,7 +68,7 @@ double lamp_light(const SimulateOptions& options, std::size_t view, std::size_t 
 }
 
 FrameStack empty_stack(const Pattern& pattern, int exposure, const SimulatedScene& scene) {
-  FrameStack stack{pattern, {}, scene.known_rig.camera.white_level, exposure};
+  FrameStack stack{pattern, {}, scene.known_rig.reference().white_level, exposure};
   const int width = scene.rays.width();
   const int height = scene.rays.height();
   for (int i = 0; i < pattern.frame_count(); ++i) {
