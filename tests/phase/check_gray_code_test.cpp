@@ -166,10 +166,10 @@ TEST(CheckGrayCode, NamesThePlaceOfInvertedFrames) {
 
 TEST(CheckGrayCode, NamesEachFrameThatIsBlackOrWhite) {
   for (std::size_t frame = 0; frame < 6; ++frame) {
-    for (const std::uint8_t level : {40, 220}) {
+    for (const int level : {40, 220}) {
       CodedScene scene;
       for (std::uint8_t& counts : std::get<0>(scene.gray.frames[frame]).pixels())
-        counts = level;
+        counts = static_cast<std::uint8_t>(level);
       expect_only_fit(scene.check(),
                       "a missing frame: frame " + std::to_string(frame) + " shows no stripes");
     }
