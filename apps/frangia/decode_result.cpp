@@ -6,11 +6,13 @@
 #include <vector>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 #include "frangia/core/angles.h"
 #include "frangia/core/median.h"
 #include "frangia/core/missing.h"
+#include "frangia/decode/explain/hypothesis_table.h"
 #include "frangia/decode/stage_pictures.h"
 
 #include "counted.h"
@@ -180,6 +182,40 @@ void print_stages(const ViewResult& result, const std::filesystem::path& folder)
 
 }  // namespace
 
+void print_hypotheses(Terminal& terminal) {
+  const std::vector<CauseRow> rows = hypothesis_table();
+  const std::vector<AlikeCauses> classes = alike_causes();
+  if (terminal.json) {
+    Json json{{"steps", tabulated_steps()}, {"causes", Json::array()}, {"alike", Json::array()}};
+    for (const CauseRow& row : rows) {
+      json["causes"].push_back({{"cause", row.cause},
+                                {"model", row.model},
+                                {"consequence", row.consequence},
+                                {"hypotheses", row.counts}});
+    }
+    for (const AlikeCauses& one : classes)
+      json["alike"].push_back(
+          {{"steps", one.steps}, {"causes", one.causes}, {"classes", one.classes}});
+    print_json(json);
+    return;
+  }
+  print_text("| cause | model | hypotheses with {} steps | what follows |\n|---|---|---|---|\n",
+             fmt::format("{}", fmt::join(tabulated_steps(), ", ")));
+  for (const CauseRow& row : rows) {
+    print_text("| `{}` | {} | {} | {} |\n",
+               row.cause,
+               row.model,
+               fmt::format("{}", fmt::join(row.counts, ", ")),
+               row.consequence);
+  }
+  print_text("\n| steps | causes whose frames are the same | classes |\n|---|---|---|\n");
+  for (const AlikeCauses& one : classes)
+    print_text("| {} | {} | {} |\n",
+               one.steps,
+               fmt::format("{}", fmt::join(one.causes, " = ")),
+               one.classes);
+}
+
 void print_plan(const DecodePlan& plan, Terminal& terminal) {
   if (terminal.json) {
     print_json(Json{{"plan", json_of(plan)}, {"absolute", is_absolute(plan)}});
@@ -234,7 +270,7 @@ void DecodedScan::add(const ViewResult& result) {
     return;
   }
   for (const FrameAssessment& assessment : assessments_of(result.decoded)) {
-    if (needs_attention(assessment))
+    if (needs_attention(assessment) && !leaves_out_direction(result.decoded))
       terminal_.run().warn(fmt::format("{}: {}", name, describe(assessment)));
   }
   if (terminal_.quiet) return;

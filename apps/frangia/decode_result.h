@@ -27,6 +27,9 @@ struct ViewResult {
   std::vector<StageFile> files{};  ///< in the view's folder
 };
 
+/// Prints the causes that explain frames as the table of docs/phase.md.
+void print_hypotheses(Terminal& terminal);
+
 /// Prints how the views of a scan are decoded.
 void print_plan(const DecodePlan& plan, Terminal& terminal);
 

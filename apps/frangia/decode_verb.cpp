@@ -36,6 +36,7 @@ struct DecodeArguments {
   std::string camera;
   std::filesystem::path folder;
   bool show_plan = false;
+  bool show_hypotheses = false;
   DecodeOptions options;
 };
 
@@ -175,10 +176,10 @@ void add_decode_verb(CLI::App& program, Terminal& terminal) {
       "  frangia decode ball-bar -o maps               maps/000/PATTERN-phase.tiff, ... of all "
       "views\n"
       "  frangia decode ball-bar --view 3 -o stages    each stage of one view, with pictures\n"
-      "  frangia decode ball-bar --show-plan           where its fringe orders come from");
-  verb->add_option(
-          "SCAN", arguments->scan, "the scan folder, with scan.toml; without rig.toml, phases only")
-      ->required();
+      "  frangia decode ball-bar --show-plan           where its fringe orders come from\n"
+      "  frangia decode --show-hypotheses              the causes that explain frames");
+  auto* input = verb->add_option(
+      "SCAN", arguments->scan, "the scan folder, with scan.toml; without rig.toml, phases only");
   verb->add_option("--view",
                    arguments->view,
                    "number of one view, counted from 0, whose stages are written; all views by "
@@ -193,9 +194,20 @@ void add_decode_verb(CLI::App& program, Terminal& terminal) {
                  "print how the frames are decoded and where fringe orders come from, and decode "
                  "nothing")
       ->excludes(output);
+  verb->add_flag("--show-hypotheses",
+                 arguments->show_hypotheses,
+                 "print the causes that explain frames, and which of them frames alone do not tell "
+                 "apart; it needs no scan")
+      ->excludes(input)
+      ->excludes(output);
   add_decode_options(*verb, arguments->options);
   arguments->options.spatial.keep_growth_order = true;
   verb->callback([arguments, &terminal] {
+    if (arguments->show_hypotheses) {
+      print_hypotheses(terminal);
+      return;
+    }
+    if (arguments->scan.empty()) throw CLI::RequiredError("SCAN");
     if (arguments->folder.empty() && !arguments->show_plan) throw CLI::RequiredError("--output");
     decode_verb(*arguments, terminal);
   });

@@ -46,12 +46,11 @@ void write_outputs(const Reconstruction& result,
   write_ply(arguments.raw, points);
 }
 
-/// Whether views are not part of the mesh for a fault of their frames or poses: a warning says why.
+/// Whether views are not part of the mesh: a warning says why.
 bool leaves_out_views(const Reconstruction& result) {
-  return std::any_of(
-      result.view_summaries.begin(), result.view_summaries.end(), [](const ViewSummary& view) {
-        return !view.reason.empty() || (view.left_out && view.points > 0);
-      });
+  return std::any_of(result.view_summaries.begin(),
+                     result.view_summaries.end(),
+                     [](const ViewSummary& view) { return view.left_out || !view.reason.empty(); });
 }
 
 void reconstruct_verb(ReconstructArguments& arguments, Terminal& terminal) {

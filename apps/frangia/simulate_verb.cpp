@@ -173,9 +173,11 @@ void simulate(SimulateArguments arguments, Terminal& terminal) {
   const Mesh part = part_of(arguments.part, arguments.read, run);
   add_setups(plan, part, arguments);
   check_frame_faults(arguments.frame_faults, plan);
+  SimulateOptions with_lamps = options;
+  with_lamps.lamps_on = lamps_of(arguments.frame_faults, plan);
   run.stage("render");
   refuse_label_of_one_camera(arguments, plan.rig);
-  Scan scan = simulate_scan(part, plan, options, run);
+  Scan scan = simulate_scan(part, plan, with_lamps, run);
   apply_frame_faults(arguments.frame_faults, scan, run);
   state_label(arguments, scan);
   print_result(scan, "truth.ply", terminal);

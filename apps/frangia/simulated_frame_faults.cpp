@@ -95,6 +95,11 @@ void add_frame_faults(CLI::App& verb, SimulatedFrameFaults& faults) {
                   faults.repeated,
                   "VIEW:PATTERN:FRAME: the frame shows the one before it again; may repeat")
       ->group(kGroup);
+  verb.add_option("--lamp-on",
+                  faults.lamps_on,
+                  "VIEW:FRAME, such as 0:5: another lamp is on from this frame of the view on, "
+                  "counted over all patterns; may repeat")
+      ->group(kGroup);
   verb.add_flag("--video-levels",
                 faults.video_levels,
                 "black is at 16 and white at 235 of 255 counts, as video has it")
@@ -108,6 +113,29 @@ void check_frame_faults(const SimulatedFrameFaults& faults, const Scan& plan) {
     require(place_of(text, "repeat_frame", plan).frame > 0,
             "`repeat_frame`: frame 0 has none before it; give 1 or more");
   }
+}
+
+std::vector<LampSwitch> lamps_of(const SimulatedFrameFaults& faults, const Scan& plan) {
+  int frames = 0;
+  for (const Pattern& pattern : plan.patterns)
+    frames += pattern.frame_count() * pattern.exposure_count();
+  std::vector<LampSwitch> out;
+  for (const std::string& text : faults.lamps_on) {
+    const auto at = text.find(':');
+    const auto view = whole_number(text.substr(0, at));
+    const auto frame = at == std::string::npos ? std::nullopt : whole_number(text.substr(at + 1));
+    if (!view || !frame || static_cast<std::size_t>(*view) >= plan.views.size() ||
+        *frame >= frames) {
+      throw Error(ErrorKind::Input,
+                  fmt::format("`lamp_on` {}: give VIEW:FRAME, such as 0:5; the views are 0 to {}, "
+                              "and their frames 0 to {}",
+                              text,
+                              plan.views.size() - 1,
+                              frames - 1));
+    }
+    out.push_back({static_cast<std::size_t>(*view), static_cast<std::size_t>(*frame)});
+  }
+  return out;
 }
 
 void apply_frame_faults(const SimulatedFrameFaults& faults, const Scan& scan, const Run& run) {

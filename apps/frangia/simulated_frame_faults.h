@@ -7,6 +7,7 @@
 
 #include "frangia/core/run.h"
 #include "frangia/dataset/scan_folder.h"
+#include "frangia/simulate/simulate_options.h"
 
 namespace frangia {
 
@@ -14,6 +15,7 @@ namespace frangia {
 struct SimulatedFrameFaults {
   std::vector<std::string> lost;      ///< black: the camera was out of step
   std::vector<std::string> repeated;  ///< the frame before was captured again
+  std::vector<std::string> lamps_on;  ///< as VIEW:FRAME, frames counted over all patterns
   bool video_levels = false;          ///< counts of 16 to 235 of 255, cut off there
 };
 
@@ -22,6 +24,10 @@ void add_frame_faults(CLI::App& verb, SimulatedFrameFaults& faults);
 
 /// Refuses faults that a planned scan cannot have. Errors as below.
 void check_frame_faults(const SimulatedFrameFaults& faults, const Scan& plan);
+
+/// The lamps that are switched on, for the renderer. Errors as below.
+[[nodiscard]] std::vector<LampSwitch> lamps_of(const SimulatedFrameFaults& faults,
+                                               const Scan& plan);
 
 /// Changes the frames of a scan that was written.
 ///

@@ -1,5 +1,7 @@
 // The verb decode: the phase maps of all views, which `reconstruct --phase` reads back.
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -96,6 +98,22 @@ TEST_F(DecodeProgram, ShowsWhereFringeOrdersComeFrom) {
                         text + "\"}]"));
   EXPECT_EQ(json_of("decode " + path("scan") + " -o " + path("stages"))["plan"], alone["plan"]);
   EXPECT_EQ(run_program("decode " + path("scan") + " 2>&1").exit_code, 2);
+}
+
+TEST_F(DecodeProgram, PrintsTheTablesOfHypothesesThatTheDocsShow) {
+  const Answer answer = run_program("decode --show-hypotheses");
+  EXPECT_EQ(answer.exit_code, 0);
+  std::ifstream in(std::string(FRANGIA_SOURCE_DIR) + "/docs/phase.md");
+  const std::string page{std::istreambuf_iterator<char>(in), {}};
+  const auto between = [&](const std::string& begin, const std::string& end) {
+    const auto from = page.find(begin) + begin.size();
+    return page.substr(from, page.find(end) - from);
+  };
+  EXPECT_EQ(answer.output,
+            between("<!-- hypotheses -->\n", "<!-- end of hypotheses -->") + "\n" +
+                between("<!-- classes -->\n", "<!-- end of classes -->"));
+  EXPECT_EQ(run_program("decode " + path("scan") + " --show-hypotheses 2>&1").exit_code, 2);
+  EXPECT_EQ(run_program("decode 2>&1").exit_code, 2);
 }
 
 TEST_F(DecodeProgram, WritesStagesAndMapsOfAScanOfOneView) {

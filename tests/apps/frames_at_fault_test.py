@@ -291,6 +291,46 @@ class FramesAtFault(unittest.TestCase):
         self.assertIn("frame 2 repeats frame 1", answer["per_view"][1]["reason"])
         self.assertLess(error, 1.8 * sigma)
 
+    def test_a_view_without_a_point_is_left_out_and_named(self):
+        def dark(views):
+            return lambda view, name, frames: [0 * counts + 5 for counts in frames] if view in views else frames
+
+        code, answer, text, error, sigma = (
+            self.scan(4, views=2, coarse=True).capture(dark({1})).reconstruct("--no-register")
+        )
+        self.assertEqual(code, 4, text)
+        self.assertEqual([view["left_out"] for view in answer["per_view"]], [False, True])
+        self.assertIn("no point was measured", answer["per_view"][1]["reason"])
+        self.assertLess(error, 1.8 * sigma)
+        code, _, text, _, _ = self.scan(4, views=2, coarse=True).capture(dark({0, 1})).reconstruct("--no-register")
+        self.assertEqual(code, 5, text)
+
+    def test_a_lost_frame_of_the_coarsest_pattern_is_named(self):
+        def lost(view, name, frames):
+            return [0 * counts + 5 if name == "c" and k == 2 else counts for k, counts in enumerate(frames)]
+
+        code, _, text, error, sigma = self.scan(6, coarse=True).capture(lost).reconstruct()
+        self.assertEqual(code, 0, text)
+        self.assertIn('pattern \\"c\\": frame 2 is black', text)
+        self.assertLess(error, 1.8 * sigma)
+
+    def test_a_lost_frame_of_a_gray_code_is_named(self):
+        scan = self.scan(4).capture()
+        write_png(scan.folder / "views/000/g-3.png", np.full((HEIGHT, WIDTH), 6, np.uint8))
+        code, _, text, _, _ = scan.reconstruct()
+        self.assertEqual(code, 5, text)
+        self.assertIn("frame 3 shows no stripes", text)
+
+    def test_a_simulated_lamp_is_named(self):
+        folder = pathlib.Path(self.folder.name) / "lamp"
+        options = ("--lamp-on", "0:9", "--shifts", "6", "--views", "1", "--periods", "1280,40")
+        subprocess.run([PROGRAM, "--quiet", "simulate", "plate", *options, "-o", folder], check=True)
+        done = subprocess.run(
+            [PROGRAM, "--json", "decode", folder, "-o", folder / "maps"], capture_output=True, text=True
+        )
+        found = {one["pattern"]: (one["cause"], one["frames"]) for one in json.loads(done.stdout)["explanations"]}
+        self.assertEqual(found, {"p1280": ("as-described", []), "p40": ("lamp", [3])})
+
     def test_frames_that_are_late_are_used_if_the_remedy_is_accepted(self):
         def late(view, name, frames):
             return frames[:5] + frames[4:-1] if name == "f" else frames

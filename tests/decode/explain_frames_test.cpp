@@ -109,6 +109,92 @@ TEST(ExplainFrames, NamesATornFrame) {
   expect_named(kTorn, 6, FrameCause::Lost, "frame 2 shows no fringes");
 }
 
+TEST(ExplainFrames, NoFrameHidesItselfByTheBackgroundThatItLights) {
+  for (const int steps : {5, 6}) {
+    for (const unsigned seed : {21U, 22U}) {
+      const FrameExplanation found =
+          explained({.shadow = 0.7, .seed = seed}, steps, [](RenderedFrames& f) {
+            for (double& light : f.frames[1])
+              light += 60.0;
+          });
+      EXPECT_TRUE(found.has_fault()) << steps;
+      EXPECT_EQ(found.best.cause, FrameCause::Lamp) << steps << describe(found.explanation);
+      // With five steps that is the same as a lamp in the frames opposite of it.
+      EXPECT_NE(describe(found.explanation).find("another lamp lit frame 1 alone"),
+                std::string::npos)
+          << describe(found.explanation);
+      EXPECT_EQ(found.explanation.best.size(), steps == 5 ? 2U : 1U);
+    }
+  }
+}
+
+TEST(ExplainFrames, TellsALostFrameOfFiveFromALamp) {
+  for (const std::size_t frame : {1U, 3U}) {
+    for (const double counts : {6.0, 400.0}) {
+      const FrameExplanation found = explained({.seed = 23}, 5, [&](RenderedFrames& f) {
+        std::fill(f.frames[frame].begin(), f.frames[frame].end(), counts);
+      });
+      EXPECT_EQ(found.best.cause, FrameCause::Lost) << frame << describe(found.explanation);
+      EXPECT_EQ(found.best.frames, std::vector<std::size_t>{frame});
+    }
+  }
+}
+
+TEST(ExplainFrames, NamesALampOf25Counts) {
+  for (const int steps : {5, 6}) {
+    const FrameExplanation found = explained({.seed = 24}, steps, [](RenderedFrames& f) {
+      for (std::size_t k = 3; k < f.frames.size(); ++k)
+        for (double& light : f.frames[k])
+          light += 25.0;
+    });
+    EXPECT_TRUE(found.has_fault()) << steps;
+    EXPECT_EQ(found.best.cause, FrameCause::Lamp) << steps << describe(found.explanation);
+    EXPECT_EQ(found.best.lamp_on, 3U) << steps;
+  }
+}
+
+TEST(ExplainFrames, NamesAFrameOfTheMeanOfTheOthers) {
+  for (const int steps : {4, 6}) {
+    const FrameExplanation found = explained({.seed = 25}, steps, [](RenderedFrames& f) {
+      std::vector<double> mean(f.frames[0].size());
+      for (const auto& frame : f.frames)
+        for (std::size_t i = 0; i < mean.size(); ++i)
+          mean[i] += frame[i] / static_cast<double>(f.frames.size());
+      f.frames[1] = mean;
+    });
+    EXPECT_TRUE(found.has_fault()) << steps;
+    EXPECT_EQ(found.best.cause, FrameCause::Lost) << steps << describe(found.explanation);
+  }
+}
+
+TEST(ExplainFrames, NamesAPartThatMoved) {
+  const FrameExplanation found = explained({.seed = 26}, 6, [](RenderedFrames& f) {
+    for (auto& frame : f.frames) {  // as a lens blurs it
+      const std::vector<double> sharp = frame;
+      for (std::size_t i = 1; i + 1 < sharp.size(); ++i)
+        frame[i] = 0.25 * sharp[i - 1] + 0.5 * sharp[i] + 0.25 * sharp[i + 1];
+    }
+    for (std::size_t k = 3; k < f.frames.size(); ++k)
+      for (std::size_t i = f.frames[k].size() - 1; i > 0; --i)  // 1 px along x
+        f.frames[k][i] = f.frames[k][i - 1];
+  });
+  EXPECT_TRUE(found.has_fault());
+  EXPECT_EQ(found.best.cause, FrameCause::Moved) << describe(found.explanation);
+  EXPECT_EQ(found.best.moved_at, 3U);
+}
+
+TEST(JudgeFrames, ReturnsTheShiftsOfUnevenSteps) {
+  const std::vector<double> shown_deg{0.0, 60.0, 128.0, 180.0, 240.0, 300.0};
+  RenderedFrames frames({.seed = 27}, shown_deg);
+  FrameStack stack = frames.stack();
+  for (std::size_t k = 0; k < shown_deg.size(); ++k)
+    stack.pattern.shifts_rad[k] = kTwoPi * static_cast<double>(k) / 6.0;
+  const FrameVerdict verdict = judge_frames(stack, frames.noise());
+  EXPECT_EQ(verdict.explanation.best.cause, FrameCause::Steps) << verdict.finding;
+  ASSERT_EQ(verdict.remedy_rad.size(), shown_deg.size()) << verdict.finding;
+  EXPECT_NEAR(deg_from_rad(verdict.remedy_rad[2] - verdict.remedy_rad[1]), 68.0, 1.5);
+}
+
 TEST(ExplainFrames, NamesAllHypothesesThatFourFramesDoNotTellApart) {
   const FrameExplanation found = explained({.seed = 7}, 4, kRepeated);
   EXPECT_TRUE(found.has_fault());

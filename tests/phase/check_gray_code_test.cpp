@@ -164,11 +164,16 @@ TEST(CheckGrayCode, NamesThePlaceOfInvertedFrames) {
   expect_only_fit(scene.check(), "inverted frames that alternate");
 }
 
-TEST(CheckGrayCode, NamesAFrameThatShowsNoStripes) {
-  CodedScene scene;
-  for (std::uint8_t& counts : std::get<0>(scene.gray.frames[4]).pixels())
-    counts = 40;
-  expect_only_fit(scene.check(), "a missing frame: frame 4 shows no stripes");
+TEST(CheckGrayCode, NamesEachFrameThatIsBlackOrWhite) {
+  for (std::size_t frame = 0; frame < 6; ++frame) {
+    for (const int level : {40, 220}) {
+      CodedScene scene;
+      for (std::uint8_t& counts : std::get<0>(scene.gray.frames[frame]).pixels())
+        counts = static_cast<std::uint8_t>(level);
+      expect_only_fit(scene.check(),
+                      "a missing frame: frame " + std::to_string(frame) + " shows no stripes");
+    }
+  }
 }
 
 TEST(CheckGrayCode, NamesAFrameThatIsRepeated) {

@@ -126,6 +126,7 @@ class Answers(unittest.TestCase):
         self.answer("simulate", "plate", "--rig", "rig.toml", "--views", "1", "-o", "other")
         self.answer("decode", "scan", "-o", "maps")
         self.answer("decode", "scan", "--show-plan")
+        self.answer("decode", "--show-hypotheses")
         self.answer("decode", "scan", "--view", "1", "-o", "stages")
         result = self.answer("reconstruct", "scan", "-o", "again.ply", "--keep-raw", "raw.ply")
         for view in result["per_view"]:  # what the issue of a program needs at each view

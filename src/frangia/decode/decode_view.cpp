@@ -1,5 +1,7 @@
 #include "frangia/decode/decode_view.h"
 
+#include <algorithm>
+
 #include "frangia/decode/internal/decode_direction.h"
 #include "frangia/decode/select_stacks.h"
 
@@ -16,6 +18,12 @@ std::vector<FrameAssessment> assessments_of(const DecodedView& view) {
   for (const DecodedDirection& direction : view.directions)
     all.insert(all.begin(), direction.assessments.begin(), direction.assessments.end());
   return all;
+}
+
+bool leaves_out_direction(const DecodedView& view) {
+  return std::any_of(view.directions.begin(), view.directions.end(), [](const auto& direction) {
+    return leaves_out_view(direction.frames);
+  });
 }
 
 std::string misfit_of(const DecodedView& view) {

@@ -232,7 +232,7 @@ Reconstruction reconstruct(const Scan& scan, const ReconstructOptions& options, 
     add_outliers(outliers, setup);
   }
   if (out.points == 0) {
-    throw Error(ErrorKind::Input,
+    throw Error(unresolved > 0 ? ErrorKind::Input : ErrorKind::Numeric,
                 explain_no_surface(scan, rays, options.decode, {0, unresolved}, run));
   }
 

@@ -89,7 +89,7 @@ struct Reconstruction {
 ///
 /// @units    mm, object frame
 /// @missing  a view without a lit pixel is left out with a warning
-/// @errors   Error(Input) when no view has a lit pixel, and the errors of all stages
+/// @errors   Error(Numeric) when no view has a measured pixel, and the errors of all stages
 [[nodiscard]] Reconstruction reconstruct(const Scan& scan,
                                          const ReconstructOptions& options = {},
                                          const Run& run = {});

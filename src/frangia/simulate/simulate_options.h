@@ -1,12 +1,21 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <vector>
 
 #include "frangia/rig/artifact.h"
 #include "frangia/rig/board.h"
 
 namespace frangia {
+
+/// Another lamp that is switched on while a view is captured.
+struct LampSwitch {
+  std::size_t view = 0;
+  std::size_t frame = 0;  ///< first frame with its light, counted over all frames of the view
+  double light = 0.15;    ///< on a white surface, as a share of white
+};
 
 /// Brightness and faults of the simulated rig. All faults except camera noise are off by default.
 struct SimulateOptions {
@@ -20,6 +29,7 @@ struct SimulateOptions {
   double read_e = 8.0;           ///< read noise
   double exposure = 1.0;         ///< relative; 1 puts the brightest diffuse pixel at 80 % of white
   double ambient = 0.0;          ///< ambient light on a white surface, as a share of white
+  std::vector<LampSwitch> lamps_on;  ///< other lamps that are switched on during the capture
 
   // The projector.
   double contrast = 0.9;           ///< gamma0 of the fringes, 0 to 1

@@ -10,7 +10,7 @@ from fringe_scenes import FIELD, GAIN_E, READ_E, Scene, fringes, small_rig, toml
 PAGE = "figures-capture.md"
 TITLE = "What explains the frames of a pattern"
 
-STEPS = [3, 4, 6, 12]
+STEPS = [3, 4, 5, 6, 12]
 SEEDS = 20
 PART_SEEDS = 3
 PARTS = ["plate", "bracket", "blade"]
@@ -55,18 +55,40 @@ def something_else(light, k, generator):
     light[k] = 0.5 + 0.4 * np.sin(0.09 * x + 0.05 * y + generator.uniform(0, 6))
 
 
+def mean(light, k, generator):
+    light[k] = sum(light) / len(light)
+
+
+def lamp(light, k, generator):
+    for one in range(max(k, 2), len(light)):
+        light[one] = light[one] + 0.15
+
+
+def flash(light, k, generator):
+    light[k] = light[k] + 0.15
+
+
+def moved(light, k, generator):
+    for one in range(k, len(light)):
+        light[one] = 0.4 * light[one] + 0.6 * np.roll(light[one], 1, 1)
+
+
 # The fault, the causes that are right, and the numbers of steps whose frames decide it: with three steps an exchange is a
 # direction, and with four or fewer no residual tells a repeated frame from a late set.
 FAULTS = {
     "black frame": (black, {"lost"}, STEPS),
     "frame of 5 % of the light": (dim, {"lost", "gain"}, STEPS),
     "white frame": (white, {"lost"}, STEPS),
-    "frame of half the light": (half, {"gain"}, [6, 12]),
-    "repeated frame": (repeated, {"repeated"}, [6, 12]),
-    "exchanged frames": (exchanged, {"exchanged"}, [6, 12]),
-    "frames late by one": (late, {"late"}, [6, 12]),
+    "frame of half the light": (half, {"gain"}, [5, 6, 12]),
+    "repeated frame": (repeated, {"repeated"}, [5, 6, 12]),
+    "exchanged frames": (exchanged, {"exchanged"}, [5, 6, 12]),
+    "frames late by one": (late, {"late"}, [5, 6, 12]),
     "torn frame": (torn, {"lost"}, [6, 12]),
     "frame of something else": (something_else, {"lost"}, [6, 12]),
+    "mean of the frames": (mean, {"lost"}, [4, 5, 6, 12]),
+    "lamp of 15 %, from a frame on": (lamp, {"lamp"}, [5, 6, 12]),
+    "lamp of 15 % in one frame": (flash, {"lamp"}, [4, 5, 6, 12]),
+    "image moved by 0.6 px": (moved, {"moved"}, [6, 12]),
 }
 SOUND = {
     "linear": {},

@@ -5,10 +5,15 @@
 
 #include <fmt/format.h>
 
+#include "frangia/core/angles.h"
 #include "frangia/decode/explain/internal/frame_design.h"
 
 namespace frangia {
 namespace {
+
+/// Fewer frames do not tell a lamp from harmonics. As many do not tell a movement or free steps
+/// from a lost frame.
+constexpr std::size_t kMinFramesOfLamp = 5;
 
 FrameHypothesis as_described(const Pattern& pattern) {
   const std::size_t frames = pattern.shifts_rad.size();
@@ -16,7 +21,8 @@ FrameHypothesis as_described(const Pattern& pattern) {
           .shifts_rad = pattern.shifts_rad,
           .gains = std::vector<double>(frames, 1.0),
           .free = std::vector<bool>(frames, false),
-          .lamp_on = {}};
+          .lamp_on = {},
+          .moved_at = {}};
 }
 
 std::string clause_of(FrameCause cause, std::size_t frame, const FrameHypothesis& all) {
@@ -30,7 +36,16 @@ std::string clause_of(FrameCause cause, std::size_t frame, const FrameHypothesis
     case FrameCause::Gain:
       return fmt::format("frame {} has {:.2f} times the light", frame, all.gains[frame]);
     case FrameCause::Lamp:
+      if (all.lamp_off == frame + 1) return fmt::format("another lamp lit frame {} alone", frame);
       return fmt::format("another lamp was switched on or off before frame {}", frame);
+    case FrameCause::Moved:
+      return fmt::format("the part moved before frame {}", frame);
+    case FrameCause::Steps:
+      return "the shifts differ from those of scan.toml, or the part moved between the frames";
+    case FrameCause::Start:
+      return "the shifts begin elsewhere";
+    case FrameCause::Direction:
+      return "the shifts run in the opposite direction";
     case FrameCause::Exchanged:
     case FrameCause::AsDescribed:
     case FrameCause::Unexplained:
@@ -57,6 +72,14 @@ std::string name_of(FrameCause cause) {
       return "gain";
     case FrameCause::Lamp:
       return "lamp";
+    case FrameCause::Moved:
+      return "moved";
+    case FrameCause::Steps:
+      return "steps";
+    case FrameCause::Start:
+      return "start";
+    case FrameCause::Direction:
+      return "direction";
     case FrameCause::Unexplained:
       break;
   }
@@ -79,6 +102,11 @@ std::vector<FrameHypothesis> frame_hypotheses(const Pattern& pattern) {
   for (std::size_t k = 0; k < frames; ++k) {
     add(FrameCause::Lost, k, 2, frames);
     out.back().free[k] = true;
+    if (frames > 3) {
+      add(FrameCause::Lamp, k, 0, frames);
+      out.back().lamp_on = k;
+      out.back().lamp_off = k + 1;
+    }
     if (frames > 3) add(FrameCause::Gain, k, 1, frames);
     if (k == 0) continue;
     add(FrameCause::Repeated, k, 0, frames - 1);
@@ -87,10 +115,28 @@ std::vector<FrameHypothesis> frame_hypotheses(const Pattern& pattern) {
     add(FrameCause::Late, k, 0, frames - 2);
     for (std::size_t l = k; l < frames; ++l)
       out.back().shifts_rad[l] = declared.shifts_rad[l - 1];
-    if (frames < 5 || k < 2) continue;  // a lamp in one frame alone is a lost frame
-    add(FrameCause::Lamp, k, 1, frames - 3);
+    if (frames > kMinFramesOfLamp) {
+      for (const bool moves_texture : {false, true}) {
+        add(FrameCause::Moved, k, 0, frames - 2);
+        out.back().moved_at = k;
+        out.back().moves_texture = moves_texture;
+      }
+    }
+    if (frames < kMinFramesOfLamp || k < 2) continue;
+    add(FrameCause::Lamp, k, 0, frames - 3);
     out.back().lamp_on = k;
   }
+  if (frames > kMinFramesOfLamp) {
+    add(FrameCause::Steps, 0, 0, 1);
+    out.back().has_free_steps = true;
+    out.back().frames.clear();
+  }
+  add(FrameCause::Start, 0, 1, 1);
+  add(FrameCause::Direction, 0, 0, 1);
+  for (double& shift : out.back().shifts_rad)
+    shift = -shift;
+  for (double& shift : (out.end() - 2)->shifts_rad)
+    shift += kPi;
   for (std::size_t i = 0; i < frames; ++i) {
     for (std::size_t k = i + 1; k < frames; ++k) {
       add(FrameCause::Exchanged, i, 0, frames * (frames - 1) / 2);
@@ -110,6 +156,7 @@ std::optional<FrameHypothesis> both_of(const FrameHypothesis& a, const FrameHypo
   };
   // The order of what is late and exchanged would matter.
   if (common || (ordered(a) && ordered(b)) || (a.lamp_on && b.lamp_on)) return std::nullopt;
+  if (a.moved_at || b.moved_at || a.has_free_steps || b.has_free_steps) return std::nullopt;
   FrameHypothesis out = ordered(b) ? b : a;
   const FrameHypothesis& other = ordered(b) ? a : b;
   out.frames.insert(out.frames.end(), other.frames.begin(), other.frames.end());
@@ -118,7 +165,10 @@ std::optional<FrameHypothesis> both_of(const FrameHypothesis& a, const FrameHypo
     out.gains[k] = other.gains[k];
     out.free[k] = other.free[k];
   }
-  if (other.lamp_on) out.lamp_on = other.lamp_on;
+  if (other.lamp_on) {
+    out.lamp_on = other.lamp_on;
+    out.lamp_off = other.lamp_off;
+  }
   out.faults += other.faults;
   out.parameters += other.parameters;
   out.choices *= other.choices;
@@ -141,7 +191,8 @@ std::string describe(const FrameHypothesis& hypothesis) {
     default:
       break;
   }
-  std::string text = clause_of(hypothesis.cause, hypothesis.frames.front(), hypothesis);
+  const std::size_t first = hypothesis.frames.empty() ? 0 : hypothesis.frames.front();
+  std::string text = clause_of(hypothesis.cause, first, hypothesis);
   for (std::size_t i = 1; i < hypothesis.frames.size(); ++i) {
     const std::size_t frame = hypothesis.frames[i];
     const FrameCause cause = hypothesis.free[frame]           ? FrameCause::Lost
@@ -154,8 +205,13 @@ std::string describe(const FrameHypothesis& hypothesis) {
   return text;
 }
 
+bool is_lit_by_lamp(const FrameHypothesis& hypothesis, std::size_t frame) {
+  return hypothesis.lamp_on && frame >= *hypothesis.lamp_on && frame < hypothesis.lamp_off;
+}
+
 bool predict_alike(const FrameHypothesis& a, const FrameHypothesis& b) {
-  if (a.free != b.free ||
+  if (a.free != b.free || a.moved_at != b.moved_at || a.moves_texture != b.moves_texture ||
+      a.has_free_steps != b.has_free_steps || a.lamp_on.has_value() != b.lamp_on.has_value() ||
       (a.cause == FrameCause::Unexplained) != (b.cause == FrameCause::Unexplained))
     return false;
   constexpr double kSame = 1e-6;

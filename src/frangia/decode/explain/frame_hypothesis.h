@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -18,11 +19,16 @@ enum class FrameCause {
   Late,         ///< the frames show the one before them, from one of them on
   Gain,         ///< a frame was taken at another gain, exposure or power of the lamp
   Lamp,         ///< another lamp was switched on or off within the set
+  Moved,        ///< the part moved within the set
+  Steps,        ///< the shifts of single frames differ from those of scan.toml
+  Start,        ///< the shifts begin elsewhere: only other patterns tell
+  Direction,    ///< the shifts run backwards: only other patterns tell
   Unexplained   ///< no cause: the frames differ from the fringes by a broad density
 };
 
 /// Returns the word for a cause in JSON and in the table of hypotheses: "as-described", "lost",
-/// "repeated", "exchanged", "late", "gain", "lamp" or "unexplained".
+/// "repeated", "exchanged", "late", "gain", "lamp", "moved", "steps",
+/// "start", "direction" or "unexplained".
 [[nodiscard]] std::string name_of(FrameCause cause);
 
 /// A generative model of the frames of one pattern: what each of them shows.
@@ -36,9 +42,13 @@ struct FrameHypothesis {
   std::vector<double> gains;                   ///< g_k, 1 unless the frame's gain differs
   std::vector<bool> free;                      ///< the frame shows no fringes
   std::optional<std::size_t> lamp_on;          ///< first frame with the light L of another lamp
-  int faults = 0;                              ///< 0 as described, 1, or 2
-  int parameters = 0;                          ///< fitted for all pixels together
-  std::size_t choices = 1;                     ///< hypotheses of its kind: "which frame"
+  std::size_t lamp_off = SIZE_MAX;             ///< first frame after it without that light
+  std::optional<std::size_t> moved_at;         ///< first frame after the part moved
+  bool moves_texture = false;   ///< the movement shifts the image, not only the phase
+  bool has_free_steps = false;  ///< each shift has an error of its own
+  int faults = 0;               ///< 0 as described, 1, or 2
+  int parameters = 0;           ///< fitted for all pixels together
+  std::size_t choices = 1;      ///< hypotheses of its kind: "which frame"
 };
 
 /// All hypotheses with one fault, "as described" first. Gains are 1 until they are fitted.
@@ -52,6 +62,9 @@ struct FrameHypothesis {
 
 /// A clause: "frame 2 repeats frame 1". Frames are counted from 0.
 [[nodiscard]] std::string describe(const FrameHypothesis& hypothesis);
+
+/// Whether a frame has the light of another lamp.
+[[nodiscard]] bool is_lit_by_lamp(const FrameHypothesis& hypothesis, std::size_t frame);
 
 /// Whether two hypotheses predict the same frames for any phases, so that no frames tell them
 /// apart: with three steps two exchanged frames are shifts in the other direction.

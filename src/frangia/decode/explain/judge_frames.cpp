@@ -21,6 +21,7 @@ std::vector<std::size_t> useless_frames(const FrameHypothesis& fault) {
       std::vector<std::size_t> out;
       const std::size_t frames = fault.shifts_rad.size();
       const std::size_t on = fault.lamp_on.value_or(frames);
+      if (fault.lamp_off <= frames) return fault.frames;
       const bool later = 2 * on >= frames;
       for (std::size_t k = later ? on : 0; k < (later ? frames : on); ++k)
         out.push_back(k);
@@ -29,6 +30,10 @@ std::vector<std::size_t> useless_frames(const FrameHypothesis& fault) {
     case FrameCause::AsDescribed:
     case FrameCause::Exchanged:
     case FrameCause::Late:
+    case FrameCause::Moved:
+    case FrameCause::Steps:
+    case FrameCause::Start:
+    case FrameCause::Direction:
     case FrameCause::Unexplained:
       return {};
   }
@@ -47,7 +52,8 @@ bool determine_phase(const std::vector<double>& shifts_rad) {
                                         .shifts_rad = shifts_rad,
                                         .gains = std::vector<double>(frames, 1.0),
                                         .free = std::vector<bool>(frames, false),
-                                        .lamp_on = {}});
+                                        .lamp_on = {},
+                                        .moved_at = {}});
   if (design.inverse.size() == 0) return false;
   const double noise = std::sqrt(0.5 * design.inverse.bottomRows(2).squaredNorm());
   return noise <= kMostNoise * std::sqrt(2.0 / static_cast<double>(frames));
@@ -62,6 +68,12 @@ std::string of_pattern(const FrameExplanation& found) {
 }
 
 }  // namespace
+
+bool leaves_out_view(std::span<const FrameVerdict> verdicts) {
+  return std::any_of(verdicts.begin(), verdicts.end(), [](const FrameVerdict& one) {
+    return one.action == FrameAction::LeaveOutView;
+  });
+}
 
 FrameStack without_frames(const FrameStack& stack, std::span<const std::size_t> left_out) {
   FrameStack out = stack;
@@ -95,7 +107,8 @@ FrameVerdict judge_frames(const FrameStack& stack,
   out.finding = of_pattern(found);
   out.action = FrameAction::LeaveOutView;
   if (found.explanation.best.size() == 1 &&
-      (found.best.cause == FrameCause::Exchanged || found.best.cause == FrameCause::Late) &&
+      (found.best.cause == FrameCause::Exchanged || found.best.cause == FrameCause::Late ||
+       found.best.cause == FrameCause::Steps) &&
       found.best.faults == 1) {
     FrameStack remedied = stack;
     remedied.pattern.shifts_rad = found.best.shifts_rad;

@@ -30,6 +30,9 @@ struct FrameVerdict {
   std::string finding{};
 };
 
+/// Whether the frames of a pattern are at fault, so that nothing is measured with them.
+[[nodiscard]] bool leaves_out_view(std::span<const FrameVerdict> verdicts);
+
 /// What may be done with frames that are at fault.
 struct JudgeOptions {
   bool may_leave_out = true;  ///< the phase can be computed from some of the frames

@@ -281,17 +281,20 @@ DecodedDirection remedied(const DirectionInput& input, DecodedDirection view) {
 
 DecodedDirection decode_direction(const DirectionInput& all) {
   JudgedFrames judged = judge_direction(all);
+  // What is wrong with the frames is said once; what follows from it is no cause of its own.
+  Run run = all.run;
+  if (leaves_out_view(judged.verdicts)) run.on_warning = nullptr;
   const DirectionInput input{judged.stacks.empty() ? all.stacks : judged.stacks,
                              all.plan,
                              all.rig,
                              all.rays,
                              all.options,
-                             all.run,
+                             run,
                              judged.noise,
                              std::move(judged.unexplained_rad)};
   DecodedDirection view = remedied(input, decode_as_planned(input));
   view.frames = std::move(judged.verdicts);
-  view.check = report_frames(view.frames, std::move(view.check), input.run);
+  view.check = report_frames(view.frames, std::move(view.check), all.run);
   return view;
 }
 

@@ -44,9 +44,10 @@ std::string why_empty(const Scan& scan, std::size_t view, const Image<PixelStatu
 /// harmonics are those of the first view.
 void report_assessments(const Scan& scan,
                         std::size_t view,
-                        const std::vector<FrameAssessment>& assessments,
+                        const DecodedView& decoded,
                         const Run& run) {
-  for (const FrameAssessment& assessment : assessments) {
+  if (leaves_out_direction(decoded)) return;  // their cause is said
+  for (const FrameAssessment& assessment : assessments_of(decoded)) {
     const std::string folder = scan.views[view].folder.string();
     const bool varies = assessment.vibration_suspected || assessment.flicker_error_rad > 0.0;
     if (varies || (view == 0 && needs_attention(assessment))) {
@@ -158,7 +159,7 @@ std::vector<std::unique_ptr<CameraScan>> survey_cameras(const Scan& scan,
 /// Decodes a view of a camera and decides which of its phases are used.
 DecodedCamera decode_camera(CameraScan& camera, std::size_t view, const Run& run) {
   DecodedCamera out{camera.scan.rig, camera.rays, camera.decoder->next()};
-  report_assessments(camera.scan, view, assessments_of(out.decoded), run);
+  report_assessments(camera.scan, view, out.decoded, run);
   out.fit =
       check_view(out.decoded, camera.scan.rig, camera.rays, camera.options.accept_inconsistent);
   camera.fit.add(view, out.fit);
@@ -220,11 +221,13 @@ MeasuredViews measure_views(const Scan& scan,
     summary.points = count_points(measured);
     summary.sigma_mm = median_sigma_mm(measured.cameras.front().range);
     summary.left_out = summary.points == 0 && leading.unresolved.empty();
-    all.summaries.push_back(summary);
     if (summary.left_out) {
-      run.warn(why_empty(scan, i, leading.phase.status));
+      summary.reason = why_empty(scan, i, leading.phase.status);
+      run.warn(summary.reason);
+      all.summaries.push_back(summary);
       continue;
     }
+    all.summaries.push_back(summary);
     for (UnresolvedRegion& region : leading.unresolved)
       all.unresolved.push_back({all.reference().size(), std::move(region)});
     all.unwrapped_spatially = leading.relative.has_value();

@@ -59,6 +59,14 @@ std::vector<Shot> shots_of(const Pattern& pattern,
   return shots;
 }
 
+/// Light of the lamps that are on from a frame of the view on, counted over all its patterns.
+double lamp_light(const SimulateOptions& options, std::size_t view, std::size_t frame) {
+  double light = 0.0;
+  for (const LampSwitch& lamp : options.lamps_on)
+    if (lamp.view == view && frame >= lamp.frame) light += lamp.light;
+  return light;
+}
+
 FrameStack empty_stack(const Pattern& pattern, int exposure, const SimulatedScene& scene) {
   FrameStack stack{pattern, {}, scene.known_rig.reference().white_level, exposure};
   const int width = scene.rays.width();
@@ -82,6 +90,7 @@ std::vector<FrameStack> render_view(const SimulatedScene& scene,
   std::vector<FrameStack> stacks;
   std::vector<std::vector<Shot>> shots;
   std::map<std::size_t, ColorFrames> colors;  // by the number of their stack
+  std::size_t frame = 0;                      // in the order of the capture
   for (const Pattern& pattern : patterns) {
     check(pattern, scene.rig);
     for (int exposure = 0; exposure < pattern.exposure_count(); ++exposure) {
@@ -90,6 +99,7 @@ std::vector<FrameStack> render_view(const SimulatedScene& scene,
         colors[stacks.size() - 1] = {{stacks.back(), stacks.back(), stacks.back()}};
       shots.push_back(shots_of(pattern, view, scene.options));
       for (Shot& shot : shots.back()) {
+        shot.lamp = lamp_light(scene.options, view.index, frame++);
         // The cameras see the same light, each with noise of its own.
         constexpr std::uint64_t kCameraStream = 0xCA0;
         if (scene.camera > 0) shot.stream = hash(shot.stream, kCameraStream + scene.camera);

@@ -13,6 +13,7 @@ struct Shot {
   std::uint64_t stream = 0;
   double light = 1.0;         ///< factor on the scene's exposure
   double projector = 1.0;     ///< share of the projector's light that is on
+  double lamp = 0.0;          ///< ambient light of another lamp, as `SimulateOptions::ambient`
   double gain = 1.0;          ///< factor on the scene's counts per electron
   double black_counts = 0.0;  ///< added to all pixels
   /// Picture of a digital projector that replaces the pattern, linear, 0 to 1.

@@ -142,13 +142,16 @@ void ViewRenderer::mean_light(const Pattern& pattern,
   const bool scatters = options_.subsurface_mm > 0.0;
   for (const LightSample& sample : samples) {
     if (sample.albedo == 0.0F) continue;
-    const double other = options_.ambient * static_cast<double>(sample.albedo);
+    const auto other = [&](const Shot& shot) {
+      return (options_.ambient + shot.lamp) * static_cast<double>(sample.albedo);
+    };
     const float direct = scatters ? sample.glossy : sample.reflected();
     const double reflected = scene_.exposure * static_cast<double>(direct * speckle.gain);
     if (pattern.kind == PatternKind::Line) {
       const double peak = (1.0 + options_.contrast) * shots.front().projector;
-      light[0] += other + reflected * peak *
-                              std::max(static_cast<double>(sample.line), options_.line_spill);
+      light[0] +=
+          other(shots.front()) +
+          reflected * peak * std::max(static_cast<double>(sample.line), options_.line_spill);
       continue;
     }
     const Eigen::Vector2d at(sample.u, sample.v);
@@ -156,7 +159,7 @@ void ViewRenderer::mean_light(const Pattern& pattern,
       for (std::size_t i = 0; i < light.size(); ++i) {
         const double shown =
             frame_light(pattern, static_cast<int>(i), at, shots[i].picture, scene_);
-        light[i] += other + shots[i].projector * reflected * shown;
+        light[i] += other(shots[i]) + shots[i].projector * reflected * shown;
       }
       continue;
     }
@@ -167,7 +170,7 @@ void ViewRenderer::mean_light(const Pattern& pattern,
       const std::complex<double> shift(shots[i].cos_shift, shots[i].sin_shift);
       const double shown = blurred ? blurred_light(fringe * shift, pattern.period_px, scene_)
                                    : fringe_light(fringe * shift, scene_);
-      light[i] += other + shots[i].projector * reflected * shown;
+      light[i] += other(shots[i]) + shots[i].projector * reflected * shown;
     }
   }
   for (double& one : light)

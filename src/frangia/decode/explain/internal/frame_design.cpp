@@ -13,13 +13,12 @@ FrameDesign design_of(const FrameHypothesis& hypothesis) {
   for (std::size_t k = 0; k < hypothesis.shifts_rad.size(); ++k)
     if (!hypothesis.free[k]) out.shown.push_back(static_cast<Eigen::Index>(k));
   const Eigen::Index rows = std::ssize(out.shown);
-  out.design = Eigen::MatrixXd::Zero(rows, hypothesis.lamp_on ? 4 : 3);
+  out.design = Eigen::MatrixXd::Zero(rows, 3);
   for (Eigen::Index row = 0; row < rows; ++row) {
     const auto k = static_cast<std::size_t>(out.shown[static_cast<std::size_t>(row)]);
     const double shift = hypothesis.shifts_rad[k];
     out.design.row(row).head<3>() << 1.0, std::cos(shift), -std::sin(shift);
     out.design.row(row) *= hypothesis.gains[k];
-    if (hypothesis.lamp_on && k >= *hypothesis.lamp_on) out.design(row, 3) = 1.0;
   }
   Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(out.design);
   constexpr double kSingular = 1e-6;  // of the largest pivot: shifts that differ by less are equal
@@ -36,7 +35,17 @@ FrameDesign design_of(const FrameHypothesis& hypothesis) {
 Eigen::MatrixXd explained_space(const FrameHypothesis& hypothesis) {
   const FrameDesign design = design_of(hypothesis);
   const Eigen::Index frames = std::ssize(hypothesis.shifts_rad);
-  const Eigen::MatrixXd shown = design.span * design.span.transpose();
+  Eigen::MatrixXd shown = design.span * design.span.transpose();
+  if (hypothesis.lamp_on) {
+    Eigen::VectorXd lamp(shown.rows());
+    for (Eigen::Index row = 0; row < lamp.size(); ++row) {
+      const auto k = static_cast<std::size_t>(design.shown[static_cast<std::size_t>(row)]);
+      lamp(row) = is_lit_by_lamp(hypothesis, k) ? 1.0 : 0.0;
+    }
+    lamp -= shown * lamp;
+    constexpr double kNone = 1e-6;  // the lamp is part of the fringes
+    if (lamp.norm() > kNone) shown += lamp.normalized() * lamp.normalized().transpose();
+  }
   Eigen::MatrixXd out = Eigen::MatrixXd::Zero(frames, frames);
   for (std::size_t row = 0; row < design.shown.size(); ++row) {
     for (std::size_t col = 0; col < design.shown.size(); ++col) {

@@ -8,8 +8,7 @@
 
 namespace frangia {
 
-/// The frames that show fringes as a linear function of mean, B cos(phi), B sin(phi) and the light
-/// of another lamp of a pixel.
+/// The frames that show fringes as a linear function of mean, B cos(phi) and B sin(phi) of a pixel.
 struct FrameDesign {
   std::vector<Eigen::Index> shown;  ///< frames that show fringes
   Eigen::MatrixXd design;           ///< one row per shown frame

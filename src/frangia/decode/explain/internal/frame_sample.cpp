@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <limits>
+#include <functional>
 
 #include "frangia/core/median.h"
 
@@ -11,8 +11,8 @@ namespace frangia {
 namespace {
 
 constexpr int kBlock = 3;              ///< px along each side of a block
-constexpr int kFewestBlocks = 20;      ///< along the longer side of the image
-constexpr int kMostBlocks = 80;        ///< the same where the part is small
+constexpr int kFewestBlocks = 14;      ///< along the longer side of the image
+constexpr int kMostBlocks = 112;       ///< the same where the part is small
 constexpr Eigen::Index kEnough = 900;  ///< pixels
 constexpr double kLit = 0.25;          ///< least change of a pixel over the large changes
 constexpr double kLitSigmas = 8.0;     ///< least change of a lit pixel over the noise
@@ -64,6 +64,100 @@ std::vector<bool> white_frames(const Eigen::ArrayXXd& counts,
   return out;
 }
 
+/// Change of each pixel over its frames without the one that changes it most; over all frames where
+/// three leave nothing.
+double change_of(const Eigen::ArrayXd& counts) {
+  std::vector<double> ordered(counts.begin(), counts.end());
+  std::sort(ordered.begin(), ordered.end());
+  const std::size_t last = ordered.size() - 1;
+  if (ordered.size() <= 3) return ordered[last] - ordered[0];
+  return std::min(ordered[last] - ordered[1], ordered[last - 1] - ordered[0]);
+}
+
+/// Pixels of the background that a single frame, or a lamp from one frame on, changes and nothing
+/// else: many pixels with the same change over the frames, while fringes change each in its own
+/// way.
+std::vector<bool> changed_by_one_cause(const Eigen::ArrayXXd& counts,
+                                       const std::vector<Eigen::Index>& usable,
+                                       const NoiseModel& noise) {
+  const Eigen::Index frames = counts.cols();
+  constexpr double kAlone = 0.15;  // change beside the cause, over the whole change
+  std::vector<std::vector<bool>> by_cause;
+  std::vector<double> shares;
+  const auto look_at = [&](const auto& change_without) {
+    std::vector<bool> changed(usable.size());
+    for (std::size_t i = 0; i < usable.size(); ++i) {
+      const Eigen::ArrayXd pixel = counts.row(usable[i]);
+      const double all = pixel.maxCoeff() - pixel.minCoeff();
+      const double sigma = std::sqrt(noise.variance(pixel.mean()));
+      changed[i] = change_without(pixel) < std::max(kAlone * all, kLitSigmas * sigma);
+    }
+    const auto count = std::count(changed.begin(), changed.end(), true);
+    shares.push_back(static_cast<double>(count) / static_cast<double>(usable.size()));
+    by_cause.push_back(std::move(changed));
+  };
+  const auto range = [](const auto& some) { return some.maxCoeff() - some.minCoeff(); };
+  for (Eigen::Index k = 0; k < frames; ++k) {
+    look_at([&](const Eigen::ArrayXd& pixel) {
+      Eigen::ArrayXd others(frames - 1);
+      others << pixel.head(k), pixel.tail(frames - 1 - k);
+      return range(others);
+    });
+  }
+  for (Eigen::Index from = 2; from + 1 < frames; ++from) {
+    look_at([&](const Eigen::ArrayXd& pixel) {
+      return std::max(range(pixel.head(from)), range(pixel.tail(frames - from)));
+    });
+  }
+  std::vector<double> ordered = shares;
+  std::sort(ordered.begin(), ordered.end(), std::greater<>());
+  // Two of three frames are alike on a good part of one coarse fringe, too.
+  const double least = frames > 3 ? 0.05 : 0.4;
+  constexpr double kOverOthers = 3.0;  // square fringes look like each of the causes alike
+  if (ordered[0] < least || ordered[0] < kOverOthers * ordered[1])
+    return std::vector<bool>(usable.size());
+  const auto most = std::max_element(shares.begin(), shares.end()) - shares.begin();
+  return by_cause[static_cast<std::size_t>(most)];
+}
+
+/// Places of the pixels, and slopes of the frames by central differences over 3 x 3 pixels.
+void add_places(const FrameStack& stack,
+                const std::vector<Place>& places,
+                const std::vector<Eigen::Index>& kept,
+                FrameSample& out) {
+  out.slope_x.resize(out.counts.rows(), out.counts.cols());
+  out.slope_y.resize(out.counts.rows(), out.counts.cols());
+  out.x.resize(out.counts.rows());
+  out.y.resize(out.counts.rows());
+  for (Eigen::Index i = 0; i < out.counts.rows(); ++i) {
+    const Place& place = places[static_cast<std::size_t>(kept[static_cast<std::size_t>(i)])];
+    out.x(i) = 2.0 * place.x / width_of(stack.frames.front()) - 1.0;
+    out.y(i) = 2.0 * place.y / height_of(stack.frames.front()) - 1.0;
+  }
+  for (Eigen::Index k = 0; k < out.counts.cols(); ++k) {
+    std::visit(
+        [&](const auto& image) {
+          const auto at = [&](int x, int y) {
+            return static_cast<double>(
+                image(std::clamp(x, 0, image.width() - 1), std::clamp(y, 0, image.height() - 1)));
+          };
+          for (std::size_t i = 0; i < kept.size(); ++i) {
+            const Place& place = places[static_cast<std::size_t>(kept[i])];
+            const auto row = static_cast<Eigen::Index>(i);
+            double along_x = 0.0;
+            double along_y = 0.0;
+            for (const int d : {-1, 0, 1}) {
+              along_x += at(place.x + 1, place.y + d) - at(place.x - 1, place.y + d);
+              along_y += at(place.x + d, place.y + 1) - at(place.x + d, place.y - 1);
+            }
+            out.slope_x(row, k) = along_x / 6.0;
+            out.slope_y(row, k) = along_y / 6.0;
+          }
+        },
+        stack.frames[static_cast<std::size_t>(k)]);
+  }
+}
+
 FrameSample sample_at(const FrameStack& stack,
                       const NoiseModel& noise,
                       const std::vector<Place>& places) {
@@ -86,32 +180,35 @@ FrameSample sample_at(const FrameStack& stack,
   for (Eigen::Index i = 0; i < counts.rows(); ++i) {
     if (!is_lit(i)) continue;
     double scale = 0.0;
-    double least = std::numeric_limits<double>::infinity();
     for (Eigen::Index k = 0; k < frames; ++k) {
       if (white[static_cast<std::size_t>(k)]) continue;
       scale = std::max(scale, counts(i, k));
-      least = std::min(least, counts(i, k));
     }
     if (scale >= stack.white_level || scale < kMinCounts) continue;
     usable.push_back(i);
     scales.push_back(scale);
-    changes.push_back(scale - least);
+    changes.push_back(change_of(counts.row(i)));
   }
   FrameSample out;
   if (usable.empty()) return out;
-  std::vector<double> ordered = changes;
+  const std::vector<bool> background = changed_by_one_cause(counts, usable, noise);
+  std::vector<double> ordered;
+  for (std::size_t i = 0; i < usable.size(); ++i)
+    if (!background[i]) ordered.push_back(changes[i]);
+  if (ordered.empty()) return out;
   const auto high = ordered.begin() + std::ssize(ordered) * 9 / 10;
   std::nth_element(ordered.begin(), high, ordered.end());
   const double least = kLit * *high;
   std::vector<Eigen::Index> kept;
   std::vector<double> kept_scales;
   for (std::size_t i = 0; i < usable.size(); ++i) {
-    if (changes[i] < least) continue;
+    if (background[i] || changes[i] < least) continue;
     kept.push_back(usable[i]);
     kept_scales.push_back(scales[i]);
     out.blocks.push_back(places[static_cast<std::size_t>(usable[i])].block);
   }
   out.counts = counts(kept, Eigen::all);
+  add_places(stack, places, kept, out);
   out.scale_counts = Eigen::Map<const Eigen::ArrayXd>(kept_scales.data(), std::ssize(kept_scales));
   out.variance = out.counts.rowwise().mean().unaryExpr(
       [&](double mean) { return noise.variance(mean) + 1e-3; });

@@ -13,6 +13,10 @@ namespace frangia {
 /// Pixels of the frames of a pattern, in small blocks spread over the image.
 struct FrameSample {
   Eigen::ArrayXXd counts;       ///< one row per pixel, one column per frame
+  Eigen::ArrayXXd slope_x;      ///< counts per px along x, of the same shape
+  Eigen::ArrayXXd slope_y;      ///< the same along y
+  Eigen::ArrayXd x;             ///< place of each pixel in the image, -1 to 1
+  Eigen::ArrayXd y;             ///< the same along y
   Eigen::ArrayXd scale_counts;  ///< largest count of each pixel, of frames that are not white
   Eigen::ArrayXd variance;      ///< of the camera noise of each pixel, counts squared
   std::vector<int> blocks;      ///< number of each pixel's block, equal ones side by side
@@ -22,7 +26,7 @@ struct FrameSample {
 /// what the most changing pixels do. Saturated pixels are left out, unless nearly all pixels of a
 /// frame are.
 ///
-/// @shape    900 pixels or more where the image has them in its blocks, 3600 at most
+/// @shape    900 pixels or more where the image has them in its blocks, 1800 at most
 [[nodiscard]] FrameSample sample_blocks(const FrameStack& stack, const NoiseModel& noise);
 
 }  // namespace frangia

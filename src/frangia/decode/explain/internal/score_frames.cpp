@@ -22,6 +22,13 @@ double prior_harmonic(int order) {
   return order == 2 ? 0.35 : 1.0 / order;
 }
 constexpr int kHighestHarmonic = 12;
+/// Prior standard deviations of a movement of the part in the image and of the phase by it, and of
+/// the steps of a projector that does not show the shifts of scan.toml.
+constexpr double kPriorMovement_px = 1.0;
+constexpr double kPriorMovement_rad = 0.5;
+constexpr double kPriorStep_rad = 0.15;
+/// Prior standard deviation of the light of another lamp over the counts of the brightest frame.
+constexpr double kPriorLamp = 0.3;
 /// Share and size, over the scale of a pixel, of what no model predicts: depth edges, highlights.
 constexpr double kOutliers = 0.02;
 constexpr double kOutlierSize = 0.4;
@@ -56,6 +63,14 @@ class FrameFit {
     for (std::size_t i = 0; i < design_.shown.size(); ++i)
       shown_.col(static_cast<Eigen::Index>(i)) = sample.counts.col(design_.shown[i]).matrix();
     rest_ = shown_ * design_.rest;
+    if (hypothesis
+            .moves_texture) {  // the slopes of the fringes, with less noise than those of a frame
+      const auto of_fringes = [&](const Eigen::ArrayXXd& slopes) -> Eigen::MatrixXd {
+        return slopes(Eigen::all, design_.shown).matrix() * design_.span * design_.span.transpose();
+      };
+      slope_x_ = of_fringes(sample.slope_x);
+      slope_y_ = of_fringes(sample.slope_y);
+    }
     if (design_.inverse.size() > 0) {
       values_ = shown_ * design_.inverse.transpose();
       modulation_ = (values_.col(1).array().square() + values_.col(2).array().square()).sqrt();
@@ -75,55 +90,69 @@ class FrameFit {
   }
 
  private:
-  /// The nuisances of one pixel: what each leaves of the design, per unit of its prior.
-  void add_nuisances(Eigen::Index pixel, Eigen::MatrixXd& rows) const {
-    const double a = values_(pixel, 0);
-    const double c = values_(pixel, 1);
-    const double s = values_(pixel, 2);
-    const double phase = std::atan2(s, c);
-    Eigen::Index column = 0;
+  [[nodiscard]] Eigen::Index movement_count() const {
+    return hypothesis_.moved_at ? (hypothesis_.moves_texture ? 3 : 1) : 0;
+  }
+  [[nodiscard]] Eigen::Index nuisance_count() const {
+    return shown_.cols() + 2 * std::ssize(waves_) + movement_count() +
+           (hypothesis_.has_free_steps ? shown_.cols() : 0) + (hypothesis_.lamp_on ? 4 : 0);
+  }
+
+  /// What the nuisances of one pixel change in its frames, per unit of their priors: gains,
+  /// harmonics, a movement of the part, and errors of the steps.
+  void add_nuisances(Eigen::Index pixel, Eigen::MatrixXd& effects) const {
+    const double phase = std::atan2(values_(pixel, 2), values_(pixel, 1));
+    const double amplitude = std::hypot(values_(pixel, 1), values_(pixel, 2));
+    const double b = modulation_(pixel);
+    effects.setZero();
+    const Eigen::Index after_waves = shown_.cols() + 2 * std::ssize(waves_);
     for (Eigen::Index i = 0; i < shown_.cols(); ++i) {
       const auto k = static_cast<std::size_t>(design_.shown[static_cast<std::size_t>(i)]);
-      const double predicted = hypothesis_.gains[k] * (a + c * std::cos(hypothesis_.shifts_rad[k]) -
-                                                       s * std::sin(hypothesis_.shifts_rad[k]));
-      rows.col(column++) = kPriorGain * predicted * design_.rest.row(i).transpose();
-    }
-    const double b = modulation_(pixel);
-    for (const Wave& wave : waves_) {
-      const double size = b * prior_harmonic(wave.order);
-      const double cosine = size * std::cos(wave.order * phase);
-      const double sine = size * std::sin(wave.order * phase);
-      rows.col(column++) = cosine * wave.real - sine * wave.imaginary;
-      rows.col(column++) = sine * wave.real + cosine * wave.imaginary;
+      const double gain = hypothesis_.gains[k];
+      const std::complex<double> turn = std::polar(1.0, phase + hypothesis_.shifts_rad[k]);
+      effects(i, i) = kPriorGain * gain * (values_(pixel, 0) + amplitude * turn.real());
+      std::complex<double> power = turn;
+      Eigen::Index column = shown_.cols();
+      std::size_t wave = 0;
+      for (int order = 2; order <= kHighestHarmonic && wave < waves_.size(); ++order) {
+        power *= turn;
+        if (waves_[wave] != order) continue;
+        ++wave;
+        const double size = gain * b * prior_harmonic(order);
+        effects(i, column++) = size * power.real();
+        effects(i, column++) = size * power.imag();
+      }
+      const double slope = -gain * amplitude * turn.imag();  // of counts over phase
+      column = after_waves;
+      if (hypothesis_.moved_at) {
+        if (k >= *hypothesis_.moved_at) {
+          effects(i, column) = kPriorMovement_rad * slope;
+          if (hypothesis_.moves_texture) {
+            effects(i, column + 1) = kPriorMovement_px * slope_x_(pixel, i);
+            effects(i, column + 2) = kPriorMovement_px * slope_y_(pixel, i);
+          }
+        }
+        column += movement_count();
+      }
+      if (hypothesis_.has_free_steps) effects(i, column + i) = kPriorStep_rad * slope;
+      if (is_lit_by_lamp(hypothesis_, k)) {
+        // The light of a lamp is alike at all pixels, or as their albedo, and falls off smoothly.
+        const double light = kPriorLamp * sample_.scale_counts(pixel);
+        effects(i, column) = kPriorLamp * mean_scale_;
+        effects(i, column + 1) = light;
+        effects(i, column + 2) = light * sample_.x(pixel);
+        effects(i, column + 3) = light * sample_.y(pixel);
+      }
     }
   }
 
   /// Fits mean, modulation and phase again to the frames without their nuisances, which shift the
   /// phase where the steps are not equal.
-  void refine_values(const Eigen::VectorXd& found) {
-    const Eigen::Index frames = shown_.cols();
-    Eigen::VectorXd corrected(frames);
+  void refine_values(const Eigen::VectorXd& found, const std::vector<Eigen::MatrixXd>& effects) {
     for (Eigen::Index i = 0; i < pixels_; ++i) {
-      const double phase = std::atan2(values_(i, 2), values_(i, 1));
-      const double b = std::hypot(values_(i, 1), values_(i, 2));
-      for (Eigen::Index row = 0; row < frames; ++row) {
-        const auto k = static_cast<std::size_t>(design_.shown[static_cast<std::size_t>(row)]);
-        const std::complex<double> turn = std::polar(1.0, phase + hypothesis_.shifts_rad[k]);
-        std::complex<double> power = turn;
-        double extra = kPriorGain * found(row) * (values_(i, 0) + b * turn.real());
-        Eigen::Index column = frames;
-        std::size_t wave = 0;
-        for (int order = 2; order <= kHighestHarmonic && wave < waves_.size(); ++order) {
-          power *= turn;
-          if (waves_[wave].order != order) continue;
-          ++wave;
-          const double size = b * prior_harmonic(order);
-          extra += size * (found(column) * power.real() + found(column + 1) * power.imag());
-          column += 2;
-        }
-        corrected(row) = shown_(i, row) - hypothesis_.gains[k] * extra;
-      }
-      values_.row(i) = (design_.inverse * corrected).transpose();
+      values_.row(i) = (design_.inverse *
+                        (shown_.row(i).transpose() - effects[static_cast<std::size_t>(i)] * found))
+                           .transpose();
     }
     modulation_ = (values_.col(1).array().square() + values_.col(2).array().square()).sqrt();
     modulation_ = modulation_.min(sample_.scale_counts).max(sample_.variance.sqrt());
@@ -139,8 +168,9 @@ class FrameFit {
         cosine(i) = hypothesis_.gains[k] * std::cos(order * hypothesis_.shifts_rad[k]);
         sine(i) = hypothesis_.gains[k] * std::sin(order * hypothesis_.shifts_rad[k]);
       }
-      const Wave wave{order, design_.rest.transpose() * cosine, design_.rest.transpose() * sine};
-      if (wave.real.squaredNorm() + wave.imaginary.squaredNorm() > kVisible) waves_.push_back(wave);
+      const double visible = (design_.rest.transpose() * cosine).squaredNorm() +
+                             (design_.rest.transpose() * sine).squaredNorm();
+      if (visible > kVisible) waves_.push_back(order);
     }
   }
 
@@ -148,11 +178,17 @@ class FrameFit {
     const Eigen::Index freedom = rest_.cols();
     const bool determined = design_.inverse.size() > 0;
     if (determined) find_waves();
-    const Eigen::Index count = determined ? shown_.cols() + 2 * std::ssize(waves_) : 0;
-    std::vector<Eigen::MatrixXd> rows(static_cast<std::size_t>(count > 0 ? pixels_ : 0),
-                                      Eigen::MatrixXd(freedom, count));
-    for (Eigen::Index i = 0; i < std::ssize(rows); ++i)
-      add_nuisances(i, rows[static_cast<std::size_t>(i)]);
+    const Eigen::Index count = determined ? nuisance_count() : 0;
+    const auto used = static_cast<std::size_t>(count > 0 ? pixels_ : 0);
+    std::vector<Eigen::MatrixXd> effects(used, Eigen::MatrixXd(shown_.cols(), count));
+    std::vector<Eigen::MatrixXd> rows(used, Eigen::MatrixXd(freedom, count));
+    const auto find_rows = [&] {
+      for (std::size_t i = 0; i < rows.size(); ++i) {
+        add_nuisances(static_cast<Eigen::Index>(i), effects[i]);
+        rows[i].noalias() = design_.rest.transpose() * effects[i];
+      }
+    };
+    find_rows();
     residual_ = rest_;
     double relative = 0.05;  // of the modulation, to begin with
     variance_ = sample_.variance + relative * relative * modulation_.square();
@@ -178,9 +214,8 @@ class FrameFit {
       }
       relative = excess_over_modulation(relative);
       if (round + 1 == kRounds) break;
-      refine_values(found);
-      for (Eigen::Index i = 0; i < std::ssize(rows); ++i)
-        add_nuisances(i, rows[static_cast<std::size_t>(i)]);
+      refine_values(found, effects);
+      find_rows();
     }
     if (count == 0) {
       for (int round = 0; round < kRounds; ++round)
@@ -192,6 +227,8 @@ class FrameFit {
     if (count > 0) {
       const Eigen::VectorXd gains = kPriorGain * found.head(shown_.cols());
       out.largest_gain = (gains.array() - gains.mean()).abs().maxCoeff();
+      if (hypothesis_.has_free_steps)
+        out.step_errors_rad = kPriorStep_rad * found.tail(shown_.cols());
     }
     double excess = 0.0;
     for (Eigen::Index i = 0; i < pixels_; ++i) {
@@ -234,6 +271,18 @@ class FrameFit {
     return -static_cast<double>(design_.span.cols()) * (sample_.scale_counts * kBroad).log().sum();
   }
 
+  /// Normal density of one value per pixel that is alike in counts, or relative to the scale.
+  [[nodiscard]] double log_density_alike(const Eigen::ArrayXd& counts) const {
+    const auto n = static_cast<double>(pixels_);
+    const double noise = sample_.variance.mean();
+    const double in_counts =
+        std::max((counts - counts.mean()).square().mean(), std::min(noise, 1.0 / 12.0));
+    const Eigen::ArrayXd relative = counts / sample_.scale_counts;
+    const double in_scale = std::max((relative - relative.mean()).square().mean(), 1e-8);
+    return std::max(log_normal(n * in_counts, in_counts, n),
+                    log_normal(n * in_scale, in_scale, n) - sample_.scale_counts.log().sum());
+  }
+
   /// Density of frames that show no fringes: normal in counts, or relative to the scale.
   [[nodiscard]] double log_density_of_free() const {
     double sum = 0.0;
@@ -241,17 +290,23 @@ class FrameFit {
       if (!hypothesis_.free[k]) continue;
       const Eigen::ArrayXd counts = sample_.counts.col(static_cast<Eigen::Index>(k));
       const Eigen::ArrayXd relative = counts / sample_.scale_counts;
-      const double noise = sample_.variance.mean();
-      const double in_counts =
-          std::max((counts - counts.mean()).square().mean(), std::min(noise, 1.0 / 12.0));
       const double in_scale = std::max((relative - relative.mean()).square().mean(), 1e-8);
-      const auto n = static_cast<double>(pixels_);
-      const double absolute = log_normal(n * in_counts, in_counts, n);
-      const double scaled =
-          log_normal(n * in_scale, in_scale, n) - sample_.scale_counts.log().sum();
-      sum += std::max({absolute, scaled, log_density_of_torn(k, relative.mean(), in_scale)});
+      sum += std::max({log_density_alike(counts),
+                       log_density_of_mean(counts),
+                       log_density_of_torn(k, relative.mean(), in_scale)});
     }
     return sum;
+  }
+
+  /// Density of a frame that shows the mean of the others: fringes that are out of focus, or move
+  /// while it is exposed.
+  [[nodiscard]] double log_density_of_mean(const Eigen::ArrayXd& counts) const {
+    if (values_.size() == 0) return -std::numeric_limits<double>::infinity();
+    const Eigen::ArrayXd mean = values_.col(0).array().max(1.0);
+    const Eigen::ArrayXd relative = counts / mean;
+    const auto n = static_cast<double>(pixels_);
+    const double variance = std::max((relative - relative.mean()).square().mean(), 1e-6);
+    return log_normal(n * variance, variance, n) - mean.log().sum();
   }
 
   /// Density of a frame that shows its fringes at some pixels and something else at others.
@@ -273,23 +328,20 @@ class FrameFit {
     return sum;
   }
 
-  struct Wave {
-    int order;
-    Eigen::VectorXd real;
-    Eigen::VectorXd imaginary;
-  };
-
   const FrameSample& sample_;
+  double mean_scale_ = sample_.scale_counts.mean();
   const FrameHypothesis& hypothesis_;
   FrameDesign design_;
   Eigen::Index pixels_;
   Eigen::MatrixXd shown_;
   Eigen::MatrixXd rest_;
+  Eigen::MatrixXd slope_x_;  ///< of the shown frames, where the part moved
+  Eigen::MatrixXd slope_y_;
   Eigen::MatrixXd values_;  ///< mean, B cos(phi), B sin(phi) of each pixel; empty if undetermined
   Eigen::ArrayXd modulation_;
   Eigen::MatrixXd residual_;
   Eigen::ArrayXd variance_;
-  std::vector<Wave> waves_;
+  std::vector<int> waves_;  ///< orders of the harmonics that leave a residual
 };
 
 }  // namespace

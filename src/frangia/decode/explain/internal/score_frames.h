@@ -11,10 +11,11 @@ namespace frangia {
 
 /// How well a hypothesis predicts sampled frames, before the number of effective samples is known.
 struct FrameScore {
-  double log_density = 0.0;   ///< sum over the pixels
-  double unexplained = 0.0;   ///< RMS of the residual beyond the noise, over the modulation
-  double excess = 0.0;        ///< share of the variance of the residuals that is not noise
-  double largest_gain = 0.0;  ///< of the gains of single frames that are nuisances
+  double log_density = 0.0;         ///< sum over the pixels
+  double unexplained = 0.0;         ///< RMS of the residual beyond the noise, over the modulation
+  double excess = 0.0;              ///< share of the variance of the residuals that is not noise
+  double largest_gain = 0.0;        ///< of the gains of single frames that are nuisances
+  Eigen::VectorXd step_errors_rad;  ///< of the shown frames, if their steps are free
   /// Normal matrix of the nuisances, each in units of its prior; the price of what they may
   /// explain follows from it.
   Eigen::MatrixXd nuisances;

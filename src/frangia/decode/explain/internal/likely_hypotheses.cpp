@@ -1,0 +1,209 @@
+#include "frangia/decode/explain/internal/likely_hypotheses.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <optional>
+#include <utility>
+
+#include "frangia/decode/explain/internal/frame_design.h"
+#include "frangia/decode/explain/internal/score_frames.h"
+
+namespace frangia {
+namespace {
+
+constexpr std::size_t kThreeSteps = 3;
+constexpr std::size_t kScoredSingles = 8;
+constexpr std::size_t kPairedSingles = 5;
+/// Logarithm of the least gain that is a fault of a single frame; less is flicker.
+constexpr double kStructuralGain = 0.1;
+
+/// Moments of the frames, relative to the scale of each pixel.
+struct FrameMoments {
+  Eigen::MatrixXd moments;
+  Eigen::VectorXd means;
+  double relative_noise = 0.0;
+};
+
+FrameMoments moments_of(const FrameSample& sample) {
+  const Eigen::MatrixXd relative =
+      (sample.counts.colwise() / sample.scale_counts).min(1.5).matrix();
+  const auto count = static_cast<double>(relative.rows());
+  return {relative.transpose() * relative / count,
+          relative.colwise().mean().transpose(),
+          std::sqrt((sample.variance / sample.scale_counts.square()).mean())};
+}
+
+/// The gain of a frame that leaves the least residual; false where it is within the nuisances.
+bool fit_gain(const FrameMoments& moments, std::size_t frame, FrameHypothesis& hypothesis) {
+  double least = std::numeric_limits<double>::infinity();
+  double best = 1.0;
+  const auto left = [&](double gain) {
+    hypothesis.gains[frame] = gain;
+    const FrameDesign design = design_of(hypothesis);
+    return (design.rest.transpose() * moments.moments(design.shown, design.shown) * design.rest)
+        .trace();
+  };
+  const auto look_at = [&](double gain) {
+    const double rest = left(gain);
+    if (rest >= least) return;
+    least = rest;
+    best = gain;
+  };
+  for (double gain = 0.04; gain < 3.0; gain *= 1.15)
+    look_at(gain);
+  for (double step = 0.07; step > 5e-4; step *= 0.5) {
+    const double from = best;
+    look_at(from * (1.0 + step));
+    look_at(from / (1.0 + step));
+  }
+  hypothesis.gains[frame] = best;
+  return std::abs(std::log(best)) > kStructuralGain;
+}
+
+/// With three frames, those that remain must show the whole fringe; a part in the dark part of one
+/// coarse fringe looks like a black frame otherwise.
+bool show_whole_fringe(const FrameSample& sample, const FrameHypothesis& hypothesis) {
+  if (hypothesis.shifts_rad.size() > kThreeSteps) return true;
+  constexpr double kDark = 0.3;
+  constexpr double kLeast = 0.1;
+  for (std::size_t k = 0; k < hypothesis.free.size(); ++k) {
+    if (hypothesis.free[k]) continue;
+    const auto dark = sample.counts.col(static_cast<Eigen::Index>(k)) < kDark * sample.scale_counts;
+    if (dark.cast<double>().mean() < kLeast) return false;
+  }
+  // Nor is a frame lost that is the brightest at most pixels, unless it outshines them all.
+  constexpr double kBright = 0.9;
+  constexpr double kMost = 0.5;
+  Eigen::ArrayXd brightest = Eigen::ArrayXd::Zero(sample.counts.rows());
+  for (std::size_t k = 0; k < hypothesis.free.size(); ++k) {
+    if (!hypothesis.free[k])
+      brightest = brightest.max(sample.counts.col(static_cast<Eigen::Index>(k)));
+  }
+  return (brightest > kBright * sample.scale_counts).cast<double>().mean() > kMost;
+}
+
+/// An eighth of the blocks of a sample.
+FrameSample thinned(const FrameSample& sample) {
+  constexpr int kEvery = 8;
+  std::vector<Eigen::Index> kept;
+  FrameSample out;
+  for (std::size_t i = 0; i < sample.blocks.size(); ++i) {
+    if (sample.blocks[i] % kEvery != 0) continue;
+    kept.push_back(static_cast<Eigen::Index>(i));
+    out.blocks.push_back(sample.blocks[i]);
+  }
+  out.counts = sample.counts(kept, Eigen::all);
+  out.slope_x = sample.slope_x(kept, Eigen::all);
+  out.slope_y = sample.slope_y(kept, Eigen::all);
+  out.x = sample.x(kept);
+  out.y = sample.y(kept);
+  out.scale_counts = sample.scale_counts(kept);
+  out.variance = sample.variance(kept);
+  return out;
+}
+
+/// The likeliest hypothesis of each cause, by some of the pixels: which frame it begins with; and
+/// those that predict the same.
+std::vector<FrameHypothesis> likeliest_of_each(const FrameSample& sample,
+                                               std::vector<FrameHypothesis> all) {
+  const FrameSample some = thinned(sample);
+  std::map<FrameCause, std::pair<double, FrameHypothesis>> best;
+  for (const FrameHypothesis& one : all) {
+    const double score = score_frames(some, one).log_evidence(1.0);
+    const auto found = best.find(one.cause);
+    if (found == best.end() || score > found->second.first)
+      best.insert_or_assign(one.cause, std::pair(score, one));
+  }
+  std::vector<FrameHypothesis> out;
+  for (FrameHypothesis& one : all) {
+    const FrameHypothesis& likeliest = best.at(one.cause).second;
+    if (predict_alike(one, likeliest)) out.push_back(std::move(one));
+  }
+  return out;
+}
+
+/// The hypotheses with one fault, those that fit roughly best first.
+std::vector<FrameHypothesis> likely_singles(const FrameSample& sample,
+                                            const FrameMoments& moments,
+                                            const Pattern& pattern) {
+  std::vector<std::pair<double, FrameHypothesis>> ranked;
+  std::vector<FrameHypothesis> others;  // the quick score does not know what they explain
+  std::vector<FrameHypothesis> all = frame_hypotheses(pattern);
+  const FrameHypothesis declared = all.front();
+  for (FrameHypothesis& one : all) {
+    if (one.cause == FrameCause::Gain && !fit_gain(moments, one.frames.front(), one)) continue;
+    if (one.moved_at || one.has_free_steps || one.lamp_on) {
+      others.push_back(std::move(one));
+      continue;
+    }
+    if (predict_alike(one, declared) || !show_whole_fringe(sample, one)) continue;
+    const double rough = rough_score(moments.moments, moments.means, moments.relative_noise, one);
+    ranked.emplace_back(rough, std::move(one));
+  }
+  std::stable_sort(
+      ranked.begin(), ranked.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+  std::vector<FrameHypothesis> out;
+  for (auto& [rough, one] : ranked) {
+    if (out.size() == kScoredSingles) break;
+    out.push_back(std::move(one));
+  }
+  for (FrameHypothesis& one : likeliest_of_each(sample, std::move(others)))
+    out.push_back(std::move(one));
+  return out;
+}
+
+/// Pairs of faults of which each by itself is likely, the best ones.
+std::vector<FrameHypothesis> likely_pairs(const FrameMoments& moments,
+                                          const std::vector<FrameHypothesis>& singles) {
+  std::vector<std::pair<double, FrameHypothesis>> ranked;
+  const std::size_t count = std::min(singles.size(), kPairedSingles);
+  for (std::size_t i = 0; i < count; ++i) {
+    for (std::size_t k = i + 1; k < count; ++k) {
+      std::optional<FrameHypothesis> both = both_of(singles[i], singles[k]);
+      if (!both) continue;
+      const FrameDesign design = design_of(*both);
+      // Two lost frames may leave just what determines the phase; other pairs need a residual.
+      const bool determines = design.inverse.size() > 0;
+      const bool both_lost = std::ssize(design.shown) + 2 == std::ssize(both->free);
+      if (!determines || (design.rest.cols() < 2 && !both_lost)) continue;
+      bool structural = true;
+      for (const FrameHypothesis* one : {&singles[i], &singles[k]}) {
+        if (one->cause == FrameCause::Gain)
+          structural = structural && fit_gain(moments, one->frames.front(), *both);
+      }
+      // Two faults that show what one does are that one.
+      const bool known = std::any_of(singles.begin(), singles.end(), [&](const auto& one) {
+        return predict_alike(one, *both);
+      });
+      if (!structural || known) continue;
+      const double rough =
+          rough_score(moments.moments, moments.means, moments.relative_noise, *both);
+      ranked.emplace_back(rough, *std::move(both));
+    }
+  }
+  std::stable_sort(
+      ranked.begin(), ranked.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+  std::vector<FrameHypothesis> out;
+  constexpr std::size_t kScoredPairs = 3;
+  for (auto& [rough, one] : ranked) {
+    if (out.size() == kScoredPairs) break;
+    out.push_back(std::move(one));
+  }
+  return out;
+}
+
+}  // namespace
+
+std::vector<FrameHypothesis> likely_hypotheses(const FrameSample& sample, const Pattern& pattern) {
+  const FrameMoments moments = moments_of(sample);
+  std::vector<FrameHypothesis> all = likely_singles(sample, moments, pattern);
+  constexpr std::size_t kMinFramesOfPairs = 6;  // fewer leave too little that checks a pair
+  if (pattern.shifts_rad.size() < kMinFramesOfPairs) return all;
+  for (FrameHypothesis& both : likely_pairs(moments, all))
+    all.push_back(std::move(both));
+  return all;
+}
+
+}  // namespace frangia
