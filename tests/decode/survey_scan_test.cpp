@@ -36,7 +36,7 @@ TEST(SurveyScan, FindsTheNoiseOfACameraThatTheRigSaysNothingOf) {
   options.survey = survey;
   const auto rays = rays_of(scan.rig.reference().model);
   const DecodedView view = decode_view(read_frames(scan, 1), scan.rig, rays, options);
-  EXPECT_EQ(view.noise.slope_counts, survey.noise->slope_counts);
+  EXPECT_EQ(view.directions.front().noise.slope_counts, survey.noise->slope_counts);
 }
 
 TEST(SurveyScan, IsNeededForNothingThatTheRigGives) {

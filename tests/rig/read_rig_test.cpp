@@ -110,7 +110,7 @@ TEST(ReadRig, TakesTheLensModelsOfOpenCv) {
       const double last = count == 4 ? -3e-4 : 0.001 * count;
       EXPECT_EQ(rig.reference().model.distortion.at(static_cast<std::size_t>(count) - 1), last);
       write_rig(folder.path() / "back.toml", rig);
-      EXPECT_EQ(read_rig(folder.path() / "back.toml").camera.model.distortion,
+      EXPECT_EQ(read_rig(folder.path() / "back.toml").reference().model.distortion,
                 rig.reference().model.distortion);
     } else {
       const std::string fault = testing::error_of([&] { static_cast<void>(read_rig(path)); });
