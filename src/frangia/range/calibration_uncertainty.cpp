@@ -10,7 +10,6 @@
 #include "frangia/range/internal/changed_rigs.h"
 #include "frangia/range/internal/node_values.h"
 #include "frangia/rig/rig_of_camera.h"
-#include "frangia/uncertainty/combined_sigma.h"
 
 namespace frangia {
 CalibrationUncertainty::CalibrationUncertainty(const Rig& rig,
@@ -72,19 +71,12 @@ double CalibrationUncertainty::along_ray_mm(double x_px, double y_px, double dep
   return static_cast<double>(sum.norm());
 }
 
-void CalibrationUncertainty::add_to(RangeGrid& range) const {
-  if (along_ray_mm_.size() == 0) return;
-  const int width = range.depth_mm.width();
-  range.differing_share = 0.0F;  // the rig is that of all views
-  if (range.systematic_mm.empty()) {
-    range.systematic_mm = Image<float>(width, range.depth_mm.height(), Uninitialized{});
-    parallel_rows(range.depth_mm.height(), [&](int y) {
-      for (int x = 0; x < width; ++x)
-        range.systematic_mm(x, y) = std::isnan(range.depth_mm(x, y)) ? kMissing : 0.0F;
-    });
-  }
+Image<float> CalibrationUncertainty::along_rays_mm(const Image<float>& depth_mm) const {
+  if (along_ray_mm_.size() == 0) return {};
+  const int width = depth_mm.width();
+  Image<float> out(width, depth_mm.height(), kMissing);
   const Eigen::Index components = along_ray_mm_.rows();
-  parallel_rows(range.depth_mm.height(), [&](int y) {
+  parallel_rows(depth_mm.height(), [&](int y) {
     const double row = place_of(0.0, y, 0.0).y();
     const int upper = std::min(static_cast<int>(row), kNodes[1] - 2);
     const auto down = static_cast<float>(row - upper);
@@ -97,7 +89,7 @@ void CalibrationUncertainty::add_to(RangeGrid& range) const {
       }
     }
     for (int x = 0; x < width; ++x) {
-      const float depth = range.depth_mm(x, y);
+      const float depth = depth_mm(x, y);
       if (std::isnan(depth)) continue;
       const Eigen::Array3d place = place_of(x, y, static_cast<double>(depth));
       const int left = std::min(static_cast<int>(place.x()), kNodes[0] - 2);
@@ -113,10 +105,10 @@ void CalibrationUncertainty::add_to(RangeGrid& range) const {
         const float moved = here + right * (next - here);
         squares += moved * moved;
       }
-      float& systematic = range.systematic_mm(x, y);
-      systematic = combined_sigma(systematic, std::sqrt(squares));
+      out(x, y) = std::sqrt(squares);
     }
   });
+  return out;
 }
 
 }  // namespace frangia

@@ -6,8 +6,8 @@
 
 #include <Eigen/Core>
 
+#include "frangia/core/image.h"
 #include "frangia/pattern/pattern.h"
-#include "frangia/range/range_grid.h"
 #include "frangia/rig/rig.h"
 
 namespace frangia {
@@ -42,8 +42,9 @@ class CalibrationUncertainty {
   /// measured volume it is that at the volume's boundary.
   [[nodiscard]] double along_ray_mm(double x_px, double y_px, double depth_mm) const;
 
-  /// Adds the uncertainty to the systematic parts of all points of a grid.
-  void add_to(RangeGrid& range) const;
+  /// Returns the uncertainty of all points of a grid; NaN where there is none. Empty without a
+  /// covariance.
+  [[nodiscard]] Image<float> along_rays_mm(const Image<float>& depth_mm) const;
 
  private:
   static constexpr std::array<int, 3> kNodes{17, 17, 9};  ///< along x, y and depth

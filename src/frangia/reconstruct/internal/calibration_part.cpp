@@ -37,19 +37,18 @@ std::vector<Eigen::Vector3d> measured_volume(const ViewStore& views,
 
 }  // namespace
 
-std::function<void(View&, std::size_t camera)> calibration_part(
-    const ViewStore& views,
-    const Rig& rig,
-    const Pattern& pattern,
-    const Image<Eigen::Vector2f>& rays) {
+std::vector<SigmaTerm> calibration_part(const ViewStore& views,
+                                        const Rig& rig,
+                                        const Pattern& pattern,
+                                        const Image<Eigen::Vector2f>& rays) {
   if (!rig.calibration || rig.calibration->covariance.empty()) return {};
   const auto volume = measured_volume(views, rays);
   const auto uncertainties = std::make_shared<std::vector<CalibrationUncertainty>>();
   for (std::size_t camera = 0; camera < camera_count(rig); ++camera)
     uncertainties->emplace_back(rig, pattern, volume, camera);
-  return [uncertainties](View& view, std::size_t camera) {
-    uncertainties->at(camera).add_to(view.range);
-  };
+  return {{UncertaintyTerm::Calibration, [uncertainties](const View& view, std::size_t camera) {
+             return uncertainties->at(camera).along_rays_mm(view.range.depth_mm);
+           }}};
 }
 
 }  // namespace frangia

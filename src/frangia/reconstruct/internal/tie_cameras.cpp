@@ -22,19 +22,14 @@ void clear_outliers_of_cameras(MeasuredSetup& setup) {
   }
 }
 
-PointCloud collect_points_of_cameras(
-    const MeasuredViews& measured,
-    const Rig& rig,
-    const Run& run,
-    const std::function<void(View&, std::size_t camera)>& add_systematic) {
-  const auto adds = [&](std::size_t camera) -> std::function<void(View&)> {
-    if (!add_systematic) return {};
-    return [&add_systematic, camera](View& view) { add_systematic(view, camera); };
-  };
-  PointCloud all = collect_points(measured.views, rig.camera.model, run, adds(0));
+PointCloud collect_points_of_cameras(const MeasuredViews& measured,
+                                     const Rig& rig,
+                                     const Run& run,
+                                     std::span<const SigmaTerm> terms) {
+  PointCloud all = collect_points(measured.views, rig.camera.model, run, terms);
   for (std::size_t i = 0; i < measured.more.size(); ++i) {
     const PointCloud points =
-        collect_points(measured.more[i], rig.more_cameras[i].camera.model, run, adds(i + 1));
+        collect_points(measured.more[i], rig.more_cameras[i].camera.model, run, terms, i + 1);
     const bool systematic = !all.systematic_mm.empty() || !points.systematic_mm.empty();
     if (systematic) all.systematic_mm.resize(all.points_mm.size());
     all.points_mm.insert(all.points_mm.end(), points.points_mm.begin(), points.points_mm.end());
