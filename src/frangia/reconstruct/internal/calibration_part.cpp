@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "frangia/range/calibration_uncertainty.h"
-#include "frangia/rig/rig_of_camera.h"
 
 namespace frangia {
 namespace {
@@ -44,7 +43,7 @@ std::vector<SigmaTerm> calibration_part(const ViewStore& views,
   if (!rig.calibration || rig.calibration->covariance.empty()) return {};
   const auto volume = measured_volume(views, rays);
   const auto uncertainties = std::make_shared<std::vector<CalibrationUncertainty>>();
-  for (std::size_t camera = 0; camera < camera_count(rig); ++camera)
+  for (std::size_t camera = 0; camera < rig.cameras.size(); ++camera)
     uncertainties->emplace_back(rig, pattern, volume, camera);
   return {{UncertaintyTerm::Calibration, [uncertainties](const View& view, std::size_t camera) {
              return uncertainties->at(camera).along_rays_mm(view.range.depth_mm);
