@@ -14,6 +14,7 @@
 #include "frangia/core/median.h"
 #include "frangia/core/sha256.h"
 #include "frangia/dataset/scan_folder.h"
+#include "frangia/uncertainty/uncertainty_budget.h"
 
 #include "inspect_report_pictures.h"
 #include "json_number.h"
@@ -69,18 +70,28 @@ double median_of_finite(const std::vector<float>& values) {
                        : static_cast<double>(median(std::move(known)));
 }
 
+/// The terms of a part of a vertex's uncertainty, in words. That of the temperature stands apart.
+std::string names_of(UncertaintyPart part) {
+  std::string names;
+  for (const UncertaintyTermInfo& info : uncertainty_terms()) {
+    if (info.part != part || info.term == UncertaintyTerm::Temperature) continue;
+    names += (names.empty() ? "" : ", ") + std::string(info.name);
+  }
+  std::replace(names.begin(), names.end(), '_', ' ');
+  return names;
+}
+
 std::vector<std::pair<std::string, double>> uncertainty_terms_of(const InspectedPart& part) {
   std::vector<std::pair<std::string, double>> terms;
-  const auto add = [&](const char* name, double value) {
+  const auto add = [&](const std::string& name, double value) {
     if (std::isfinite(value)) terms.emplace_back(name, value);
   };
   const Mesh& mesh = part.mesh;
   if (mesh.sigma_mm.empty()) return terms;
-  add("noise of a vertex, median (camera noise, lateral localization, registration, quantization)",
+  add("noise of a vertex, median (" + names_of(UncertaintyPart::Noise) + ")",
       median_of_finite(mesh.sigma_noise_mm.empty() ? mesh.sigma_mm : mesh.sigma_noise_mm));
   if (!mesh.sigma_systematic_mm.empty()) {
-    add("systematic part of a vertex, median (harmonics, step errors, flicker, indirect light, "
-        "calibration)",
+    add("systematic part of a vertex, median (" + names_of(UncertaintyPart::Systematic) + ")",
         median_of_finite(mesh.sigma_systematic_mm));
   }
   if (part.comparison) {

@@ -1,5 +1,6 @@
 #include "frangia/fusion/fuse_views.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <string>
@@ -126,6 +127,28 @@ TEST(FuseViews, KeepsTheEdgesOfABoxSharp) {
   }
   // Marching cubes rounds edges off by a third of a voxel and more.
   EXPECT_GT(near, 0.95 * all) << near << " of " << all;
+  // Sigma holds the errors at each distance from the edges.
+  const std::vector<double> bands{0.25, 1.0, 2.5, 1e9};  // voxels
+  std::vector<double> squares(bands.size(), 0.0);
+  std::vector<double> counts(bands.size(), 0.0);
+  for (std::size_t i = 0; i < mesh.vertices_mm.size(); ++i) {
+    const Eigen::Vector3d point = box.box_from_object * mesh.vertices_mm[i].cast<double>();
+    Eigen::Array3d off = (point.array().abs() - box.half_mm.array()).abs();
+    std::sort(off.begin(), off.end());
+    const double from_edge = std::hypot(off[0], off[1]) / voxel_mm;
+    const auto band = static_cast<std::size_t>(
+        std::upper_bound(bands.begin(), bands.end(), from_edge) - bands.begin());
+    squares[band] += std::pow(
+        box.shape()(mesh.vertices_mm[i].cast<double>()) / static_cast<double>(mesh.sigma_mm[i]), 2);
+    counts[band] += 1.0;
+  }
+  for (std::size_t band = 0; band < bands.size(); ++band) {
+    const double rms = std::sqrt(squares[band] / counts[band]);
+    EXPECT_GT(counts[band], 100.0);
+    EXPECT_LT(rms, 1.5) << "up to " << bands[band] << " voxels";
+    // Next to an edge, fits of one side of a pixel are less certain than they prove to be here.
+    EXPECT_GT(rms, bands[band] > 1.0 ? 0.5 : 0.2) << "up to " << bands[band] << " voxels";
+  }
 }
 
 TEST(FuseViews, PredictsItsErrors) {

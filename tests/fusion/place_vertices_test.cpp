@@ -115,6 +115,8 @@ TEST(PlaceVertices, PutsAVertexOntoTheEdgeOfTwoFaces) {
     if (placed.sharp[i] == 0) continue;
     ++sharp;
     EXPECT_NEAR(edge.distance(vertex), 0.0, 1e-4);
+    // It lies on the edge, and not on a bend of one face somewhere in the cell: 0.1 voxels.
+    EXPECT_LT(placed.mesh.sigma_mm[i], 0.05F);
   }
   EXPECT_GE(sharp, 12U);  // the edge runs through 15 cells along y and more
 }

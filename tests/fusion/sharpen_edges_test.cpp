@@ -81,6 +81,18 @@ TEST(SharpenEdges, ExtrapolatesFacesToWhereTheyIntersect) {
   }
 }
 
+TEST(SharpenEdges, CountsHowFarItMovesTheSurface) {
+  // A chamfer that the points do not resolve looks alike: its middle lies 0.21 below the edge.
+  Mesh mesh = extruded(chamfer(), 30);
+  const auto sharp = sharpen_edges(mesh, 1.0F);
+  for (std::size_t i = 0; i < sharp.size(); ++i) {
+    if (sharp[i] == 0) continue;
+    EXPECT_GT(mesh.sigma_mm[i], 0.05F);
+    EXPECT_LT(mesh.sigma_mm[i], 0.2F);
+  }
+  EXPECT_EQ(mesh.sigma_mm[0], 0.005F);
+}
+
 TEST(SharpenEdges, StaysManifold) {
   Mesh mesh = extruded(chamfer(), 30);
   sharpen_edges(mesh, 1.0F);

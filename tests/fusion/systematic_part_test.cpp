@@ -159,10 +159,10 @@ TEST(SystematicPart, ChangesNoShapeAndCombinesWithTheNoise) {
 
 TEST(SystematicPart, IsAddedByTheCallerToViewsThatDoNotStoreIt) {
   FusionOptions how = options();
-  how.add_systematic = [](View& view, std::size_t /*camera*/) {
-    const Image<float>& depth = view.range.depth_mm;
-    view.range.systematic_mm = Image<float>(depth.width(), depth.height(), 0.07F);
-  };
+  how.terms = {{UncertaintyTerm::Calibration, [](const View& view, std::size_t /*camera*/) {
+                  const Image<float>& depth = view.range.depth_mm;
+                  return Image<float>(depth.width(), depth.height(), 0.07F);
+                }}};
   const Mesh mesh = fuse_views(views_of_plane(2, rad_from_deg(89.0)), small_camera_model(160), how);
   EXPECT_NEAR(median_sigma(mesh).systematic_mm, 0.07, 0.0007);
 }

@@ -85,6 +85,26 @@ TEST(SurfaceVerdict, OfACoarseTessellationAgainstItselfIsIn) {
   EXPECT_GT(verdict.coverage, 0.999);
 }
 
+/// The corners of a decimated mesh lie at edges, which are not compared; its faces are measured
+/// between them.
+TEST(SurfaceVerdict, OfADecimatedMeshAgainstItsSourceIsIn) {
+  const RayScene source(testing::box({0, 0, 0}, {30, 20, 10}));
+  Mesh few = testing::box({0, 0, 0}, {30, 20, 10});
+  few.sigma_mm.assign(few.vertices_mm.size(), kSigma);
+  const SurfaceVerdict verdict = judge_surface(
+      few, deviations_of(few, source), source, {.limits = {-0.1, 0.1}, .min_feature_mm = 2.0});
+  EXPECT_EQ(verdict.conformity, Conformity::In) << sentence_of(verdict);
+  EXPECT_GT(verdict.coverage, 0.99);
+  // The source is inside of the decimated one where that is too large.
+  few = testing::box({0, 0, 0}, {30, 20, 10.2F});
+  few.sigma_mm.assign(few.vertices_mm.size(), kSigma);
+  EXPECT_EQ(
+      judge_surface(
+          few, deviations_of(few, source), source, {.limits = {-0.1, 0.1}, .min_feature_mm = 2.0})
+          .conformity,
+      Conformity::Out);
+}
+
 TEST(SurfaceVerdict, IsNotDecidedByOneVertexOfMany) {
   Plate plate;
   plate.add_noise(3, static_cast<double>(kSigma));
@@ -92,8 +112,19 @@ TEST(SurfaceVerdict, IsNotDecidedByOneVertexOfMany) {
   plate.mesh().sigma_mm[61 * 40 + 20] = std::nanf("");
   const SurfaceVerdict verdict = plate.verdict({.limits = {-0.05, 0.05}});
   EXPECT_EQ(verdict.conformity, Conformity::In) << sentence_of(verdict);
-  EXPECT_GT(verdict.share_of(PatchDecision::NotWellMeasured), 0.0);
-  EXPECT_LT(verdict.coverage, 1.0);
+  // The vertices around them tell as much of the patches that they lie in.
+  EXPECT_LT(verdict.share_of(PatchDecision::NotWellMeasured), 0.001);
+}
+
+TEST(SurfaceVerdict, DoesNotHideAPlaceWithoutAnyGoodVertex) {
+  Plate plate;
+  for (std::size_t i = 0; i < plate.mesh().vertices_mm.size(); ++i) {
+    const Vector3f& at = plate.mesh().vertices_mm[i];
+    if (distance_from(at, 30, 30) < 4.0) plate.mesh().sigma_mm[i] = 0.1F;
+  }
+  const SurfaceVerdict verdict = plate.verdict({.limits = {-0.05, 0.05}});
+  EXPECT_GT(verdict.share_of(PatchDecision::NotWellMeasured), 0.005);
+  EXPECT_LT(verdict.coverage, 0.995);
 }
 
 TEST(SurfaceVerdict, AveragesNoiseAndKeepsTheSystematicPart) {
@@ -243,6 +274,25 @@ TEST(SurfaceVerdict, DoesNotTakeTheFloorBelowAThinWallForMissingMaterial) {
       measured, deviations_of(measured, reference), reference, {.min_feature_mm = 1.0});
   EXPECT_EQ(verdict.share_of(PatchDecision::Out), 0.0);
   EXPECT_EQ(verdict.reason, UndecidedReason::NotMeasured);
+}
+
+/// Without the views, a deep narrow pin that is not there may as well not have been seen.
+TEST(SurfaceVerdict, TakesNoNarrowPinForMissing) {
+  Mesh nominal = testing::level_grid(41, 41);
+  const Mesh pin = testing::box({18, 18, -1}, {22, 22, 30});
+  const auto first = static_cast<std::uint32_t>(nominal.vertices_mm.size());
+  nominal.vertices_mm.insert(
+      nominal.vertices_mm.end(), pin.vertices_mm.begin(), pin.vertices_mm.end());
+  for (const auto& [a, b, c] : pin.triangles)
+    nominal.triangles.push_back({a + first, b + first, c + first});
+  const Mesh measured = testing::level_grid(41, 41);
+  const RayScene reference(nominal);
+  const SurfaceVerdict verdict = judge_surface(
+      measured, deviations_of(measured, reference), reference, {.min_feature_mm = 1.0});
+  EXPECT_TRUE(std::none_of(verdict.places.begin(),
+                           verdict.places.end(),
+                           [](const SurfacePlace& place) { return place.missing; }));
+  EXPECT_GT(verdict.share_of(PatchDecision::NotMeasured), 0.1);
 }
 
 TEST(SurfaceVerdict, IsOpenWhereABaseWasNotMeasured) {

@@ -304,8 +304,7 @@ TEST(CalibrationUncertainty, HoldsTheSizeOfAPartWhoseViewsAgreeAboutTheAxis) {
   EXPECT_NEAR(nearest_mm(), kScale * 30.0, 0.05 * kScale * 30.0);
   // All of the ball has become larger: along inclined rays the surface moves further.
   const Image<Eigen::Vector2f> rays = rays_of(rig.reference().model);
-  RangeGrid range{Image<float>(rays.width(), rays.height(), kMissing),
-                  Image<float>(rays.width(), rays.height(), 0.01F)};
+  Image<float> depth_mm(rays.width(), rays.height(), kMissing);
   Image<double> cosines(rays.width(), rays.height(), 0.0);
   for (int y = 0; y < rays.height(); ++y) {
     for (int x = 0; x < rays.width(); ++x) {
@@ -314,15 +313,16 @@ TEST(CalibrationUncertainty, HoldsTheSizeOfAPartWhoseViewsAgreeAboutTheAxis) {
       const double inside = 900.0 - (center - nearest * ray).squaredNorm();
       if (!(inside > 0.0)) continue;
       const Vector3d point = (nearest - std::sqrt(inside)) * ray;
-      range.depth_mm(x, y) = static_cast<float>(point.z());
+      depth_mm(x, y) = static_cast<float>(point.z());
       cosines(x, y) = -ray.dot((point - center).normalized());
     }
   }
-  CalibrationUncertainty(rig, kColumns, volume).add_to(range, rays);
+  const Image<float> along =
+      CalibrationUncertainty(rig, kColumns, volume).along_rays_mm(depth_mm, rays);
   for (int y = 0; y < rays.height(); y += 5) {
     for (int x = 0; x < rays.width(); x += 5) {
       if (cosines(x, y) < 0.4) continue;
-      EXPECT_NEAR(range.systematic_mm(x, y) * cosines(x, y), kScale * 30.0, 0.1 * kScale * 30.0)
+      EXPECT_NEAR(along(x, y) * cosines(x, y), kScale * 30.0, 0.1 * kScale * 30.0)
           << x << " " << y << " " << cosines(x, y);
     }
   }
@@ -331,32 +331,28 @@ TEST(CalibrationUncertainty, HoldsTheSizeOfAPartWhoseViewsAgreeAboutTheAxis) {
   EXPECT_LT(nearest_mm(), 0.6 * kScale * 30.0);
 }
 
-TEST(CalibrationUncertainty, AddsToTheSystematicPartOfEachPoint) {
+TEST(CalibrationUncertainty, IsThatOfEachPointOfAGrid) {
   Rig rig = digital_rig();
   rig.calibration = Calibration{.covariance = digital_covariance()};
   const CalibrationUncertainty stated(
       rig, kColumns, {.points_mm = measured_points(), .shared = {}});
-  RangeGrid range{Image<float>(512, 512, 495.0F), Image<float>(512, 512, 0.01F)};
-  range.depth_mm(100, 200) = kMissing;
-  const Image<Eigen::Vector2f> rays = rays_of(rig.reference().model);
-  stated.add_to(range, rays);
-  EXPECT_TRUE(std::isnan(range.systematic_mm(100, 200)));
+  Image<float> depth_mm(512, 512, 495.0F);
+  depth_mm(100, 200) = kMissing;
+  const Image<float> along = stated.along_rays_mm(depth_mm, rays_of(rig.reference().model));
+  EXPECT_TRUE(std::isnan(along(100, 200)));
   // A plane across the axis of the camera: there, the ray is the normal.
   const Eigen::Vector2d middle = rig.reference().model.project({0.0, 0.0, 495.0});
-  const auto x = static_cast<int>(std::lround(middle.x()));
-  const auto y = static_cast<int>(std::lround(middle.y()));
-  const float once = range.systematic_mm(x, y);
-  EXPECT_NEAR(once, stated.along_ray_mm({0.0, 0.0, 495.0}, middle), 0.01F * once);
-  EXPECT_GT(once, 0.001F);
-  stated.add_to(range, rays);
-  EXPECT_FLOAT_EQ(range.systematic_mm(x, y), std::sqrt(2.0F) * once);
+  const float there =
+      along(static_cast<int>(std::lround(middle.x())), static_cast<int>(std::lround(middle.y())));
+  EXPECT_NEAR(there, stated.along_ray_mm({0.0, 0.0, 495.0}, middle), 0.01F * there);
+  EXPECT_GT(there, 0.001F);
 }
 
-TEST(CalibrationUncertainty, IsNotAddedWithoutACovariance) {
-  RangeGrid range{Image<float>(8, 8, 495.0F), Image<float>(8, 8, 0.01F)};
-  CalibrationUncertainty(digital_rig(), kColumns, {.points_mm = measured_points(), .shared = {}})
-      .add_to(range, Image<Eigen::Vector2f>(8, 8, Eigen::Vector2f::Zero()));
-  EXPECT_TRUE(range.systematic_mm.empty());
+TEST(CalibrationUncertainty, SaysNothingWithoutACovariance) {
+  const CalibrationUncertainty stated(
+      digital_rig(), kColumns, {.points_mm = measured_points(), .shared = {}});
+  const Image<Eigen::Vector2f> rays(8, 8, Eigen::Vector2f::Zero());
+  EXPECT_TRUE(stated.along_rays_mm(Image<float>(8, 8, 495.0F), rays).empty());
 }
 
 }  // namespace

@@ -22,12 +22,15 @@ struct SeenPlate {
   Turntable table{{0.0, 0.0, 600.0}, -Eigen::Vector3d::UnitY()};
   std::vector<Station> stations{{0.0, ""}, {rad_from_deg(180.0), ""}};
   ViewStore views;
-  Mesh mesh;
+  FusedSurface fused;
+  Mesh& mesh = fused.mesh;
 
   SeenPlate() {
     const testing::Shape shape = testing::box({kHalfPlate_mm, 30.0, 30.0});
     for (const Station& station : stations)
       views.add(testing::snapshot(shape, camera, table.rig_from_object(station.angle_rad)));
+    const std::vector<CameraViews> cameras{CameraViews{views, camera}};
+    fused.weights = fuse_with_weights(cameras).weights;
     for (const float side : {-1.0F, 1.0F}) {
       for (int y = -25; y <= 25; ++y) {
         for (int z = -25; z <= 25; ++z) {
@@ -41,8 +44,7 @@ struct SeenPlate {
     }
   }
   bool add(const TurntableSigma& sigma) {
-    return add_turntable_part(
-        mesh, {CameraViews{views, camera}}, motions_of_rig({table, stations}, sigma), {});
+    return add_turntable_part(fused, motions_of_rig({table, stations}, sigma), {});
   }
 };
 

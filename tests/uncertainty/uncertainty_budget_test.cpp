@@ -1,7 +1,10 @@
 #include "frangia/uncertainty/uncertainty_budget.h"
 
+#include <algorithm>
 #include <cmath>
+#include <fstream>
 #include <set>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -22,6 +25,33 @@ TEST(UncertaintyBudget, NamesEachTermOnceAndFindsIt) {
   }
   EXPECT_EQ(info_of(UncertaintyTerm::Calibration).correlation, ErrorCorrelation::AllViews);
   EXPECT_EQ(info_of(UncertaintyTerm::CameraNoise).part, UncertaintyPart::Noise);
+}
+
+/// The rows of the table of docs/uncertainty.md.
+std::vector<std::string> rows_of_the_page() {
+  std::ifstream page(FRANGIA_SOURCE_DIR "/docs/uncertainty.md");
+  std::vector<std::string> rows;
+  for (std::string line; std::getline(page, line);)
+    if (line.rfind("| `", 0) == 0) rows.push_back(line);
+  return rows;
+}
+
+TEST(UncertaintyBudget, IsTheTableOfItsPage) {
+  const std::vector<std::string> rows = rows_of_the_page();
+  ASSERT_EQ(rows.size(), uncertainty_terms().size());
+  for (const UncertaintyTermInfo& info : uncertainty_terms()) {
+    const std::string begins = "| `" + std::string(info.name) + "` | " +
+                               (info.part == UncertaintyPart::Noise ? "noise" : "systematic") +
+                               " | ";
+    const auto row = std::find_if(rows.begin(), rows.end(), [&](const std::string& one) {
+      return one.rfind(begins, 0) == 0;
+    });
+    ASSERT_NE(row, rows.end()) << begins;
+    if (info.part == UncertaintyPart::Noise) continue;
+    const std::string alike =
+        info.correlation == ErrorCorrelation::AllViews ? "all views" : "one view";
+    EXPECT_EQ(row->substr(begins.size(), alike.size()), alike) << *row;
+  }
 }
 
 TEST(UncertaintyBudget, CombinesIndependentTermsToTheRootOfTheirSquares) {

@@ -16,6 +16,7 @@
 #include "frangia/fusion/internal/hermite_accumulators.h"
 #include "frangia/fusion/internal/measure_sampling.h"
 #include "frangia/fusion/internal/mesh_quads.h"
+#include "frangia/fusion/internal/narrow_strips.h"
 #include "frangia/fusion/internal/place_vertices.h"
 #include "frangia/fusion/internal/remove_weak_rim.h"
 #include "frangia/fusion/internal/voxel_budget.h"
@@ -24,6 +25,7 @@
 #include "frangia/local_fit/local_planes.h"
 #include "frangia/views/add_edge_pixels.h"
 #include "frangia/views/load_each_view.h"
+#include "frangia/views/sigma_terms.h"
 #include "frangia/views/subsample.h"
 
 namespace frangia {
@@ -48,7 +50,7 @@ struct Source {
   const ViewStore& views;
   CameraRays rays;
   Sampling sampling;
-  std::function<void(View&)> add_systematic{};
+  std::size_t camera = 0;
 };
 
 /// The sampling of all points: the finest spacing of a camera, and the mean sigma weighted by
@@ -84,12 +86,16 @@ void for_each_view(const ViewStore& views,
 /// Samples each view at the crossings.
 HermiteAccumulators sample_crossings(const std::vector<Source>& sources,
                                      const EdgeCrossings& crossings,
+                                     std::span<const SigmaTerm> terms,
                                      const HermiteOptions& how,
+                                     bool keep_weights,
                                      const std::function<void()>& on_view) {
-  const bool has_systematic = std::any_of(sources.begin(), sources.end(), [](const Source& source) {
-    return source.views.has_systematic() || source.add_systematic;
-  });
+  const bool has_systematic =
+      !terms.empty() || std::any_of(sources.begin(), sources.end(), [](const Source& source) {
+        return source.views.has_systematic();
+      });
   HermiteAccumulators hermite(crossings.points_mm.size(), has_systematic);
+  if (keep_weights) hermite.keep_weights();
   std::vector<const ViewStore*> stores;
   stores.reserve(sources.size());
   for (const Source& source : sources)
@@ -99,17 +105,19 @@ HermiteAccumulators sample_crossings(const std::vector<Source>& sources,
   for (const Source& source : sources) {
     load_each_view(
         source.views,
-        [&](std::size_t /*index*/, View& view) {
+        [&](std::size_t index, View& view) {
           add_edge_pixels(view);
-          const Image<float> differing_mm = differ ? differing_part(view) : Image<float>();
-          if (source.add_systematic) source.add_systematic(view);
+          Image<float> differing_mm = differ ? differing_part(view) : Image<float>();
+          const Image<float> differing_terms_mm = add_terms(view, source.camera, terms);
+          if (differ) add_part(differing_mm, differing_terms_mm);
           planes = local_planes(view, source.rays, {.widen = true}, std::move(planes));
           accumulate_view(hermite,
                           crossings,
                           planes,
                           source.rays,
                           how,
-                          {view.range.systematic_mm, differing_mm});
+                          {view.range.systematic_mm, differing_mm},
+                          index);
           on_view();
         },
         PointSigma::BothParts);
@@ -159,9 +167,12 @@ Mesh fuse_views(const ViewStore& views,
   return fuse_views({&one, 1}, options, run);
 }
 
-Mesh fuse_views(std::span<const CameraViews> cameras,
-                const FusionOptions& options,
-                const Run& run) {
+namespace {
+
+FusedSurface fuse(std::span<const CameraViews> cameras,
+                  const FusionOptions& options,
+                  bool keep_weights,
+                  const Run& run) {
   require(!cameras.empty(), "fuse_views: needs the views of a camera");
   std::vector<Source> sources;
   std::size_t view_count = 0;
@@ -169,12 +180,8 @@ Mesh fuse_views(std::span<const CameraViews> cameras,
     const CameraRays rays(camera.views, camera.camera);
     const Sampling sampling = measure_sampling(camera.views, rays, run);
     if (sampling.points == 0) continue;
-    std::function<void(View&)> add;
-    if (options.add_systematic) {
-      const auto index = static_cast<std::size_t>(&camera - cameras.data());
-      add = [&options, index](View& view) { options.add_systematic(view, index); };
-    }
-    sources.push_back({camera.views, rays, sampling, std::move(add)});
+    const auto index = static_cast<std::size_t>(&camera - cameras.data());
+    sources.push_back({camera.views, rays, sampling, index});
     view_count += camera.views.size();
   }
   require(!sources.empty(), "no view holds a point: there is no surface to fuse");
@@ -220,19 +227,38 @@ Mesh fuse_views(std::span<const CameraViews> cameras,
   const EdgeCrossings crossings = find_edge_crossings(field, parameters.field);
   field = {};
 
-  HermiteAccumulators hermite = sample_crossings(
-      sources, crossings, {band.allocation_mm, band.front_mm, parameters.hermite}, [&] {
-        run.report(done += progress);
-      });
+  HermiteAccumulators hermite =
+      sample_crossings(sources,
+                       crossings,
+                       options.terms,
+                       {band.allocation_mm, band.front_mm, parameters.hermite},
+                       keep_weights,
+                       [&] { run.report(done += progress); });
   add_between_view_variance(hermite, crossings);
+  ViewWeights weights = keep_weights ? hermite.view_weights(crossings) : ViewWeights();
   Mesh mesh =
       mesh_quads(place_vertices(crossings, hermite, parameters), crossings, hermite, parameters);
   run.report(0.95);
   remove_weak_rim(mesh, parameters.cleanup);
   clean_mesh(mesh, options.min_component_triangles);
+  widen_sigma_of_strips(mesh, static_cast<float>(voxel_mm));
   combine_parts(mesh);
   run.report(1.0);
-  return mesh;
+  return {std::move(mesh), std::move(weights)};
+}
+
+}  // namespace
+
+Mesh fuse_views(std::span<const CameraViews> cameras,
+                const FusionOptions& options,
+                const Run& run) {
+  return fuse(cameras, options, false, run).mesh;
+}
+
+FusedSurface fuse_with_weights(std::span<const CameraViews> cameras,
+                               const FusionOptions& options,
+                               const Run& run) {
+  return fuse(cameras, options, true, run);
 }
 
 }  // namespace frangia

@@ -1,13 +1,15 @@
 #pragma once
 
 #include <cstddef>
-#include <functional>
 #include <span>
+#include <vector>
 
 #include "frangia/core/run.h"
 #include "frangia/fusion/fusion_parameters.h"
+#include "frangia/fusion/view_weights.h"
 #include "frangia/geometry/mesh.h"
 #include "frangia/rig/camera_model.h"
+#include "frangia/views/sigma_terms.h"
 #include "frangia/views/view_store.h"
 
 namespace frangia {
@@ -16,9 +18,7 @@ namespace frangia {
 struct FusionOptions {
   double voxel_mm = 0.0;          ///< edge of a voxel; 0 derives it from the sampling of the views
   std::size_t max_memory_mb = 0;  ///< of the surface during fusion; 0 is half of the machine's
-  /// Adds systematic parts that are not stored with the points of a view of the camera with this
-  /// index; empty: there are none.
-  std::function<void(View&, std::size_t camera)> add_systematic;
+  std::vector<SigmaTerm> terms;   ///< systematic parts that are not stored with the views
   std::size_t min_component_triangles = 100;  ///< smaller connected components are removed
   FusionParameters parameters;                ///< heuristic thresholds
 };
@@ -27,6 +27,12 @@ struct FusionOptions {
 struct CameraViews {
   const ViewStore& views;     ///< its points
   const CameraModel& camera;  ///< in whose frame the points of the views are
+};
+
+/// A surface, and how much each view counted in it.
+struct FusedSurface {
+  Mesh mesh;            ///< as of `fuse_views`
+  ViewWeights weights;  ///< by the number of a view in the store of its camera
 };
 
 /// Fuses all views into one mesh with normals, sigma and the number of views at each vertex.
@@ -60,5 +66,10 @@ struct CameraViews {
 [[nodiscard]] Mesh fuse_views(std::span<const CameraViews> cameras,
                               const FusionOptions& options = {},
                               const Run& run = {});
+
+/// The same, with the weights that it used.
+[[nodiscard]] FusedSurface fuse_with_weights(std::span<const CameraViews> cameras,
+                                             const FusionOptions& options = {},
+                                             const Run& run = {});
 
 }  // namespace frangia

@@ -8,7 +8,6 @@
 #include "frangia/core/missing.h"
 #include "frangia/core/parallel.h"
 #include "frangia/range/fringe_ray.h"
-#include "frangia/uncertainty/combined_sigma.h"
 
 namespace frangia {
 
@@ -57,21 +56,17 @@ bool IndirectCorrection::is_lit_indirectly(const ViewLight& light, const RangePi
   return albedo_ * std::abs(share.fringes.back()) > kMatters_rad;
 }
 
-void IndirectCorrection::add(View& view) const {
+Image<float> IndirectCorrection::systematic_mm(const View& view) const {
   const ViewLight light(*surface_, view, rays_, LightUse::Uncertainty);
-  RangeGrid& range = view.range;
-  range.differing_share = 0.0F;  // the prediction is alike in neighbouring views
-  if (range.systematic_mm.empty())
-    range.systematic_mm = Image<float>(range.depth_mm.width(), range.depth_mm.height(), kMissing);
-  parallel_rows(range.depth_mm.height(), [&](int y) {
-    for (int x = 0; x < range.depth_mm.width(); ++x) {
-      const RangePixel at = range.pixel(x, y);
-      if (std::isnan(at.depth_mm)) continue;
-      const auto added = static_cast<float>(sigma_mm(light, at));
-      float& systematic = range.systematic_mm(x, y);
-      systematic = combined_sigma(std::isnan(systematic) ? 0.0F : systematic, added);
+  const Image<float>& depth_mm = view.range.depth_mm;
+  Image<float> out(depth_mm.width(), depth_mm.height(), kMissing);
+  parallel_rows(depth_mm.height(), [&](int y) {
+    for (int x = 0; x < depth_mm.width(); ++x) {
+      const RangePixel at = view.range.pixel(x, y);
+      if (!std::isnan(at.depth_mm)) out(x, y) = static_cast<float>(sigma_mm(light, at));
     }
   });
+  return out;
 }
 
 Image<float> IndirectCorrection::largest_shifts_mm(const View& view) const {

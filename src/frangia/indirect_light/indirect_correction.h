@@ -33,8 +33,8 @@ class IndirectCorrection {
   /// Moves points to the depths that their phases have without the predicted errors, and removes
   /// those with a wrong order and those at the rim of the data where indirect light matters.
   void correct(View& view) const;
-  /// Adds the uncertainty of the prediction to the systematic parts of the points.
-  void add(View& view) const;
+  /// Uncertainty of the prediction for each point, along its ray, mm; NaN where there is none.
+  [[nodiscard]] Image<float> systematic_mm(const View& view) const;
   /// Largest shift of each point's depth that indirect light can cause, where it matters; 0 where
   /// it is small beside the noise, NaN where there is no point.
   [[nodiscard]] Image<float> largest_shifts_mm(const View& view) const;

@@ -9,7 +9,6 @@
 #include "frangia/core/parallel.h"
 #include "frangia/range/internal/changed_rigs.h"
 #include "frangia/range/internal/node_values.h"
-#include "frangia/uncertainty/combined_sigma.h"
 
 namespace frangia {
 CalibrationUncertainty::CalibrationUncertainty(const Rig& rig,
@@ -77,7 +76,7 @@ namespace {
 /// What a displacement of the surface is multiplied with to yield the distance along the ray by
 /// which the surface moves there: n / (n . r), with n the normal and r the unit ray. Without a
 /// normal, the ray itself.
-Eigen::Vector3f along_ray_by(const RangeGrid& range,
+Eigen::Vector3f along_ray_by(const Image<float>& depth_mm,
                              const Image<Eigen::Vector2f>& rays,
                              int x,
                              int y) {
@@ -87,7 +86,7 @@ Eigen::Vector3f along_ray_by(const RangeGrid& range,
   if (x < kReach || y < kReach || x + kReach >= rays.width() || y + kReach >= rays.height())
     return ray;
   const auto point = [&](int column, int row) -> Eigen::Vector3f {
-    return range.depth_mm(column, row) * rays(column, row).homogeneous();
+    return depth_mm(column, row) * rays(column, row).homogeneous();
   };
   const Eigen::Vector3f normal = (point(x + kReach, y) - point(x - kReach, y))
                                      .cross(point(x, y + kReach) - point(x, y - kReach))
@@ -99,19 +98,13 @@ Eigen::Vector3f along_ray_by(const RangeGrid& range,
 
 }  // namespace
 
-void CalibrationUncertainty::add_to(RangeGrid& range, const Image<Eigen::Vector2f>& rays) const {
-  if (displacements_mm_.size() == 0) return;
-  const int width = range.depth_mm.width();
-  range.differing_share = 0.0F;  // the rig is that of all views
-  if (range.systematic_mm.empty()) {
-    range.systematic_mm = Image<float>(width, range.depth_mm.height(), Uninitialized{});
-    parallel_rows(range.depth_mm.height(), [&](int y) {
-      for (int x = 0; x < width; ++x)
-        range.systematic_mm(x, y) = std::isnan(range.depth_mm(x, y)) ? kMissing : 0.0F;
-    });
-  }
+Image<float> CalibrationUncertainty::along_rays_mm(const Image<float>& depth_mm,
+                                                   const Image<Eigen::Vector2f>& rays) const {
+  if (displacements_mm_.size() == 0) return {};
+  const int width = depth_mm.width();
+  Image<float> out(width, depth_mm.height(), kMissing);
   const Eigen::Index components = displacements_mm_.rows();
-  parallel_rows(range.depth_mm.height(), [&](int y) {
+  parallel_rows(depth_mm.height(), [&](int y) {
     const double row = place_of(0.0, y, 0.0).y();
     const int upper = std::min(static_cast<int>(row), kNodes[1] - 2);
     const auto down = static_cast<float>(row - upper);
@@ -125,9 +118,9 @@ void CalibrationUncertainty::add_to(RangeGrid& range, const Image<Eigen::Vector2
       }
     }
     for (int x = 0; x < width; ++x) {
-      const float depth = range.depth_mm(x, y);
+      const float depth = depth_mm(x, y);
       if (std::isnan(depth)) continue;
-      const Eigen::Vector3f by = along_ray_by(range, rays, x, y);
+      const Eigen::Vector3f by = along_ray_by(depth_mm, rays, x, y);
       const Eigen::Array3d place = place_of(x, y, static_cast<double>(depth));
       const int left = std::min(static_cast<int>(place.x()), kNodes[0] - 2);
       const int near = std::min(static_cast<int>(place.z()), kNodes[2] - 2);
@@ -139,10 +132,10 @@ void CalibrationUncertainty::add_to(RangeGrid& range, const Image<Eigen::Vector2
       const Eigen::VectorXf moved =
           (1.0F - right) * ((1.0F - far) * moved_at(left, near) + far * moved_at(left, near + 1)) +
           right * ((1.0F - far) * moved_at(left + 1, near) + far * moved_at(left + 1, near + 1));
-      float& systematic = range.systematic_mm(x, y);
-      systematic = combined_sigma(systematic, moved.norm());
+      out(x, y) = moved.norm();
     }
   });
+  return out;
 }
 
 }  // namespace frangia

@@ -5,9 +5,9 @@
 
 #include <Eigen/Core>
 
+#include "frangia/core/image.h"
 #include "frangia/pattern/pattern.h"
 #include "frangia/range/measured_volume.h"
-#include "frangia/range/range_grid.h"
 #include "frangia/rig/rig.h"
 
 namespace frangia {
@@ -42,12 +42,13 @@ class CalibrationUncertainty {
   [[nodiscard]] double along_ray_mm(const Eigen::Vector3d& point_mm,
                                     const Eigen::Vector2d& pixel) const;
 
-  /// Adds the uncertainty to the systematic parts of all points of a grid: the distance along the
-  /// ray by which the surface moves there, so that displacements across the ray count on surface
-  /// that is inclined to it.
+  /// Returns the uncertainty of all points of a grid, NaN where there is none: the distance along
+  /// the ray by which the surface moves there, so that displacements across the ray count on
+  /// surface that is inclined to it. Empty without a covariance.
   ///
   /// @shape    rays: as the grid; x and y at a depth of 1, in the camera's frame
-  void add_to(RangeGrid& range, const Image<Eigen::Vector2f>& rays) const;
+  [[nodiscard]] Image<float> along_rays_mm(const Image<float>& depth_mm,
+                                           const Image<Eigen::Vector2f>& rays) const;
 
  private:
   static constexpr std::array<int, 3> kNodes{17, 17, 9};  ///< along x, y and depth

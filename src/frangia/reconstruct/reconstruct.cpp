@@ -143,32 +143,32 @@ struct RegisteredViews {
 };
 
 /// Views -> one surface, with its points and colors.
-Mesh fuse_registered(RegisteredViews& registered,
-                     const ScanDecoding& decoding,
-                     const Capabilities& can,
-                     const ReconstructOptions& options,
-                     Reconstruction& out,
-                     const Run& run) {
+FusedSurface fuse_registered(RegisteredViews& registered,
+                             const ScanDecoding& decoding,
+                             const Capabilities& can,
+                             const ReconstructOptions& options,
+                             Reconstruction& out,
+                             const Run& run) {
   run.stage("surface");
   const Scan& scan = decoding.scan;
   MeasuredSetup& joined = registered.joined;
   const MeasuredViews& all = joined.measured;
   FusionOptions fusion = options.fusion;
-  fusion.add_systematic = calibration_part(all.reference(), scan.rig, all.coarsest, decoding.rays);
+  fusion.terms = calibration_part(all.reference(), scan.rig, all.coarsest, decoding.rays);
   const std::vector<CameraViews> cameras = views_of_cameras(all, scan.rig);
-  Mesh fused = fuse_views(cameras, fusion, run);
+  FusedSurface fused = fuse_with_weights(cameras, fusion, run);
   if (can.indirect_light != IndirectLightUse::Ignored && registered.indirect_light) {
     out.indirect_light = cameras.size() == 1
                              ? correct_indirect_light(fused, joined.measured, decoding, fusion, run)
                              : count_indirect_light(fused, joined.measured, decoding, fusion, run);
   }
   const ViewMotions motions = motions_of_views(joined, scan.rig, options, run);
-  const bool turntable_counts = add_turntable_part(fused, cameras, motions, run);
+  const bool turntable_counts = add_turntable_part(fused, motions, run);
   if (options.keep_raw) {
-    out.raw = collect_points_of_cameras(cameras, run, fusion.add_systematic);
+    out.raw = collect_points_of_cameras(cameras, run, fusion.terms);
     if (turntable_counts) add_turntable_part(out.raw, cameras, motions, run);
   }
-  color_vertices(fused, cameras, run);
+  color_vertices(fused.mesh, cameras, run);
   return fused;
 }
 
@@ -250,8 +250,8 @@ Reconstruction reconstruct(const Scan& scan, const ReconstructOptions& options, 
   RegisteredViews registered{
       register_together(std::move(setups), scan, options, std::move(outliers), out, run),
       indirect_light};
-  Mesh fused = fuse_registered(registered, decoding, can, options, out, run);
-  FinishedMesh finished = finish_mesh(std::move(fused), options.finish, run);
+  FusedSurface fused = fuse_registered(registered, decoding, can, options, out, run);
+  FinishedMesh finished = finish_mesh(std::move(fused.mesh), options.finish, run);
   out.mesh = std::move(finished.mesh);
   out.islands = finished.removed;
   if (out.mesh.triangles.empty()) {

@@ -18,6 +18,7 @@ enum class UncertaintyTerm {
   IndirectLight,        ///< light that reaches a point by way of other parts of the surface
   Calibration,          ///< covariance of the parameters of the rig
   Turntable,            ///< axis and angles of the turntable, as far as views do not determine them
+  Resolution,           ///< edges and creases that points and voxels do not resolve
   Temperature,          ///< thermal expansion of the part
 };
 

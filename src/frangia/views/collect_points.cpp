@@ -9,14 +9,15 @@ namespace frangia {
 PointCloud collect_points(const ViewStore& views,
                           const CameraModel& camera,
                           const Run& run,
-                          const std::function<void(View&)>& add_systematic) {
+                          std::span<const SigmaTerm> terms,
+                          std::size_t camera_index) {
   const auto rays = rays_of(camera);
-  const bool has_systematic = views.has_systematic() || add_systematic;
+  const bool has_systematic = views.has_systematic() || !terms.empty();
   PointCloud cloud;
   for (std::size_t i = 0; i < views.size(); ++i) {
     run.check();
     View view = views.load_points(i, PointSigma::BothParts);
-    if (add_systematic) add_systematic(view);
+    add_terms(view, camera_index, terms);
     require(same_size(view.range.depth_mm, rays),
             "collect_points: a view and the camera differ in size");
     const Eigen::Isometry3d object_from_rig = view.rig_from_object.inverse();

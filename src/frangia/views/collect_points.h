@@ -1,12 +1,14 @@
 #pragma once
 
-#include <functional>
+#include <cstddef>
+#include <span>
 #include <vector>
 
 #include <Eigen/Core>
 
 #include "frangia/core/run.h"
 #include "frangia/rig/camera_model.h"
+#include "frangia/views/sigma_terms.h"
 #include "frangia/views/view_store.h"
 
 namespace frangia {
@@ -22,7 +24,7 @@ struct PointCloud {
 };
 
 /// Collects the points of all views, view by view and row by row, without edge pixels.
-/// `add_systematic` adds systematic parts that are not stored with the views, where there are any.
+/// `terms`: systematic parts that are not stored with the views of this `camera_index`.
 ///
 /// @units    mm, object frame
 /// @missing  missing pixels are skipped
@@ -30,6 +32,7 @@ struct PointCloud {
 [[nodiscard]] PointCloud collect_points(const ViewStore& views,
                                         const CameraModel& camera,
                                         const Run& run = {},
-                                        const std::function<void(View&)>& add_systematic = {});
+                                        std::span<const SigmaTerm> terms = {},
+                                        std::size_t camera_index = 0);
 
 }  // namespace frangia

@@ -28,6 +28,7 @@ struct ViewSampler {
   float pixel_rad;
   SamplerSettings set;
   SystematicImages systematic;
+  std::size_t number;
 
   /// Points in camera coordinates and in the image, one array for each coordinate, for vector code.
   struct Batch {
@@ -196,8 +197,9 @@ struct ViewSampler {
     face.spacing += w * pixel_mm / std::sqrt(cosine);
     face.normal += w * normal;
     ++face.views;
-    if (!at.all.has_systematic()) return;
     const bool first = &face == &at.all[at.number].first;
+    at.all.note_weight(at.number, first, number, w);
+    if (!at.all.has_systematic()) return;
     HermiteAccumulators::SystematicSums& sums = at.all.systematic_sums(at.number);
     HermiteAccumulators::SystematicSum& sum = first ? sums.first : sums.second;
     sum.common += w * cosine * observation.systematic.common_mm;
@@ -213,14 +215,16 @@ void accumulate_view(HermiteAccumulators& hermite,
                      const LocalPlanes& view,
                      const CameraRays& camera,
                      const HermiteOptions& options,
-                     const SystematicImages& systematic) {
+                     const SystematicImages& systematic,
+                     std::size_t number) {
   const ViewSampler sampler{view,
                             FastCameraModel(camera.model),
                             view.rig_from_object.linear().cast<float>(),
                             view.rig_from_object.translation().cast<float>(),
                             static_cast<float>(1.0 / camera.model.focal_px.mean()),
                             SamplerSettings(options),
-                            systematic};
+                            systematic,
+                            number};
   parallel_chunks(
       hermite.size(), HermiteAccumulators::kChunk, [&](std::size_t begin, std::size_t end) {
         ViewSampler::Batch batch;

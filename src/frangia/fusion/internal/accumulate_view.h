@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+
 #include "frangia/core/image.h"
 #include "frangia/fusion/fusion_parameters.h"
 #include "frangia/fusion/internal/edge_crossings.h"
@@ -23,12 +25,14 @@ struct SystematicImages {
 /// Samples one view at every crossing and adds its position and normal, or its vote for free space.
 ///
 /// A view votes for free space only when it observes free space all around the pixel: next to a
-/// silhouette, a small error of the pose looks like free space.
+/// silhouette, a small error of the pose looks like free space. `number` is that of the view, for
+/// the weights.
 void accumulate_view(HermiteAccumulators& hermite,
                      const EdgeCrossings& crossings,
                      const LocalPlanes& view,
                      const CameraRays& camera,
                      const HermiteOptions& options,
-                     const SystematicImages& systematic);
+                     const SystematicImages& systematic,
+                     std::size_t number = 0);
 
 }  // namespace frangia

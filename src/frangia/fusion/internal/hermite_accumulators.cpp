@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "frangia/core/parallel.h"
@@ -33,6 +34,42 @@ HermiteAccumulator::PlaneSum& HermiteAccumulators::make_secondary(std::size_t i)
     second = static_cast<std::uint32_t>(chunk.size());
   }
   return chunk[second - 1];
+}
+
+void HermiteAccumulators::keep_weights() {
+  noted_.resize(secondary_.size());
+}
+
+void HermiteAccumulators::note_weight(std::size_t i, bool first, std::size_t view, float weight) {
+  if (noted_.empty()) return;
+  noted_[i / kChunk].push_back(
+      {static_cast<std::uint32_t>(i), static_cast<std::uint16_t>(view), first, weight});
+}
+
+ViewWeights HermiteAccumulators::view_weights(const EdgeCrossings& crossings) const {
+  std::vector<ViewWeights::Place> places;
+  std::vector<ViewWeights::View> views;
+  for (const auto& chunk : noted_) {
+    std::vector<NotedWeight> sorted = chunk;
+    std::stable_sort(sorted.begin(), sorted.end(), [](const auto& a, const auto& b) {
+      return a.crossing < b.crossing;
+    });
+    std::size_t last = all_.size();
+    for (const NotedWeight& noted : sorted) {
+      const std::size_t i = noted.crossing;
+      const HermiteAccumulator::PlaneSum& face = dominant(i);
+      if (noted.first != (&face == &all_[i].first) || !is_supported(i)) continue;
+      if (i != last) {
+        const Eigen::Vector3f normal = face.normal.normalized();
+        places.push_back({crossings.points_mm[i] - face.distance_mm() * normal,
+                          normal,
+                          static_cast<std::uint32_t>(views.size())});
+      }
+      views.emplace_back(noted.view, noted.weight);
+      last = i;
+    }
+  }
+  return {crossings.voxel_mm, places, std::move(views)};
 }
 
 float HermiteAccumulators::systematic_mm(std::size_t i) const {

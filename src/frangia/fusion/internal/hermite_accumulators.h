@@ -8,6 +8,7 @@
 
 #include "frangia/core/chunked_vector.h"
 #include "frangia/fusion/internal/edge_crossings.h"
+#include "frangia/fusion/view_weights.h"
 
 namespace frangia {
 
@@ -56,6 +57,14 @@ class HermiteAccumulators {
 
   /// Creates empty accumulators; `with_systematic` adds the sums of systematic parts.
   explicit HermiteAccumulators(std::size_t count, bool with_systematic = false);
+
+  /// Keeps the weight of each view from now on.
+  void keep_weights();
+  /// Notes the weight of a view at the first or the second face near a crossing.
+  void note_weight(std::size_t i, bool first, std::size_t view, float weight);
+  /// The weights of the views at the faces with the larger weight, which support a surface; none
+  /// where they were not kept.
+  [[nodiscard]] ViewWeights view_weights(const EdgeCrossings& crossings) const;
 
   /// Whether systematic parts are summed.
   [[nodiscard]] bool has_systematic() const { return systematic_.size() > 0; }
@@ -107,6 +116,14 @@ class HermiteAccumulators {
   ChunkedVector<HermiteAccumulator> all_;
   ChunkedVector<SystematicSums> systematic_;  ///< empty unless asked for
   float differing_factor_ = 1.0F;
+  /// The weight of a view at a face near a crossing.
+  struct NotedWeight {
+    std::uint32_t crossing;
+    std::uint16_t view;
+    bool first;
+    float weight;
+  };
+  std::vector<std::vector<NotedWeight>> noted_;  ///< one vector for each `kChunk`; empty: not kept
   std::vector<std::vector<HermiteAccumulator::PlaneSum>>
       secondary_;  ///< one vector for each `kChunk` crossings
 };

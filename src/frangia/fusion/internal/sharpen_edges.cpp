@@ -10,6 +10,7 @@
 #include "frangia/core/parallel.h"
 #include "frangia/fusion/internal/sharpening_plan.h"
 #include "frangia/fusion/internal/split_triangle.h"
+#include "frangia/uncertainty/combined_sigma.h"
 
 namespace frangia {
 namespace {
@@ -86,6 +87,13 @@ bool release_folding_vertices(SharpeningPlan& plan) {
   return any;
 }
 
+/// Adds to the sigma of a vertex that it was moved onto an edge: whether an edge is sharp
+/// or has a fillet or a chamfer as narrow as that, the points do not tell.
+void add_move(Mesh& mesh, Vertex vertex, float moved_mm) {
+  constexpr float kShare = 0.3F;  // between what sharp parts and parts with chamfers are off by
+  mesh.sigma_mm[vertex] = combined_sigma(mesh.sigma_mm[vertex], kShare * moved_mm);
+}
+
 /// Adds a vertex between two others; returns its number.
 Vertex add_split_vertex(Mesh& mesh, const Eigen::Vector3f& point, Vertex a, Vertex b) {
   mesh.vertices_mm.push_back(point);
@@ -111,8 +119,11 @@ void apply(const SharpeningPlan& plan, Mesh& mesh, std::vector<std::uint8_t>& sh
       if (cut.count > 1) cuts.emplace_back(t, cut);
     }
   }
-  for (const EdgeSplit& split : plan.splits)
-    add_split_vertex(mesh, split.point, split.a, split.b);
+  for (const EdgeSplit& split : plan.splits) {
+    const Eigen::Vector3f middle = 0.5F * (mesh.vertices_mm[split.a] + mesh.vertices_mm[split.b]);
+    add_move(
+        mesh, add_split_vertex(mesh, split.point, split.a, split.b), (split.point - middle).norm());
+  }
   sharp.resize(mesh.vertices_mm.size(), 1);
   for (const auto& [which, cut] : cuts) {
     const Mesh::Triangle corners = mesh.triangles[which];
@@ -123,6 +134,8 @@ void apply(const SharpeningPlan& plan, Mesh& mesh, std::vector<std::uint8_t>& sh
     }
     if (cut.count == cut.pieces.size()) {
       vertex[6] = add_split_vertex(mesh, cut.points[6], corners[0], corners[1]);
+      const Eigen::Vector3f middle = (cut.points[0] + cut.points[1] + cut.points[2]) / 3.0F;
+      add_move(mesh, vertex[6], (cut.points[6] - middle).norm());
       sharp.push_back(2);
     }
     for (std::size_t i = 0; i < cut.count; ++i) {
@@ -138,6 +151,7 @@ void apply(const SharpeningPlan& plan, Mesh& mesh, std::vector<std::uint8_t>& sh
   for (const Vertex v : plan.features.vertices) {
     const FeatureVertex* feature = plan.features.at(v);
     if (feature == nullptr) continue;
+    add_move(mesh, v, (feature->target - mesh.vertices_mm[v]).norm());
     mesh.vertices_mm[v] = feature->target;
     sharp[v] = feature->kind == Kind::Corner ? 2 : feature->kind == Kind::Edge ? 1 : 0;
   }

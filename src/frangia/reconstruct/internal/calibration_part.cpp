@@ -125,11 +125,10 @@ MeasuredVolume measured_volume(const ViewStore& views,
 
 }  // namespace
 
-std::function<void(View&, std::size_t camera)> calibration_part(
-    const ViewStore& views,
-    const Rig& rig,
-    const Pattern& pattern,
-    const Image<Eigen::Vector2f>& rays) {
+std::vector<SigmaTerm> calibration_part(const ViewStore& views,
+                                        const Rig& rig,
+                                        const Pattern& pattern,
+                                        const Image<Eigen::Vector2f>& rays) {
   if (!rig.calibration || rig.calibration->covariance.empty()) return {};
   const MeasuredVolume volume = measured_volume(views, rig.reference().model, rays);
   struct OfCamera {
@@ -140,10 +139,10 @@ std::function<void(View&, std::size_t camera)> calibration_part(
   for (std::size_t camera = 0; camera < rig.cameras.size(); ++camera)
     cameras->push_back(
         {{rig, pattern, volume, camera}, views.rays(rig.cameras[camera].camera.model)});
-  return [cameras](View& view, std::size_t camera) {
-    const OfCamera& own = cameras->at(camera);
-    own.uncertainty.add_to(view.range, *own.rays);
-  };
+  return {{UncertaintyTerm::Calibration, [cameras](const View& view, std::size_t camera) {
+             const OfCamera& own = cameras->at(camera);
+             return own.uncertainty.along_rays_mm(view.range.depth_mm, *own.rays);
+           }}};
 }
 
 }  // namespace frangia

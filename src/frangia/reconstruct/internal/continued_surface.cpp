@@ -69,7 +69,7 @@ FusionOptions coarse_fusion(const MeasuredViews& measured,
     options.voxel_mm = kVoxel_px * px * static_cast<double>(depth_mm);
     break;
   }
-  options.add_systematic = nullptr;
+  options.terms.clear();
   return options;
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 #include <utility>
+#include <vector>
 
 #include "frangia/core/error.h"
 #include "frangia/reconstruct/internal/continued_surface.h"
@@ -119,25 +120,26 @@ bool correct_before_registration(MeasuredViews& measured,
   return true;
 }
 
-std::optional<IndirectLightReport> correct_indirect_light(Mesh& fused,
+std::optional<IndirectLightReport> correct_indirect_light(FusedSurface& fused,
                                                           MeasuredViews& measured,
                                                           const ScanDecoding& decoding,
                                                           FusionOptions& fusion,
                                                           const Run& run) {
   constexpr int kPasses = 2;
-  const auto others = fusion.add_systematic;
+  const std::vector<SigmaTerm> others = fusion.terms;
   std::optional<IndirectLightReport> report;
   for (int pass = 0; pass < kPasses; ++pass) {
     const FusionOptions coarse = coarse_fusion(measured, decoding.rays, fusion);
-    const auto indirect = predict(measured, fused, decoding, coarse, run);
+    const auto indirect = predict(measured, fused.mesh, decoding, coarse, run);
     if (!indirect) break;
     correct_all(measured, *indirect, run);
     report = indirect->report;
-    fusion.add_systematic = [others, add = indirect->add](View& view, std::size_t camera) {
-      if (others) others(view, camera);
-      add(view);
-    };
-    fused = fuse_views(measured.reference(), decoding.scan.rig.reference().model, fusion, run);
+    fusion.terms = others;
+    fusion.terms.push_back({UncertaintyTerm::IndirectLight,
+                            [part = indirect->systematic_mm](
+                                const View& view, std::size_t /*camera*/) { return part(view); }});
+    const CameraViews one{measured.reference(), decoding.scan.rig.reference().model};
+    fused = fuse_with_weights({&one, 1}, fusion, run);
   }
   if (!report) return report;
   report->corrected = shifted_points(decoding.plan) == ShiftedPoints::Moved;

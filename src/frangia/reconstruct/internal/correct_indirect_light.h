@@ -26,7 +26,7 @@ bool correct_before_registration(MeasuredViews& measured,
 ///
 /// @errors   as fuse_views and indirect_part
 [[nodiscard]] std::optional<IndirectLightReport> correct_indirect_light(
-    Mesh& fused,
+    FusedSurface& fused,
     MeasuredViews& measured,
     const ScanDecoding& decoding,
     FusionOptions& fusion,

@@ -2,7 +2,6 @@
 
 #include <cstddef>
 #include <memory>
-#include <utility>
 #include <vector>
 
 #include "frangia/dataset/scan_of_camera.h"
@@ -20,7 +19,7 @@ struct CameraPart {
 
 }  // namespace
 
-std::optional<IndirectLightReport> count_indirect_light(Mesh& fused,
+std::optional<IndirectLightReport> count_indirect_light(FusedSurface& fused,
                                                         const MeasuredViews& measured,
                                                         const ScanDecoding& decoding,
                                                         FusionOptions& fusion,
@@ -33,7 +32,7 @@ std::optional<IndirectLightReport> count_indirect_light(Mesh& fused,
     own.rays = rays_of(scan.rig.reference().model);
     own.part = indirect_part({scan, own.rays, decoding.options, decoding.plan},
                              lit_views(measured, decoding.scan, camera),
-                             fused,
+                             fused.mesh,
                              ShiftedPoints::Kept,
                              run);
     if (own.part && (!report || own.part->report.largest_mm > report->largest_mm))
@@ -41,12 +40,12 @@ std::optional<IndirectLightReport> count_indirect_light(Mesh& fused,
   }
   if (!report) return report;
   report->corrected = false;
-  fusion.add_systematic = [others = std::move(fusion.add_systematic), parts](View& view,
-                                                                             std::size_t camera) {
-    if (others) others(view, camera);
-    if (const auto& part = parts->at(camera).part) part->add(view);
-  };
-  fused = fuse_views(views_of_cameras(measured, decoding.scan.rig), fusion, run);
+  fusion.terms.push_back(
+      {UncertaintyTerm::IndirectLight, [parts](const View& view, std::size_t camera) {
+         const auto& part = parts->at(camera).part;
+         return part ? part->systematic_mm(view) : Image<float>();
+       }});
+  fused = fuse_with_weights(views_of_cameras(measured, decoding.scan.rig), fusion, run);
   announce(*report, run);
   return report;
 }

@@ -18,7 +18,7 @@ namespace frangia {
 ///
 /// @shape    `decoding`: of the reference camera, with a scan of all cameras
 /// @errors   as fuse_views and indirect_part
-[[nodiscard]] std::optional<IndirectLightReport> count_indirect_light(Mesh& fused,
+[[nodiscard]] std::optional<IndirectLightReport> count_indirect_light(FusedSurface& fused,
                                                                       const MeasuredViews& measured,
                                                                       const ScanDecoding& decoding,
                                                                       FusionOptions& fusion,

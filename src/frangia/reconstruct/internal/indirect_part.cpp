@@ -256,7 +256,7 @@ std::optional<IndirectPart> indirect_part(const ScanDecoding& decoding,
   out.largest_shifts_mm = [correction](const View& view) {
     return correction->largest_shifts_mm(view);
   };
-  out.add = [correction](View& view) { correction->add(view); };
+  out.systematic_mm = [correction](const View& view) { return correction->systematic_mm(view); };
   return out;
 }
 

@@ -38,8 +38,8 @@ struct IndirectPart {
   /// removes those whose fringe order indirect light makes wrong; nothing where points are kept.
   /// Correcting a view again replaces the correction.
   std::function<void(View&)> correct;
-  /// Adds the uncertainty of the prediction to the systematic parts of a view's points.
-  std::function<void(View&)> add;
+  /// Uncertainty of the prediction for each point of a view.
+  std::function<Image<float>(const View&)> systematic_mm;
   /// Largest shift of each point's depth that indirect light can cause; see IndirectCorrection.
   std::function<Image<float>(const View&)> largest_shifts_mm;
   double unexplained = 1.0;  ///< of the frames' indirect light; see AlbedoEstimate

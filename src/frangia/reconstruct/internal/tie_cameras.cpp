@@ -23,15 +23,13 @@ void clear_outliers_of_cameras(MeasuredSetup& setup) {
   }
 }
 
-PointCloud collect_points_of_cameras(
-    const std::vector<CameraViews>& cameras,
-    const Run& run,
-    const std::function<void(View&, std::size_t camera)>& add_systematic) {
+PointCloud collect_points_of_cameras(const std::vector<CameraViews>& cameras,
+                                     const Run& run,
+                                     std::span<const SigmaTerm> terms) {
   PointCloud all;
   for (std::size_t camera = 0; camera < cameras.size(); ++camera) {
-    std::function<void(View&)> add;
-    if (add_systematic) add = [&](View& view) { add_systematic(view, camera); };
-    PointCloud points = collect_points(cameras[camera].views, cameras[camera].camera, run, add);
+    PointCloud points =
+        collect_points(cameras[camera].views, cameras[camera].camera, run, terms, camera);
     if (all.points_mm.empty()) {
       all = std::move(points);
       continue;

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <functional>
+#include <span>
 #include <vector>
 
 #include "frangia/fusion/fuse_views.h"
@@ -17,12 +17,11 @@ void tie_cameras(MeasuredViews& measured, const Rig& rig);
 /// Empties the views of all cameras that the registration of a setup emptied.
 void clear_outliers_of_cameras(MeasuredSetup& setup);
 
-/// Collects the points of all cameras, as `collect_points` does for one. `add_systematic` gets each
+/// Collects the points of all cameras, as `collect_points` does for one. `terms` get each
 /// view with the index of its camera.
-[[nodiscard]] PointCloud collect_points_of_cameras(
-    const std::vector<CameraViews>& cameras,
-    const Run& run,
-    const std::function<void(View&, std::size_t camera)>& add_systematic);
+[[nodiscard]] PointCloud collect_points_of_cameras(const std::vector<CameraViews>& cameras,
+                                                   const Run& run,
+                                                   std::span<const SigmaTerm> terms);
 
 /// The views of all cameras, the reference camera first. `measured` and `rig` must outlive them.
 [[nodiscard]] std::vector<CameraViews> views_of_cameras(const MeasuredViews& measured,

@@ -7,8 +7,8 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 
+#include "frangia/core/interruptible_chunks.h"
 #include "frangia/geometry/vertex_data.h"
-#include "frangia/reconstruct/internal/view_weights.h"
 #include "frangia/uncertainty/combined_sigma.h"
 
 namespace frangia {
@@ -22,6 +22,24 @@ Row row_of(const Eigen::Vector3d& point, const Eigen::Vector3d& direction) {
   Row row;
   row << point.cross(direction).transpose(), direction.transpose();
   return row;
+}
+
+/// The shares of the views in some vertices: a row for each view and a column for each vertex.
+Eigen::MatrixXf weights_at(const FusedSurface& surface,
+                           const std::vector<std::size_t>& vertices,
+                           std::size_t views,
+                           const Run& run) {
+  constexpr std::size_t kChunk = 1024;
+  Eigen::MatrixXf weights(static_cast<Eigen::Index>(views),
+                          static_cast<Eigen::Index>(vertices.size()));
+  interruptible_chunks(vertices.size(), kChunk, run, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      surface.weights.shares_at(surface.mesh.vertices_mm[vertices[i]],
+                                surface.mesh.normals[vertices[i]],
+                                weights.col(static_cast<Eigen::Index>(i)));
+    }
+  });
+  return weights;
 }
 
 /// The motion of a vertex: the weighted mean of those of the views.
@@ -111,17 +129,15 @@ void add_to(float& systematic, float more) {
 
 }  // namespace
 
-bool add_turntable_part(Mesh& mesh,
-                        const std::vector<CameraViews>& cameras,
-                        const ViewMotions& motions,
-                        const Run& run) {
+bool add_turntable_part(FusedSurface& surface, const ViewMotions& motions, const Run& run) {
+  Mesh& mesh = surface.mesh;
   constexpr std::size_t kSome = 2000;      // vertices that represent the part
   constexpr std::size_t kAtOnce = 200000;  // vertices whose weights are in memory
   const std::size_t count = mesh.vertices_mm.size();
   if (motions.empty() || count == 0 || mesh.sigma_mm.size() != count) return false;
   if (mesh.normals.size() != count) mesh.normals = vertex_normals(mesh);
   const std::vector<std::size_t> some = every(count, count / kSome + 1);
-  const Eigen::MatrixXf weights = view_weights(mesh, some, cameras, run);
+  const Eigen::MatrixXf weights = weights_at(surface, some, motions.size(), run);
   const Motion rigid = rigid_part(mesh, some, weights, motions);
   if (!matters(mesh, some, parts_of(mesh, some, weights, motions, rigid))) return false;
   ensure_sigma_parts(mesh);
@@ -130,7 +146,7 @@ bool add_turntable_part(Mesh& mesh,
     for (std::size_t& vertex : next)
       vertex += first;
     const std::vector<float> parts =
-        parts_of(mesh, next, view_weights(mesh, next, cameras, run), motions, rigid);
+        parts_of(mesh, next, weights_at(surface, next, motions.size(), run), motions, rigid);
     for (std::size_t i = 0; i < next.size(); ++i)
       add_to(mesh.sigma_systematic_mm[next[i]], parts[i]);
   }

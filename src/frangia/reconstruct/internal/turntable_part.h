@@ -17,14 +17,11 @@ namespace frangia {
 ///
 /// Returns whether the mesh has such a part.
 ///
-/// @shape    `cameras`: the views that the mesh was fused from; `motions`: one for each view
+/// @shape    `motions`: one for each view
 /// @missing  the mesh stays as it is where the part is below a fifth of sigma at 95 % of the
 /// vertices
 /// @source   GUM (JCGM 100:2008), 5.2
-bool add_turntable_part(Mesh& mesh,
-                        const std::vector<CameraViews>& cameras,
-                        const ViewMotions& motions,
-                        const Run& run);
+bool add_turntable_part(FusedSurface& surface, const ViewMotions& motions, const Run& run);
 
 /// Adds the same, along the viewing rays, to the points that `collect_points` collected from the
 /// cameras in turn.

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "frangia/geometry/ray_scene.h"
+#include "frangia/inspect/deviation.h"
+#include "frangia/inspect/internal/patch_grid.h"
+#include "frangia/inspect/surface_patches.h"
+
+namespace frangia::inspect {
+
+/// What was measured in a patch, mm.
+struct PatchMean {
+  double deviation_mm = 0.0;
+  double noise_mm = 0.0;      ///< of independent vertices
+  double one_point_mm = 0.0;  ///< noise of a point: the most that points which err alike have
+  double place_mm = 0.0;      ///< noise that points of this place share
+  double systematic_mm = 0.0;
+};
+
+/// The standard uncertainty of a point, in parts that average differently, mm.
+struct PointSigma {
+  double noise_mm = 0.0;       ///< differs from point to point
+  double place_mm = 0.0;       ///< noise beyond that of most vertices: neighbors share it
+  double systematic_mm = 0.0;  ///< alike over the part
+};
+
+/// The measured points in each patch: vertices, and parts of triangles that are larger than a
+/// patch.
+///
+/// Parts are compared by their own distance from the reference, so that the faces of a decimated
+/// mesh are measured between their corners, which lie at edges.
+class PatchFilter {
+ public:
+  /// Collects the points of a mesh. `grid` holds the centers of the patches.
+  PatchFilter(const Mesh& mesh,
+              const Deviations& deviations,
+              const RayScene& reference,
+              const PatchGrid& grid,
+              const SurfacePatches& patches);
+
+  /// Mean over the well measured points of a patch, and their area, mm2. A point that is less
+  /// certain than the median of the patch counts by the square of the ratio, also in the area:
+  /// beside others, it says little about the patch. Without points all is NaN, and the area 0.
+  [[nodiscard]] std::pair<PatchMean, double> average(std::size_t patch) const;
+
+ private:
+  /// A measured point.
+  struct Point {
+    double deviation_mm = 0.0;
+    PointSigma sigma;
+  };
+  friend class PointFinder;
+
+  std::vector<Point> points_;
+  std::vector<std::vector<std::pair<std::uint32_t, double>>> points_of_;  ///< with their areas
+};
+
+}  // namespace frangia::inspect
