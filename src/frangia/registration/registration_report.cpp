@@ -86,7 +86,7 @@ std::string residual_text(const RegistrationReport& report) {
 
 std::string RegistrationReport::untrusted_reason() const {
   constexpr double kContradicts = 3.0;  // standard deviations of a median, which noise never gives
-  if (explanation.best == PoseCause::Unexplained) {
+  if (trustworthy && explanation.best == PoseCause::Unexplained) {
     return fmt::format(
         "the views disagree by {:.2g} mm, and no single cause explains it: the part moved before "
         "several views, or fringe orders are wrong",
