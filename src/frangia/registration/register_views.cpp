@@ -259,7 +259,10 @@ RegistrationReport register_views(ViewStore& views,
   if (!explained.rigs.empty() && explained.explanation.decided) {
     correct_drift(work, given, explained.rigs);
   }
-  if (!explanation.text.empty() && explanation.best != PoseCause::ViewMoved) {
+  // The reason why nothing is trusted says the last of them.
+  const bool is_told =
+      explanation.best == PoseCause::ViewMoved || explanation.best == PoseCause::Unexplained;
+  if (!explanation.text.empty() && !is_told) {
     run.warn(explanation.remedy.empty() ? explanation.text
                                         : explanation.text + "; " + explanation.remedy);
   }
