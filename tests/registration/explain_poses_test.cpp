@@ -145,7 +145,7 @@ TEST(ExplainPoses, SaysByHowMuchAViewIsTurned) {
 TEST(ExplainPoses, BlamesTheRigAndNotTheTableForAWrongPrincipalPoint) {
   FaultyScan scan(8);
   for (testing::TrueView& view : scan.views)
-    view.rig.camera.model.principal_point_px += Eigen::Vector2d(0.4, 0.3);
+    view.rig.reference().model.principal_point_px += Eigen::Vector2d(0.4, 0.3);
   const Registered out = registered(scan, bracket());
   const PoseExplanation& found = out.report.explanation;
   EXPECT_EQ(found.best, PoseCause::Rig) << found.text;

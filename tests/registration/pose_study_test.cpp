@@ -91,7 +91,7 @@ std::vector<StudyFault> study_faults() {
        [](FaultyScan& scan, double mm) {
          // A point at the working distance moves by mm.
          for (testing::TrueView& view : scan.views) {
-           CameraModel& camera = view.rig.camera.model;
+           CameraModel& camera = view.rig.reference().model;
            camera.principal_point_px +=
                mm / 500.0 * camera.focal_px.x() * Eigen::Vector2d(0.8, 0.6);
          }
@@ -100,7 +100,7 @@ std::vector<StudyFault> study_faults() {
        PoseCause::Rig,
        [](FaultyScan& scan, double mm) {
          for (testing::TrueView& view : scan.views)
-           view.rig.camera.model.focal_px *= 1.0 + mm / 500.0;
+           view.rig.reference().model.focal_px *= 1.0 + mm / 500.0;
        }},
       {"angles in proportion",
        PoseCause::AnglesScaled,

@@ -141,14 +141,14 @@ struct FaultyScan {
 
   [[nodiscard]] View take(const RayScene& part, std::size_t index) const {
     const TrueView& own = views[index];
-    const CameraModel& camera = stated.camera.model;
+    const CameraModel& camera = stated.reference().model;
     View view{{Image<float>(camera.width_px, camera.height_px, kMissing),
                Image<float>(camera.width_px, camera.height_px, kMissing)},
               stated.rig_from_object(stated_angles_rad[index])};
     const Eigen::Isometry3d rig_from = rig_from_part(index);
     const Eigen::Isometry3d part_from_rig = rig_from.inverse();
     const Eigen::Vector3d light = part_from_rig * own.rig.projector.position_mm;
-    const auto true_rays = rays_of(own.rig.camera.model);
+    const auto true_rays = rays_of(own.rig.reference().model);
     const auto rays = rays_of(camera);
     parallel_rows(camera.height_px, [&](int y) {
       std::mt19937 random(seed * 7919U + static_cast<std::uint32_t>(1000 * index) +
@@ -246,9 +246,9 @@ class SurfaceErrors {
                 std::size_t view) {
     constexpr int kBlock = 12;        // pixels
     constexpr double kFewest = 30.0;  // points of a block
-    const CameraModel& camera = scan.stated.camera.model;
+    const CameraModel& camera = scan.stated.reference().model;
     const auto rays = rays_of(camera);
-    const auto true_rays = rays_of(scan.views[view].rig.camera.model);
+    const auto true_rays = rays_of(scan.views[view].rig.reference().model);
     const View own = store.load(view);
     const Isometry part_from_rig = scan.rig_from_part(view).inverse();
     const Isometry object_from_rig = store.rig_from_object(view).inverse();
@@ -318,7 +318,8 @@ inline Registered registered(const FaultyScan& scan,
   const auto stations = scan.stations();
   Run run;
   run.on_warning = [&](const std::string& sentence) { out.warnings.push_back(sentence); };
-  out.report = register_views(views, scan.stated.camera.model, scan.given(stations), options, run);
+  out.report =
+      register_views(views, scan.stated.reference().model, scan.given(stations), options, run);
   if (with_error) out.error = SurfaceErrors(scan, part, views).over(out.report.motions);
   out.error_mm = out.error.rms_mm;
   return out;

@@ -30,7 +30,6 @@
 #include "frangia/reconstruct/internal/tie_cameras.h"
 #include "frangia/reconstruct/internal/turntable_part.h"
 #include "frangia/reconstruct/refine_scan_rig.h"
-#include "frangia/rig/rig_of_camera.h"
 
 namespace frangia {
 namespace {
@@ -51,7 +50,7 @@ void report_disagreement(const MeasuredViews& measured, Reconstruction& out) {
 /// disagree about; points of several cameras are not those of one drift.
 TurntableStations stations_of(const Rig& rig, const MeasuredViews& measured) {
   TurntableStations given{*rig.turntable, measured.stations};
-  if (!rig.more_cameras.empty() || rig.projector.is_label) return given;
+  if (rig.cameras.size() > 1 || rig.projector.is_label) return given;
   given.rig = &rig;
   given.pattern = &measured.coarsest;
   return given;
@@ -68,7 +67,7 @@ bool register_setup(MeasuredSetup& setup,
                     const Run& run) {
   MeasuredViews& measured = setup.measured;
   const Scan& scan = decoding.scan;
-  const CameraModel& camera = scan.rig.camera.model;
+  const CameraModel& camera = scan.rig.reference().model;
   bool indirect_light = true;
   if (measured.points == 0) return true;
   clip_to_volume(measured, scan.rig, options, run);
@@ -78,7 +77,7 @@ bool register_setup(MeasuredSetup& setup,
     if (can.corrects_before_registration)
       indirect_light = correct_before_registration(measured, decoding, options.fusion, run);
     setup.registration = register_views(
-        measured.views, camera, stations_of(scan.rig, measured), options.registration, run);
+        measured.reference(), camera, stations_of(scan.rig, measured), options.registration, run);
     clear_outliers_of_cameras(setup);
   }
   return indirect_light;
@@ -155,7 +154,7 @@ Mesh fuse_registered(RegisteredViews& registered,
   MeasuredSetup& joined = registered.joined;
   const MeasuredViews& all = joined.measured;
   FusionOptions fusion = options.fusion;
-  fusion.add_systematic = calibration_part(all.views, scan.rig, all.coarsest, decoding.rays);
+  fusion.add_systematic = calibration_part(all.reference(), scan.rig, all.coarsest, decoding.rays);
   const std::vector<CameraViews> cameras = views_of_cameras(all, scan.rig);
   Mesh fused = fuse_views(cameras, fusion, run);
   if (can.indirect_light != IndirectLightUse::Ignored && registered.indirect_light) {
@@ -166,7 +165,7 @@ Mesh fuse_registered(RegisteredViews& registered,
   const ViewMotions motions = motions_of_views(joined, scan.rig, options, run);
   const bool turntable_counts = add_turntable_part(fused, cameras, motions, run);
   if (options.keep_raw) {
-    out.raw = collect_points_of_cameras(all, scan.rig, run, fusion.add_systematic);
+    out.raw = collect_points_of_cameras(cameras, run, fusion.add_systematic);
     if (turntable_counts) add_turntable_part(out.raw, cameras, motions, run);
   }
   color_vertices(fused, cameras, run);
@@ -206,24 +205,23 @@ Reconstruction reconstruct(const Scan& scan, const ReconstructOptions& given, co
   check_geometry(scan, plan, run);
   const Capabilities can = capabilities_of(scan.rig, plan, options);
   report(can, run);
-  const auto rays = rays_of(scan.rig.camera.model);
+  const auto rays = rays_of(scan.rig.reference().model);
   const ScanDecoding decoding{scan, rays, options.decode, plan};
   Reconstruction out;
-  out.cameras = camera_count(scan.rig);
+  out.cameras = scan.rig.cameras.size();
 
   // Frames -> phase -> range, view by view. Phase noise: phase/wrap_phase.
   DecodeOptions decode = options.decode;
   decode.colors = options.colors;
   MeasuredViews measured = measure_views(scan, rays, decode, options.mixed_pixels, run);
   release_cached_pixels();
-  out.views = measured.views.size();
+  out.views = measured.stations.size();
   out.view_summaries = std::move(measured.summaries);
   report_disagreement(measured, out);
 
   // Fringe orders from the other views, and registration, setup by setup.
   run.stage("views");
-  const std::vector<int> setup_numbers = measured.setups;
-  std::vector<MeasuredSetup> setups = split_setups(std::move(measured), setup_numbers);
+  std::vector<MeasuredSetup> setups = split_setups(std::move(measured));
   FringeOrderCorrectionOptions correction = options.fringe_order_correction;
   correction.mixed_pixels = options.mixed_pixels;
   std::set<std::string> outliers;

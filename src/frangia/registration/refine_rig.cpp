@@ -203,7 +203,7 @@ class RigFit {
     TableState table{rig_.turntable.value_or(Turntable{}), {}, {}, {}};
     for (const Station& station : stations)
       table.angles_rad.push_back(station.angle_rad);
-    const FastCameraModel camera(rig_.camera.model);
+    const FastCameraModel camera(rig_.reference().model);
     const Eigen::VectorXd none = Eigen::VectorXd::Zero(model_.count());
     const RegisterOptions& how = options_.table;
     DriftBundle bundle{.views = std::move(views),
@@ -231,7 +231,7 @@ class RigFit {
   /// The surfaces as another rig measures them.
   void triangulate(const Rig& by, bool changed) {
     bundle_.views = drift_views(surfaces_, rig_, by, changed, run_);
-    bundle_.camera = FastCameraModel(by.camera.model);
+    bundle_.camera = FastCameraModel(by.reference().model);
     if (!changed) return;
     refined_ = by;
     linearize();

@@ -153,8 +153,8 @@ void correct_drift(Registration& work,
     work.views.replace(
         view, retriangulate(work.views.load(view), *given.pattern, *given.rig, rigs[view]));
   }
-  work.bundle =
-      make_bundle(work.views, given.rig->camera.model, work.bundle.given, work.options, work.run);
+  work.bundle = make_bundle(
+      work.views, given.rig->reference().model, work.bundle.given, work.options, work.run);
   work.surfels = pick_all_surfels(work.bundle.maps, surfels_to_explain(work.views.size()));
   work.optimize_again();
 }

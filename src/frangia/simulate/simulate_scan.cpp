@@ -126,7 +126,7 @@ std::vector<SimulatedSetup> make_setups(const Mesh& part,
     const Mesh posed_part =
         part_pose == plan.part_poses.end() ? part : transform_mesh(part, part_pose->second);
     setups.push_back({std::move(stations), {}});
-    for (std::size_t camera = 0; camera < camera_count(plan.rig); ++camera) {
+    for (std::size_t camera = 0; camera < plan.rig.cameras.size(); ++camera) {
       setups.back().scenes.push_back(make_simulated_scene(
           posed_part,
           plan.rig,
@@ -151,7 +151,7 @@ void render_setup(SimulatedSetup& setup, const Scan& plan, const Run& run) {
       SimulatedScene& scene = setup.scenes[camera];
       scene.rig.projector = rig_of_camera(drifted, camera).projector;
       const std::filesystem::path folder =
-          plan.folder / plan.views[view.index].folder / scene.known_rig.camera.name;
+          plan.folder / plan.views[view.index].folder / scene.known_rig.reference().name;
       const auto stacks = render_view(scene, plan.patterns, view, view_run);
       std::filesystem::remove_all(folder);  // with the folders of the further cameras
       make_folder(folder);

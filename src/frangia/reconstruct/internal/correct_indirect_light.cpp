@@ -27,11 +27,11 @@ std::optional<IndirectPart> part_of(const MeasuredViews& measured,
 }
 
 void correct_all(MeasuredViews& measured, const IndirectPart& indirect, const Run& run) {
-  for (std::size_t i = 0; i < measured.views.size(); ++i) {
+  for (std::size_t i = 0; i < measured.reference().size(); ++i) {
     run.check();
-    View view = measured.views.load(i);
+    View view = measured.reference().load(i);
     indirect.correct(view);
-    measured.views.replace(i, view);
+    measured.reference().replace(i, view);
   }
 }
 
@@ -51,7 +51,7 @@ Mesh surface_or_none(const Make& make) {
 int thinning_px(const MeasuredViews& measured) {
   constexpr double kPoints = 100'000.0;  // of a view: with fewer, narrow grooves would be lost
   constexpr int kMost_px = 4;            // 1.5 pixels to a voxel of the first pass, as in others
-  const auto views = static_cast<double>(std::max<std::size_t>(1, measured.views.size()));
+  const auto views = static_cast<double>(std::max<std::size_t>(1, measured.reference().size()));
   const double points = static_cast<double>(measured.points) / views;
   return std::clamp(static_cast<int>(std::sqrt(points / kPoints)), 1, kMost_px);
 }
@@ -63,11 +63,11 @@ bool shows_indirect_light(const MeasuredViews& measured,
                           const ScanDecoding& decoding,
                           const FusionOptions& fusion,
                           const Run& run) {
-  const CameraModel camera = subsample(decoding.scan.rig.camera.model, step_px);
+  const CameraModel camera = subsample(decoding.scan.rig.reference().model, step_px);
   ViewStore thinned;
-  for (std::size_t i = 0; i < measured.views.size(); ++i) {
+  for (std::size_t i = 0; i < measured.reference().size(); ++i) {
     run.check();
-    thinned.add(subsample(measured.views.load_points(i), step_px));
+    thinned.add(subsample(measured.reference().load_points(i), step_px));
   }
   const Mesh surface = surface_or_none([&] { return fuse_views(thinned, camera, fusion, run); });
   return part_of(measured, surface, decoding, run).has_value();
@@ -81,7 +81,7 @@ std::optional<IndirectPart> predict(const MeasuredViews& measured,
                                     const Run& run) {
   auto first = part_of(measured, surface, decoding, run);
   if (!first) return first;
-  const CameraModel& camera = decoding.scan.rig.camera.model;
+  const CameraModel& camera = decoding.scan.rig.reference().model;
   const Mesh continued = surface_or_none(
       [&] { return continued_surface(measured, *first, camera, decoding.rays, coarse, run); });
   auto second = part_of(measured, continued, decoding, run);
@@ -100,7 +100,7 @@ bool correct_before_registration(MeasuredViews& measured,
   constexpr int kPasses = 2;
   if (measured.points == 0) return false;
   coarse = coarse_fusion(measured, decoding.rays, std::move(coarse));
-  const CameraModel& camera = decoding.scan.rig.camera.model;
+  const CameraModel& camera = decoding.scan.rig.reference().model;
   Run quiet;
   quiet.stop = run.stop;
   // A coarser surface is smoother where indirect light has torn the points apart.
@@ -111,7 +111,7 @@ bool correct_before_registration(MeasuredViews& measured,
   for (int pass = 0; pass < kPasses; ++pass) {
     const FusionOptions& fusion = pass == 0 ? first : coarse;
     const Mesh surface =
-        surface_or_none([&] { return fuse_views(measured.views, camera, fusion, quiet); });
+        surface_or_none([&] { return fuse_views(measured.reference(), camera, fusion, quiet); });
     const auto indirect = predict(measured, surface, decoding, coarse, quiet);
     if (!indirect) return pass > 0;
     correct_all(measured, *indirect, run);
@@ -137,7 +137,7 @@ std::optional<IndirectLightReport> correct_indirect_light(Mesh& fused,
       if (others) others(view, camera);
       add(view);
     };
-    fused = fuse_views(measured.views, decoding.scan.rig.camera.model, fusion, run);
+    fused = fuse_views(measured.reference(), decoding.scan.rig.reference().model, fusion, run);
   }
   if (!report) return report;
   report->corrected = shifted_points(decoding.plan) == ShiftedPoints::Moved;
