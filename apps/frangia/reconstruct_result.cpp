@@ -34,6 +34,7 @@ nlohmann::ordered_json json_of(const PoseExplanation& found) {
   json["moved_mm"] = found.moved_mm;  // NaN is written as null
   json["moved_sigma_mm"] = found.moved_sigma_mm;
   json["turned_deg"] = deg_from_rad(found.turned_rad);
+  json["turned_sigma_deg"] = deg_from_rad(found.turned_sigma_rad);
   json["scale"] = found.scale;
   json["terms"] = found.terms;
   json["unexplained_mm"] = found.unexplained_mm;

@@ -1,8 +1,12 @@
 #include "simulate_options.h"
 
+#include <charconv>
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "frangia/core/angles.h"
+#include "frangia/core/error.h"
 #include "frangia/simulate/parts.h"
 #include "frangia/simulate/rig_presets.h"
 
@@ -241,7 +245,62 @@ void add_turntable_faults(CLI::App& verb, SimulateArguments& arguments) {
       ->transform(length_zero_or_more());
 }
 
+void add_motion_faults(CLI::App& verb, SimulateArguments& arguments) {
+  constexpr const char* kGroup = "Motion during the scan, which rig.toml does not state";
+  MotionFaults& motion = arguments.options.motion;
+  verb.add_option("--slide-part",
+                  arguments.slide_part,
+                  "the part slides over the table before a view: VIEW:MM, such as 4:0.4")
+      ->group(kGroup);
+  verb.add_option("--lost-step",
+                  arguments.lost_step,
+                  "the table stays behind from a view on: VIEW:DEGREES, such as 4:1.8")
+      ->group(kGroup);
+  add_fault(verb,
+            kGroup,
+            "--drift",
+            motion.drift_mm,
+            "way of the projector during the scan, mm; it turns by half a degree for each mm")
+      ->transform(a_length());
+  add_fault(verb,
+            kGroup,
+            "--wobble",
+            motion.wobble_mm,
+            "standard deviation of the table's top from view to view, mm; it tilts by one degree "
+            "for each mm")
+      ->transform(length_zero_or_more());
+  add_fault(verb, kGroup, "--table-scale", motion.table_scale, "angles over those commanded")
+      ->check(a_number());
+}
+
 }  // namespace
+
+void read_motion_faults(SimulateArguments& arguments, std::size_t views) {
+  const auto read = [&](const std::string& text, const char* option, std::size_t& view) {
+    if (text.empty()) return 0.0;
+    const auto colon = text.find(':');
+    const char* const end = text.data() + text.size();
+    double amount = 0.0;
+    if (colon != std::string::npos) {
+      const auto first = std::from_chars(text.data(), text.data() + colon, view);
+      const auto second = std::from_chars(text.data() + colon + 1, end, amount);
+      if (first.ptr == text.data() + colon && second.ptr == end && second.ec == std::errc() &&
+          view > 0 && view < views)
+        return amount;
+    }
+    throw Error(
+        ErrorKind::Input,
+        fmt::format("`{}` {}: give VIEW:AMOUNT, such as 2:0.4, with a view from 1 to {}; view 0 "
+                    "is that of the beginning",
+                    option,
+                    text,
+                    views - 1));
+  };
+  MotionFaults& motion = arguments.options.motion;
+  motion.slide_mm = read(arguments.slide_part, "slide_part", motion.slide_view);
+  motion.lost_step_rad =
+      rad_from_deg(read(arguments.lost_step, "lost_step", motion.lost_step_view));
+}
 
 void add_simulate_options(CLI::App& verb, SimulateArguments& arguments) {
   add_scan_options(verb, arguments);
@@ -250,6 +309,7 @@ void add_simulate_options(CLI::App& verb, SimulateArguments& arguments) {
   add_projector_faults(verb, arguments);
   add_part_faults(verb, arguments);
   add_turntable_faults(verb, arguments);
+  add_motion_faults(verb, arguments);
   add_frame_faults(verb, arguments.frame_faults);
   add_allow_memory(verb, arguments.read);
 }

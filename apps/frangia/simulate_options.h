@@ -36,9 +36,16 @@ struct SimulateArguments {
   const CLI::Option* fringes_per_degree = nullptr;
   ReadOptions read;
   SimulatedFrameFaults frame_faults;
+  std::string slide_part;
+  std::string lost_step;
 };
 
 /// Adds the options to the verb.
 void add_simulate_options(CLI::App& verb, SimulateArguments& arguments);
+
+/// Reads the motions that are given for one view of a scan.
+///
+/// @errors   Error(Input) for a text that is not VIEW:AMOUNT, or a view that the scan does not have
+void read_motion_faults(SimulateArguments& arguments, std::size_t views);
 
 }  // namespace frangia

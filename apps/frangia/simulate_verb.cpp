@@ -173,6 +173,7 @@ void simulate(SimulateArguments arguments, Terminal& terminal) {
   const Mesh part = part_of(arguments.part, arguments.read, run);
   add_setups(plan, part, arguments);
   check_frame_faults(arguments.frame_faults, plan);
+  read_motion_faults(arguments, plan.views.size());
   SimulateOptions with_lamps = options;
   with_lamps.lamps_on = lamps_of(arguments.frame_faults, plan);
   run.stage("render");
@@ -192,6 +193,7 @@ void add_simulate_verb(CLI::App& program, Terminal& terminal) {
       "  frangia simulate bust --rig carducci -o bust-scan\n"
       "  frangia simulate bracket --setups 90 -o bracket-two-setups\n"
       "  frangia simulate groove --bounces 1 --albedo 0.8 -o groove-scan\n"
+      "  frangia simulate bust --slide-part 4:0.15 --drift 0.1mm -o bust-slid\n"
       "  frangia simulate bracket.stl --views 12 --samples 4 --axis-offset 0.5mm -o bracket-scan\n"
       "  frangia simulate --calibration checkerboard --views 12 -o poses\n"
       "  frangia simulate --calibration plate --rig angular --views 13 -o plate");

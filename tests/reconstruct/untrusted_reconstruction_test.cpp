@@ -34,16 +34,16 @@ TEST(Reconstruct, MarksAMeshOfViewsThatContradictEachOther) {
   frangia::Run run;
   run.on_note = [&](const std::string& sentence) { notes.push_back(sentence); };
   const Reconstruction result = reconstruct(scan, {}, run);
-  EXPECT_NE(result.untrusted_reason.find("contradict each other"), std::string::npos)
+  EXPECT_NE(result.untrusted_reason.find("no single cause explains it"), std::string::npos)
       << result.untrusted_reason;
   ASSERT_TRUE(result.registration.has_value());
-  EXPECT_FALSE(result.registration->trustworthy);
+  EXPECT_EQ(result.registration->untrusted_reason(), result.untrusted_reason);
   ASSERT_FALSE(result.mesh.sigma_mm.empty());
   EXPECT_TRUE(std::all_of(result.mesh.sigma_mm.begin(),
                           result.mesh.sigma_mm.end(),
                           [](float sigma) { return std::isnan(sigma); }));
   for (const std::string& note : notes)
-    EXPECT_EQ(note.find("agree"), std::string::npos) << note;
+    EXPECT_EQ(note.find("views agree"), std::string::npos) << note;
 }
 
 TEST(Reconstruct, KeepsARightRigWhereFewViewsOverlapTooLittleToRefineIt) {

@@ -15,24 +15,8 @@ namespace frangia {
 namespace {
 
 using testing::FaultyScan;
-
-struct Registered {
-  RegistrationReport report;
-  double error_mm = 0.0;
-  std::vector<std::string> warnings;
-};
-
-Registered registered(const FaultyScan& scan, const RayScene& part, bool with_error = true) {
-  Registered out;
-  ViewStore views = scan.take(part);
-  const auto stations = scan.stations();
-  Run run;
-  run.on_warning = [&](const std::string& sentence) { out.warnings.push_back(sentence); };
-  out.report = register_views(
-      views, scan.stated.reference().model, scan.given(stations), RegisterOptions{}, run);
-  if (with_error) out.error_mm = testing::surface_error_mm(scan, part, views);
-  return out;
-}
+using testing::registered;
+using testing::Registered;
 
 const RayScene& bracket() {
   static const RayScene kPart(make_part("bracket"));
@@ -116,6 +100,105 @@ TEST(ExplainPoses, LeavesOutAViewThatAloneIsElsewhere) {
   EXPECT_NE(out.warnings[0].find("view 4"), std::string::npos) << out.warnings[0];
 }
 
+TEST(ExplainPoses, JoinsSeveralViewsThatWereEachElsewhere) {
+  const std::vector<std::vector<std::size_t>> cases{{1, 3, 5}, {1, 2}, {2, 5}};
+  for (const auto& moved : cases) {
+    FaultyScan scan(6);
+    double way = 0.4;
+    for (const std::size_t view : moved) {
+      scan.displace(view, 0.4 * Eigen::Vector3d(std::cos(way), std::sin(way), 0.0));
+      way += 2.2;
+    }
+    const Registered out = registered(scan, bracket());
+    // Six views of flat faces do not decide which were elsewhere: that is in sigma.
+    EXPECT_LT(out.error.share_beyond, 0.05) << out.error.rms_mm << out.report.explanation.text;
+    EXPECT_LT(out.error_mm, 0.25) << out.report.explanation.text;
+    EXPECT_TRUE(out.report.outliers.empty());
+    ASSERT_EQ(out.warnings.size(), 1U);
+  }
+}
+
+TEST(ExplainPoses, NamesTheViewsThatWereEachElsewhereWhereTheyOverlapWell) {
+  FaultyScan scan(8);
+  scan.displace(1, Eigen::Vector3d(0.46, 0.19, 0.0));
+  scan.displace(4, Eigen::Vector3d(-0.43, 0.26, 0.0));
+  const Registered out = registered(scan, ball_bar());
+  const PoseExplanation& found = out.report.explanation;
+  EXPECT_EQ(found.best, PoseCause::ViewsMoved) << found.text;
+  EXPECT_EQ(found.views, (std::vector<std::size_t>{1, 4})) << found.text;
+  EXPECT_TRUE(found.decided) << found.text;
+  EXPECT_LT(out.error_mm, 0.01);
+  EXPECT_NE(found.text.find("in views 2 and 5"), std::string::npos) << found.text;
+}
+
+TEST(ExplainPoses, SaysByHowMuchAViewIsTurned) {
+  FaultyScan scan(8);
+  const Eigen::Vector3d axis = Eigen::Vector3d(0.6, 0.0, 0.8);
+  scan.displace(3, Eigen::Isometry3d(Eigen::AngleAxisd(rad_from_deg(2.0), axis)));
+  const Registered out = registered(scan, ball_bar());
+  const PoseExplanation& found = out.report.explanation;
+  EXPECT_EQ(found.best, PoseCause::ViewMoved) << found.text;
+  EXPECT_NEAR(found.turned_rad, rad_from_deg(2.0), rad_from_deg(0.1)) << found.text;
+  EXPECT_EQ(out.report.outliers, std::vector<std::size_t>{3});
+}
+
+TEST(ExplainPoses, BlamesTheRigAndNotTheTableForAWrongPrincipalPoint) {
+  FaultyScan scan(8);
+  for (testing::TrueView& view : scan.views)
+    view.rig.reference().model.principal_point_px += Eigen::Vector2d(0.4, 0.3);
+  const Registered out = registered(scan, bracket());
+  const PoseExplanation& found = out.report.explanation;
+  EXPECT_EQ(found.best, PoseCause::Rig) << found.text;
+  EXPECT_TRUE(out.report.outliers.empty());
+}
+
+TEST(ExplainPoses, FindsAnglesInAnotherProportionThoughTheyAreStatedAsExact) {
+  FaultyScan scan(8);
+  scan.state_exact();
+  scan.scale_angles(1.02);
+  const Registered out = registered(scan, bracket());
+  const PoseExplanation& found = out.report.explanation;
+  EXPECT_EQ(found.best, PoseCause::AnglesScaled) << found.text;
+  EXPECT_NEAR(found.scale, 1.02, 2e-4) << found.text;
+  EXPECT_LT(out.error_mm, 0.01);
+}
+
+TEST(ExplainPoses, AdvisesNoRefinementOfARigThatWasRefined) {
+  FaultyScan scan(8);
+  scan.drift_projector(rad_from_deg(0.1), 0.5, true);
+  RegisterOptions options;
+  options.wrong_rig = WrongRig::AdviseCalibration;
+  const Registered out = registered(scan, bracket(), false, options);
+  EXPECT_EQ(out.report.explanation.best, PoseCause::Rig) << out.report.explanation.text;
+  EXPECT_EQ(out.report.explanation.remedy, "calibrate the rig again");
+}
+
+TEST(ExplainPoses, CountsInSigmaWhatNoOverlapShowsOfAPlate) {
+  const RayScene plate(make_part("plate"));
+  FaultyScan scan(8);
+  scan.slide(4, Eigen::Vector3d(0.32, 0.24, 0.0));
+  const Registered out = registered(scan, plate);
+  const bool trusted = out.report.untrusted_reason().empty();
+  EXPECT_TRUE(!trusted || out.error.share_beyond < 0.05)
+      << out.error.rms_mm << " " << out.error.over_sigma << out.report.explanation.text;
+}
+
+TEST(RegistrationReport, IsNotTrustedWithoutAWholeSide) {
+  RegistrationReport report;
+  for (int i = 0; i < 12; ++i)
+    report.given_angles_rad.push_back(kTwoPi * i / 12);
+  report.outliers = {3, 7, 10};
+  EXPECT_EQ(report.untrusted_reason(), "");
+  report.outliers = {3, 4, 5, 6};
+  EXPECT_NE(report.untrusted_reason().find("more than a quarter"), std::string::npos);
+  report.outliers = {3, 4, 5};
+  EXPECT_EQ(report.untrusted_reason(), "");
+  report.given_angles_rad = {0.0, 0.8, 1.6, 2.4, 3.2, 4.4, 5.5};
+  report.outliers = {5};
+  EXPECT_NE(report.untrusted_reason().find("a whole side"), std::string::npos)
+      << report.untrusted_reason();
+}
+
 TEST(ExplainPoses, FindsATableThatTurnsByHalfOfWhatWasCommanded) {
   FaultyScan scan(8);
   for (testing::TrueView& view : scan.views)
@@ -136,6 +219,15 @@ TEST(ExplainPoses, FindsATurnThatDidNotHappen) {
   EXPECT_EQ(out.report.explanation.views, std::vector<std::size_t>{5});
   EXPECT_TRUE(out.report.outliers.empty());
   EXPECT_LT(out.error_mm, 0.01);
+}
+
+TEST(ExplainPoses, FindsNoContradictionInTheNoiseOfGrazingFaces) {
+  // The bracket has faces that a view sees at grazing incidence, with ten times the usual noise.
+  const Registered out = registered(FaultyScan(8), bracket());
+  EXPECT_EQ(out.report.explanation.best, PoseCause::AsStated) << out.report.explanation.text;
+  EXPECT_LT(out.report.contradiction, 0.002);
+  EXPECT_TRUE(out.report.outliers.empty());
+  EXPECT_EQ(out.report.untrusted_reason(), "");
 }
 
 TEST(ExplainPoses, BlamesNothingInASoundScan) {

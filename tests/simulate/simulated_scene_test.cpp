@@ -7,6 +7,7 @@
 #include "frangia/core/angles.h"
 #include "frangia/core/error.h"
 #include "frangia/simulate/internal/light_sample.h"
+#include "frangia/simulate/internal/move_views.h"
 #include "frangia/simulate/parts.h"
 #include "frangia/simulate/rig_presets.h"
 
@@ -47,6 +48,45 @@ TEST(SimulatedScene, TurnsWithTheAngleErrorAskedFor) {
     sum2 += error * error;
   }
   EXPECT_NEAR(std::sqrt(sum2 / kViews), rad_from_deg(0.1), rad_from_deg(0.01));
+}
+
+TEST(SimulatedScene, MovesPartAndTableFromTheViewOnThatIsNamed) {
+  SimulateOptions options;
+  options.motion = {.slide_view = 2, .slide_mm = 0.5, .lost_step_view = 3, .lost_step_rad = 0.1};
+  const SimulatedScene scene = plate_scene(options);
+  const Rig& rig = scene.known_rig;
+  const auto apart = [&](const SimulatedView& view, double angle_rad, double slide_mm) {
+    Eigen::Isometry3d part = Eigen::Isometry3d::Identity();
+    part.translation() = slide_mm * Eigen::Vector3d(0.8, 0.6, 0.0);
+    return (true_pose(scene, view).matrix() - (rig.rig_from_object(angle_rad) * part).matrix())
+        .norm();
+  };
+  EXPECT_LT(apart({1, 0.7}, 0.7, 0.0), 1e-12);
+  EXPECT_LT(apart({2, 1.4}, 1.4, 0.5), 1e-9);
+  EXPECT_LT(apart({3, 2.1}, 2.0, 0.5), 1e-9);
+}
+
+TEST(SimulatedScene, WobblesAsFarAsAskedAndTurnsInProportion) {
+  SimulateOptions options;
+  options.motion.wobble_mm = 0.03;
+  options.motion.table_scale = 1.02;
+  const SimulatedScene scene = plate_scene(options);
+  double squares = 0.0;
+  constexpr std::size_t kViews = 400;
+  for (std::size_t i = 0; i < kViews; ++i) {
+    const Eigen::Isometry3d exact = scene.known_rig.rig_from_object(1.02 * 0.5);
+    squares += (true_pose(scene, {i, 0.5}).translation() - exact.translation()).squaredNorm() / 3.0;
+  }
+  EXPECT_NEAR(std::sqrt(squares / kViews), 0.03, 0.003);
+}
+
+TEST(SimulatedScene, DriftsItsProjectorByTheShareOfTheScan) {
+  const Projector still = rig_preset("digital").projector;
+  const Projector half = drift(still, 0.2, 0.5);
+  EXPECT_NEAR((half.position_mm - still.position_mm).norm(), 0.1, 1e-12);
+  const Eigen::AngleAxisd turned(half.rotation * still.rotation.transpose());
+  EXPECT_NEAR(deg_from_rad(turned.angle()), 0.05, 1e-4);
+  EXPECT_EQ(drift(still, 0.2, 0.0).position_mm, still.position_mm);
 }
 
 TEST(SimulatedScene, TellsTheNoiseOfItsCamera) {

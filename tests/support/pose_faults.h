@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <random>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -69,6 +70,23 @@ struct FaultyScan {
   }
   void slide(std::size_t before, const Eigen::Vector3d& by_mm) {
     slide(before, Eigen::Isometry3d(Eigen::Translation3d(by_mm)));
+  }
+  /// One view alone was taken with the part elsewhere.
+  void displace(std::size_t view, const Eigen::Isometry3d& by) {
+    views[view].part = by * views[view].part;
+  }
+  void displace(std::size_t view, const Eigen::Vector3d& by_mm) {
+    displace(view, Eigen::Isometry3d(Eigen::Translation3d(by_mm)));
+  }
+  /// The table turns by other angles than was commanded, in proportion.
+  void scale_angles(double factor) {
+    for (TrueView& view : views)
+      view.angle_rad *= factor;
+  }
+  /// The rig states its turntable as exact.
+  void state_exact() {
+    Turntable& table = *stated.turntable;
+    table.point_sigma_mm = table.axis_sigma_rad = table.angle_sigma_rad = 0.0;
   }
   /// The table's axis and angles as the rig does not state them.
   void misalign(double shift_mm, double tilt_rad, double angle_sigma_rad) {
@@ -160,72 +178,151 @@ struct FaultyScan {
   }
 };
 
-/// Root mean square distance of a registered scan from the part along its normals: means over
-/// blocks of pixels, so that noise does not count, after the rigid motion that fits the points
-/// best.
-inline double surface_error_mm(const FaultyScan& scan,
-                               const RayScene& part,
-                               const ViewStore& store) {
-  constexpr int kBlock = 12;  // pixels
-  const CameraModel& camera = scan.stated.reference().model;
-  const auto rays = rays_of(camera);
-  struct Sample {
-    Eigen::Vector3d found, truth, normal;
-    int block;
+/// How far a registered scan is from the part.
+struct SurfaceError {
+  double rms_mm = 0.0;           ///< of blocks
+  double over_sigma = kMissing;  ///< root mean square of the blocks' errors over their sigma
+  double share_beyond = 0.0;     ///< of the blocks with an error above 3 sigma
+};
+
+/// The errors of a registered scan along the part's normals, as means over blocks of pixels, so
+/// that noise does not count, after the rigid motion that fits the points best. Their sigma is that
+/// of the poses, but for a rigid motion of all, of 2 um that views have by themselves, and of the
+/// noise of the mean of a block.
+class SurfaceErrors {
+ public:
+  SurfaceErrors(const FaultyScan& scan, const RayScene& part, const ViewStore& store) {
+    for (std::size_t view = 0; view < store.size(); ++view)
+      add_view(scan, part, store, view);
+    fit();
+  }
+
+  [[nodiscard]] SurfaceError over(const ViewMotions& motions) const {
+    constexpr double kSystematic_mm = 0.002;
+    SurfaceError error;
+    double squares = 0.0;
+    double ratios = 0.0;
+    double beyond = 0.0;
+    const bool known = !motions.empty();
+    Matrix6X rigid;
+    if (known) {
+      rigid = Matrix6X::Zero(6, motions.front().cols());
+      for (const Block& block : blocks_)
+        rigid += block.row * (block.row.transpose() * motions[block.view]);
+      const Matrix6 regular = squares_ + 1e-9 * Matrix6::Identity();
+      rigid = regular.ldlt().solve(rigid).eval();
+    }
+    for (const Block& block : blocks_) {
+      const double e = block.error_mm + block.row.dot(motion_);
+      squares += e * e;
+      double variance = std::pow(kSystematic_mm, 2) + block.variance_mm2;
+      if (known) variance += (block.row.transpose() * (motions[block.view] - rigid)).squaredNorm();
+      ratios += e * e / variance;
+      beyond += e * e > 9.0 * variance ? 1.0 : 0.0;
+    }
+    const double count = std::max<double>(1.0, static_cast<double>(blocks_.size()));
+    error.rms_mm = std::sqrt(squares / count);
+    error.over_sigma = std::sqrt(ratios / count);
+    error.share_beyond = beyond / count;
+    return error;
+  }
+
+ private:
+  using Matrix6X = Eigen::Matrix<double, 6, Eigen::Dynamic>;
+  using Matrix6 = Eigen::Matrix<double, 6, 6>;
+  using Row6 = Eigen::Matrix<double, 6, 1>;
+
+  struct Block {
+    std::size_t view = 0;
+    Row6 row = Row6::Zero();  ///< displacement along the normal by a rigid motion
+    double error_mm = 0.0;
+    double variance_mm2 = 0.0;
+    double count = 0.0;
   };
-  std::vector<Sample> samples;
-  int blocks = 0;
-  for (std::size_t view = 0; view < store.size(); ++view) {
-    const Image<float> depth = store.load_depth_mm(view);
-    const Eigen::Isometry3d part_from_rig = scan.rig_from_part(view).inverse();
-    const Eigen::Isometry3d object_from_rig = store.rig_from_object(view).inverse();
+
+  void add_view(const FaultyScan& scan,
+                const RayScene& part,
+                const ViewStore& store,
+                std::size_t view) {
+    constexpr int kBlock = 12;        // pixels
+    constexpr double kFewest = 30.0;  // points of a block
+    const CameraModel& camera = scan.stated.reference().model;
+    const auto rays = rays_of(camera);
     const auto true_rays = rays_of(scan.views[view].rig.reference().model);
+    const View own = store.load(view);
+    const Isometry part_from_rig = scan.rig_from_part(view).inverse();
+    const Isometry object_from_rig = store.rig_from_object(view).inverse();
     const int columns = camera.width_px / kBlock + 1;
+    std::vector<Block> blocks(static_cast<std::size_t>(columns * (camera.height_px / kBlock + 1)));
     for (int y = 0; y < camera.height_px; ++y) {
       for (int x = 0; x < camera.width_px; ++x) {
-        if (std::isnan(depth(x, y))) continue;
+        const float depth = own.range.depth_mm(x, y);
+        if (std::isnan(depth)) continue;
         const Eigen::Vector3d along =
             part_from_rig.linear() * true_rays(x, y).cast<double>().homogeneous();
         const auto hit = part.first_hit(part_from_rig.translation(), along);
         if (!hit) continue;
-        samples.push_back({object_from_rig * (static_cast<double>(depth(x, y)) *
-                                              rays(x, y).cast<double>().homogeneous()),
-                           part_from_rig.translation() + hit->distance * along,
-                           hit->normal,
-                           blocks + y / kBlock * columns + x / kBlock});
+        const Eigen::Vector3d point = object_from_rig * (static_cast<double>(depth) *
+                                                         rays(x, y).cast<double>().homogeneous());
+        const Eigen::Vector3d truth = part_from_rig.translation() + hit->distance * along;
+        Block& block = blocks[static_cast<std::size_t>(y / kBlock * columns + x / kBlock)];
+        Row6 row;
+        row << point.cross(hit->normal), hit->normal;
+        block.row += row;
+        block.error_mm += hit->normal.dot(point - truth);
+        block.variance_mm2 += std::pow(static_cast<double>(own.range.sigma_mm(x, y)), 2);
+        block.count += 1.0;
       }
     }
-    blocks += (camera.height_px / kBlock + 1) * columns;
-  }
-  // Point to plane: the scan as a whole may be anywhere.
-  Eigen::Isometry3d fit = Eigen::Isometry3d::Identity();
-  for (int turn = 0; turn < 3; ++turn) {
-    Eigen::Matrix<double, 6, 6> squares = Eigen::Matrix<double, 6, 6>::Zero();
-    Eigen::Matrix<double, 6, 1> sum = Eigen::Matrix<double, 6, 1>::Zero();
-    for (const Sample& sample : samples) {
-      const Eigen::Vector3d p = fit * sample.found;
-      Eigen::Matrix<double, 6, 1> row;
-      row << p.cross(sample.normal), sample.normal;
-      squares += row * row.transpose();
-      sum += row * sample.normal.dot(p - sample.truth);
+    for (Block& block : blocks) {
+      if (block.count < kFewest) continue;
+      block.view = view;
+      block.row /= block.count;
+      block.error_mm /= block.count;
+      block.variance_mm2 /= block.count * block.count;
+      blocks_.push_back(block);
     }
-    const Eigen::Matrix<double, 6, 1> step = -squares.ldlt().solve(sum);
-    const Eigen::Vector3d turned = step.head<3>();
-    fit = Eigen::Translation3d(Eigen::Vector3d(step.tail<3>())) *
-          Eigen::AngleAxisd(turned.norm(), turned.normalized()) * fit;
   }
-  std::vector<Eigen::Vector2d> means(static_cast<std::size_t>(blocks), Eigen::Vector2d::Zero());
-  for (const Sample& sample : samples) {
-    means[static_cast<std::size_t>(sample.block)] +=
-        Eigen::Vector2d(sample.normal.dot(fit * sample.found - sample.truth), 1.0);
+
+  /// Point to plane: the scan as a whole may be anywhere.
+  void fit() {
+    Row6 sum = Row6::Zero();
+    for (const Block& block : blocks_) {
+      squares_ += block.row * block.row.transpose();
+      sum += block.error_mm * block.row;
+    }
+    const Matrix6 regular = squares_ + 1e-9 * Matrix6::Identity();
+    motion_ = -regular.ldlt().solve(sum);
   }
-  double squares = 0.0;
-  double weight = 0.0;
-  for (const Eigen::Vector2d& mean : means) {
-    if (mean.y() > 0.0) squares += mean.x() * mean.x() / mean.y();
-    weight += mean.y();
-  }
-  return std::sqrt(squares / weight);
+
+  using Isometry = Eigen::Isometry3d;
+  std::vector<Block> blocks_;
+  Matrix6 squares_ = Matrix6::Zero();
+  Row6 motion_ = Row6::Zero();
+};
+
+/// A registration of a faulty scan.
+struct Registered {
+  RegistrationReport report;
+  SurfaceError error;
+  std::vector<std::string> warnings;
+  double error_mm = 0.0;
+};
+
+inline Registered registered(const FaultyScan& scan,
+                             const RayScene& part,
+                             bool with_error = true,
+                             const RegisterOptions& options = {}) {
+  Registered out;
+  ViewStore views = scan.take(part);
+  const auto stations = scan.stations();
+  Run run;
+  run.on_warning = [&](const std::string& sentence) { out.warnings.push_back(sentence); };
+  out.report =
+      register_views(views, scan.stated.reference().model, scan.given(stations), options, run);
+  if (with_error) out.error = SurfaceErrors(scan, part, views).over(out.report.motions);
+  out.error_mm = out.error.rms_mm;
+  return out;
 }
 
 }  // namespace frangia::testing

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <functional>
+#include <memory>
+#include <set>
 #include <stop_token>
 #include <string>
 
@@ -42,5 +44,16 @@ struct Run {
     if (on_note) on_note(sentence);
   }
 };
+
+/// Returns a run that passes each warning on once, for tasks that do a stage again.
+[[nodiscard]] inline Run without_repeated_warnings(const Run& run) {
+  Run once = run;
+  if (!run.on_warning) return once;
+  once.on_warning = [passed = std::make_shared<std::set<std::string>>(),
+                     pass = run.on_warning](const std::string& sentence) {
+    if (passed->insert(sentence).second) pass(sentence);
+  };
+  return once;
+}
 
 }  // namespace frangia

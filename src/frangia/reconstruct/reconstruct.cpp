@@ -184,6 +184,7 @@ Reconstruction reconstruct_with_refined_rig(const Scan& scan,
                                             const Run& run) {
   options.refine_rig = false;
   options.explain_rig = false;
+  options.registration.wrong_rig = WrongRig::AdviseCalibration;
   RigRefinement refinement = refine_scan_rig(scan, options, run);
   run.note(refinement.text());
   Scan refined = scan;
@@ -195,7 +196,10 @@ Reconstruction reconstruct_with_refined_rig(const Scan& scan,
 
 }  // namespace
 
-Reconstruction reconstruct(const Scan& scan, const ReconstructOptions& options, const Run& run) {
+Reconstruction reconstruct(const Scan& scan, const ReconstructOptions& given, const Run& all) {
+  const Run run = without_repeated_warnings(all);
+  ReconstructOptions options = given;
+  if (options.explain_rig) options.registration.wrong_rig = WrongRig::IsRefined;
   if (options.refine_rig) return reconstruct_with_refined_rig(scan, options, run);
   const DecodePlan plan = plan_decoding(scan.patterns, scan.rig, options.decode);
   check_geometry(scan, plan, run);

@@ -86,6 +86,168 @@ void hold_undetermined(DriftBundle& bundle, double min_gain) {
       (bundle.free_directions * (bundle.free_directions.transpose() * bundle.state.w)).eval();
 }
 
+/// A refinement in progress: the rig and the surfaces that it is refined by.
+class RigFit {
+ public:
+  RigFit(const Rig& rig,
+         std::span<const RigSurfaces> surfaces,
+         std::span<const Station> stations,
+         const RefineRigOptions& options,
+         const Run& run)
+      : RigFit(rig, surfaces, stations, options, run, drift_views(surfaces, rig, rig, false, run)) {
+  }
+
+  /// Axis and angles alone: what registration would make of the given rig.
+  void fit_table() {
+    linearize();
+    optimize_drift(bundle_, kComparedSurfels, options_.table.max_iterations, run_);
+    alone_ = {bundle_.state, bundle_.gate_mm};
+    if (sum_drift(bundle_, kComparedSurfels).distances_mm.empty()) {
+      throw Error(ErrorKind::Input,
+                  "the surfaces of the views do not overlap, so they do not determine the rig");
+    }
+  }
+
+  /// The rig with them, in rounds of triangulation and linearization.
+  void fit_rig() {
+    constexpr double kReopened = 3.0;    // of the gate at the end of the last round
+    constexpr double kConverged = 0.01;  // standard deviations of the prior
+    const double reach_mm = options_.table.relative_reach * scale_.distance_mm;
+    for (int round = 0; round < options_.max_rounds; ++round) {
+      run_.report(static_cast<double>(round) / options_.max_rounds);
+      // The fit of the first rounds is not yet as good as the noise allows.
+      if (round < 2) hold_undetermined(bundle_, options_.min_gain);
+      bundle_.gate_mm = round == 0 ? reach_mm : std::min(reach_mm, kReopened * bundle_.gate_mm);
+      optimize_drift(bundle_, kComparedSurfels, options_.table.max_iterations, run_);
+      const bool converged =
+          round > 0 && (bundle_.state.w - bundle_.linearized_at).norm() < kConverged;
+      triangulate(model_.rig_at(bundle_.state.w), true);
+      if (converged) break;
+    }
+    optimize_drift(bundle_, kComparedSurfels, options_.table.max_iterations, run_);
+  }
+
+  /// What the surfaces tell of the changes of the rig; what is held is not measured.
+  [[nodiscard]] Eigen::MatrixXd information(RigRefinement& result) {
+    const Eigen::MatrixXd free_directions = bundle_.free_directions;
+    bundle_.free_directions = Eigen::MatrixXd::Identity(model_.count(), model_.count());
+    const Eigen::MatrixXd all = information_of(bundle_, sum_drift(bundle_, kComparedSurfels));
+    result.directions = static_cast<std::size_t>(model_.count());
+    result.held = result.directions - static_cast<std::size_t>(free_directions.cols());
+    const Eigen::MatrixXd projection = free_directions * free_directions.transpose();
+    return projection * all * projection;
+  }
+
+  /// Compares both rigs by the wider of their gates, and keeps the better one.
+  void keep_better_rig(RigRefinement& result) {
+    const double gate_mm = std::max(alone_.gate_mm, bundle_.gate_mm);
+    bundle_.gate_mm = gate_mm;
+    bundle_.state.w = bundle_.linearized_at;
+    const DriftSums after = sum_drift(bundle_, kComparedSurfels);
+    std::vector<DriftView> views = std::move(bundle_.views);
+    DriftBundle found = bundle_;
+    found.views = std::move(views);
+    triangulate(rig_, false);
+    bundle_.state = alone_.state;
+    linearize();
+    const DriftSums given = sum_drift(bundle_, kComparedSurfels);
+    result.rms_before_mm = rms_within(given);
+    result.rms_after_mm = rms_within(after);
+    const double fewest = 0.99 * static_cast<double>(given.distances_mm.size());
+    result.kept_rig =
+        static_cast<double>(after.distances_mm.size()) < fewest ||
+        static_cast<double>(median(given.distances_mm)) <
+            options_.as_good_as_given * static_cast<double>(median(after.distances_mm));
+    result.rig = rig_;
+    const TableState& end = (result.kept_rig ? bundle_ : found).state.table;
+    result.angles_rad = end.angles_rad;
+    if (result.kept_rig) return;
+    bundle_ = std::move(found);
+    result.rig = refined_;
+    if (rig_.turntable) result.rig = with_table(refined_, *rig_.turntable, end.table);
+  }
+
+  [[nodiscard]] const DriftBundle& bundle() const { return bundle_; }
+  [[nodiscard]] const DriftModel& model() const { return model_; }
+
+ private:
+  struct TableFit {
+    DriftState state;
+    double gate_mm = 0.0;
+  };
+
+  RigFit(const Rig& rig,
+         std::span<const RigSurfaces> surfaces,
+         std::span<const Station> stations,
+         const RefineRigOptions& options,
+         const Run& run,
+         std::vector<DriftView> views)
+      : rig_(rig),
+        surfaces_(surfaces),
+        options_(options),
+        run_(run),
+        scale_(scale_of(views)),
+        model_(rig, options, scale_.distance_mm),
+        refined_(rig),
+        bundle_(bundle_of(std::move(views), stations)),
+        alone_{bundle_.state, bundle_.gate_mm} {
+    if (count_pairs(bundle_.pairs) > 0) return;
+    throw Error(ErrorKind::Input,
+                "no two surfaces of the scan can be compared: refining a rig needs several views "
+                "on its turntable, or fringes in both directions");
+  }
+
+  [[nodiscard]] DriftBundle bundle_of(std::vector<DriftView> views,
+                                      std::span<const Station> stations) const {
+    constexpr double kGateSigmas = 6.0;  // of one surfel: over four of a pair's
+    TableState table{rig_.turntable.value_or(Turntable{}), {}, {}, {}};
+    for (const Station& station : stations)
+      table.angles_rad.push_back(station.angle_rad);
+    const FastCameraModel camera(rig_.reference().model);
+    const Eigen::VectorXd none = Eigen::VectorXd::Zero(model_.count());
+    const RegisterOptions& how = options_.table;
+    DriftBundle bundle{.views = std::move(views),
+                       .camera = camera,
+                       .linearized_at = none,
+                       .free_directions = Eigen::MatrixXd(model_.count(), 0),
+                       .given = table,
+                       .table_sigma = prior_sigmas(table, how, scale_.distance_mm),
+                       .pairs = {},
+                       .noise_mm = scale_.sigma_mm * std::sqrt(2.0),
+                       .min_gate_mm = kGateSigmas * scale_.sigma_mm,
+                       .systematic_mm = how.relative_systematic * scale_.distance_mm,
+                       .gate_mm = how.relative_reach * scale_.distance_mm,
+                       .state = {none, table}};
+    bundle.pairs =
+        comparable_pairs(bundle.views, stations, table, camera, rig_.turntable.has_value());
+    return bundle;
+  }
+
+  void linearize() {
+    bundle_.linearized_at = bundle_.state.w;
+    differentiate(bundle_.views, surfaces_, PointDrift(model_, bundle_.state.w));
+  }
+
+  /// The surfaces as another rig measures them.
+  void triangulate(const Rig& by, bool changed) {
+    bundle_.views = drift_views(surfaces_, rig_, by, changed, run_);
+    bundle_.camera = FastCameraModel(by.reference().model);
+    if (!changed) return;
+    refined_ = by;
+    linearize();
+  }
+
+  const Rig& rig_;
+  std::span<const RigSurfaces> surfaces_;
+  const RefineRigOptions& options_;
+  const Run& run_;
+  SurfelScale scale_;
+  DriftModel model_;
+  Rig refined_;
+  DriftBundle bundle_;
+  TableFit alone_;
+};
+
 }  // namespace
 
 void RefineRigOptions::check() const {
@@ -109,120 +271,22 @@ RigRefinement refine_rig(const Rig& rig,
   for (const RigSurfaces& surface : surfaces)
     require(surface.stations.size() == surface.views.size(),
             "refine_rig: each view needs a station");
-  const bool turns = rig.turntable.has_value();
-  TableState table{rig.turntable.value_or(Turntable{}), {}, {}, {}};
-  for (const Station& station : stations)
-    table.angles_rad.push_back(station.angle_rad);
-  std::vector<DriftView> views = drift_views(surfaces, rig, rig, false, run);
-  const SurfelScale scale = scale_of(views);
-  const DriftModel model(rig, options, scale.distance_mm);
-  const FastCameraModel camera(rig.reference().model);
-  const Eigen::VectorXd none = Eigen::VectorXd::Zero(model.count());
-  constexpr double kGateSigmas = 6.0;  // of one surfel: over four of a pair's
-  DriftBundle bundle{.views = std::move(views),
-                     .camera = camera,
-                     .linearized_at = none,
-                     .free_directions = Eigen::MatrixXd(model.count(), 0),
-                     .given = table,
-                     .table_sigma = prior_sigmas(table, options.table, scale.distance_mm),
-                     .pairs = {},
-                     .noise_mm = scale.sigma_mm * std::sqrt(2.0),
-                     .min_gate_mm = kGateSigmas * scale.sigma_mm,
-                     .systematic_mm = options.table.relative_systematic * scale.distance_mm,
-                     .gate_mm = options.table.relative_reach * scale.distance_mm,
-                     .state = {none, table}};
-  bundle.pairs = comparable_pairs(bundle.views, stations, table, camera, turns);
-  if (count_pairs(bundle.pairs) == 0) {
-    throw Error(ErrorKind::Input,
-                "no two surfaces of the scan can be compared: refining a rig needs several views "
-                "on its turntable, or fringes in both directions");
-  }
-  const auto linearize_at_state = [&] {
-    bundle.linearized_at = bundle.state.w;
-    differentiate(bundle.views, surfaces, PointDrift(model, bundle.state.w));
-  };
-  const double reach_mm = bundle.gate_mm;
-
-  // Axis and angles alone: what registration would make of the given rig.
-  linearize_at_state();
-  optimize_drift(bundle, kComparedSurfels, options.table.max_iterations, run);
-  const DriftState alone = bundle.state;
-  const double gate_alone_mm = bundle.gate_mm;
-  const DriftSums before = sum_drift(bundle, kComparedSurfels);
-  if (before.distances_mm.empty()) {
-    throw Error(ErrorKind::Input,
-                "the surfaces of the views do not overlap, so they do not determine the rig");
-  }
-
-  // The rig with them, in rounds of triangulation and linearization.
-  Rig refined = rig;
-  for (int round = 0; round < options.max_rounds; ++round) {
-    constexpr double kReopened = 3.0;    // of the gate at the end of the last round
-    constexpr double kConverged = 0.01;  // standard deviations of the prior
-    run.report(static_cast<double>(round) / options.max_rounds);
-    // The fit of the first rounds is not yet as good as the noise allows.
-    if (round < 2) hold_undetermined(bundle, options.min_gain);
-    bundle.gate_mm = round == 0 ? reach_mm : std::min(reach_mm, kReopened * bundle.gate_mm);
-    optimize_drift(bundle, kComparedSurfels, options.table.max_iterations, run);
-    const bool converged = round > 0 && (bundle.state.w - bundle.linearized_at).norm() < kConverged;
-    refined = model.rig_at(bundle.state.w);
-    bundle.views = drift_views(surfaces, rig, refined, true, run);
-    bundle.camera = FastCameraModel(refined.reference().model);
-    linearize_at_state();
-    if (converged) break;
-  }
-  optimize_drift(bundle, kComparedSurfels, options.table.max_iterations, run);
-  const double gate_after_mm = bundle.gate_mm;
-  const Eigen::MatrixXd free_directions = bundle.free_directions;
-  bundle.free_directions = Eigen::MatrixXd::Identity(model.count(), model.count());
-  const DriftSums final_sums = sum_drift(bundle, kComparedSurfels);
-  Eigen::MatrixXd information = information_of(bundle, final_sums);
-  // What is held is not measured.
-  const Eigen::MatrixXd projection = free_directions * free_directions.transpose();
-  information = (projection * information * projection).eval();
-
+  RigFit fit(rig, surfaces, stations, options, run);
+  fit.fit_table();
+  fit.fit_rig();
   RigRefinement result;
-  result.directions = static_cast<std::size_t>(model.count());
-  result.held = result.directions - static_cast<std::size_t>(free_directions.cols());
-
-  // Both rigs by the wider of their gates.
-  bundle.gate_mm = std::max(gate_alone_mm, gate_after_mm);
-  bundle.state.w = bundle.linearized_at;
-  const DriftSums after = sum_drift(bundle, kComparedSurfels);
-  const DriftState found = bundle.state;
-  std::vector<DriftView> refined_views = std::move(bundle.views);
-  bundle.views = drift_views(surfaces, rig, rig, false, run);
-  bundle.camera = camera;
-  bundle.state = alone;
-  linearize_at_state();
-  const DriftSums given = sum_drift(bundle, kComparedSurfels);
-  result.rms_before_mm = rms_within(given);
-  result.rms_after_mm = rms_within(after);
-  const double fewest = 0.99 * static_cast<double>(given.distances_mm.size());
-  result.kept_rig = static_cast<double>(after.distances_mm.size()) < fewest ||
-                    static_cast<double>(median(given.distances_mm)) <
-                        options.as_good_as_given * static_cast<double>(median(after.distances_mm));
-  if (!result.kept_rig) {
-    bundle.views = std::move(refined_views);
-    bundle.camera = FastCameraModel(refined.reference().model);
-    bundle.state = found;
-    bundle.linearized_at = found.w;
-  }
-  const TableState& end = bundle.state.table;
-  result.angles_rad = end.angles_rad;
-  result.rig = rig;
-  if (!result.kept_rig)
-    result.rig = turns ? with_table(refined, *rig.turntable, end.table) : refined;
+  Eigen::MatrixXd information = fit.information(result);
+  fit.keep_better_rig(result);
   if (options.ball_distance_mm) {
-    const KnownLength length = measure_known_length(bundle, options);
+    const KnownLength length = measure_known_length(fit.bundle(), options);
     information += length.information;
     scale_rig(result.rig, length.scale);
     result.scale = length.scale;
   }
-  if (turns)
+  if (rig.turntable)
     result.axis_moved_mm = (result.rig.turntable->point_mm - rig.turntable->point_mm).norm();
-  const RigCovariance covariance = model.updated(information);
-  result.parameters = describe(model, bundle.state.w, covariance, result);
+  const RigCovariance covariance = fit.model().updated(information);
+  result.parameters = describe(fit.model(), fit.bundle().state.w, covariance, result);
   if (!result.kept_rig || options.ball_distance_mm)
     result.rig.calibration = refined_calibration(rig, covariance, stations.size());
   return result;

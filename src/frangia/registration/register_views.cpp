@@ -125,6 +125,8 @@ ExplainedPoses explain(RegistrationReport& report,
   if (auto angles = explain_angles(work)) {
     report.explanation = std::move(angles->explanation);
     work.bundle.given.angles_rad = std::move(angles->angles_rad);
+    if (report.explanation.best == PoseCause::AnglesScaled)
+      work.angle_factor = report.explanation.scale;
     work.optimize_again();
   }
   for (;;) {
@@ -151,11 +153,20 @@ void correct_drift(Registration& work,
     work.views.replace(
         view, retriangulate(work.views.load(view), *given.pattern, *given.rig, rigs[view]));
   }
-  const std::size_t surfels = surfels_per_view(2500, work.views.size());
   work.bundle = make_bundle(
       work.views, given.rig->reference().model, work.bundle.given, work.options, work.run);
-  work.surfels = pick_all_surfels(work.bundle.maps, surfels);
+  work.surfels = pick_all_surfels(work.bundle.maps, surfels_to_explain(work.views.size()));
   work.optimize_again();
+}
+
+/// Adds changes by which the views are uncertain, too.
+void add_motions(ViewMotions& motions, const ViewMotions& more) {
+  if (motions.size() != more.size()) return;
+  for (std::size_t view = 0; view < motions.size(); ++view) {
+    Eigen::Matrix<double, 6, Eigen::Dynamic> both(6, motions[view].cols() + more[view].cols());
+    both << motions[view], more[view];
+    motions[view] = std::move(both);
+  }
 }
 
 /// Whether the table alone does not explain the places of the views, which are then corrected.
@@ -214,7 +225,6 @@ RegistrationReport register_views(ViewStore& views,
                                   const TurntableStations& given,
                                   const RegisterOptions& options,
                                   const Run& run) {
-  const std::size_t few_surfels = surfels_per_view(2500, views.size());
   const std::size_t many_surfels = surfels_per_view(20000, views.size());
   options.check();
   require(given.stations.size() == views.size(),
@@ -233,7 +243,7 @@ RegistrationReport register_views(ViewStore& views,
   Registration work{std::move(made), {}, reach_mm, views, given.stations, options, run};
   Bundle& bundle = work.bundle;
   SurfelLists& surfels = work.surfels;
-  surfels = pick_all_surfels(bundle.maps, few_surfels);
+  surfels = pick_all_surfels(bundle.maps, surfels_to_explain(views.size()));
   const BundleSums before = sum(bundle, surfels);
   report.rms_before_mm = rms_of(before.distances_mm);
   report.closure_before_rad = closure_rad(before);
@@ -248,9 +258,11 @@ RegistrationReport register_views(ViewStore& views,
   const PoseExplanation& explanation = report.explanation;
   if (!explained.rigs.empty() && explained.explanation.decided) {
     correct_drift(work, given, explained.rigs);
-    explained = {};
   }
-  if (!explanation.text.empty() && explanation.best != PoseCause::ViewMoved) {
+  // The reason why nothing is trusted says the last of them.
+  const bool is_told =
+      explanation.best == PoseCause::ViewMoved || explanation.best == PoseCause::Unexplained;
+  if (!explanation.text.empty() && !is_told) {
     run.warn(explanation.remedy.empty() ? explanation.text
                                         : explanation.text + "; " + explanation.remedy);
   }
@@ -259,17 +271,8 @@ RegistrationReport register_views(ViewStore& views,
     if (!report.untrusted_reason().empty()) run.warn(report.untrusted_reason());
     return report;
   }
-  // Points in front of surfaces that others measured contradict every explanation: a view that has
-  // them is left out, or the result is not trusted.
-  const bool stated = explanation.best == PoseCause::AsStated;
-  const bool unexplained = explanation.best == PoseCause::Unexplained;
-  if (stated || unexplained || explanation.best == PoseCause::ViewMoved)
+  if (explanation.best == PoseCause::AsStated || explanation.best == PoseCause::ViewMoved)
     leave_out_outliers(report, work);
-  const auto is_contradicted = [&] {
-    const auto many = pick_all_surfels(bundle.maps, many_surfels);
-    return contradiction_of(sum(bundle, many), many) > options.max_contradiction;
-  };
-  if (unexplained || (stated && is_contradicted())) leave_out_moved(report, work);
   surfels = pick_all_surfels(bundle.maps, many_surfels);
   optimize_bundle(bundle, surfels, options.max_iterations, run);
   run.report(0.9);
@@ -277,6 +280,7 @@ RegistrationReport register_views(ViewStore& views,
   report_sums(report, after, work);
   report.iterations = bundle.iterations;
   const bool slid = keep_better_state(report, after, work);
+  add_motions(report.motions, explained.spread);
   if (!report.untrusted_reason().empty()) run.warn(report.untrusted_reason());
   if (slid) run.warn(report.rig_alone_text());
   const PartScale scale = measure_part_scale(bundle, surfels, camera);

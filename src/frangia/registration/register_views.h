@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <string>
 #include <vector>
@@ -13,6 +14,13 @@
 #include "frangia/views/view_store.h"
 
 namespace frangia {
+
+/// What follows from views that say that the rig is not as it states.
+enum class WrongRig : std::uint8_t {
+  AdviseRefinement,   ///< by the surfaces of the views
+  IsRefined,          ///< the caller does so
+  AdviseCalibration,  ///< the rig has been refined already
+};
 
 /// Prior knowledge as standard deviations, and limits. Relative lengths are shares of the working
 /// distance, the median distance of the measured points from the camera, so that a rig of any size
@@ -42,6 +50,8 @@ struct RegisterOptions {
                                       ///< does not state, as a share of the priors above, which
                                       ///< allow for a rig that was moved: 0.5 mm at 500 mm
   int max_iterations = 30;            ///< each linearizes once
+  /// What is done, or advised, where the views say that the rig is not as it states.
+  WrongRig wrong_rig = WrongRig::AdviseRefinement;
   /// Starting values: the part pose of each further setup, as `RegistrationReport` has them.
   std::vector<Eigen::Isometry3d> part_poses{};
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -16,6 +18,46 @@ std::string text_of(const TurntableSigma& sigma) {
                      sigma.point_mm,
                      deg_from_rad(sigma.axis_rad),
                      deg_from_rad(sigma.angle_rad));
+}
+
+/// Largest angle between neighbouring views all around, without some of them.
+double largest_gap_rad(std::vector<double> angles_rad) {
+  if (angles_rad.size() < 2) return kTwoPi;
+  for (double& angle : angles_rad)
+    angle -= kTwoPi * std::floor(angle / kTwoPi);
+  std::sort(angles_rad.begin(), angles_rad.end());
+  double gap = angles_rad.front() + kTwoPi - angles_rad.back();
+  for (std::size_t i = 1; i < angles_rad.size(); ++i)
+    gap = std::max(gap, angles_rad[i] - angles_rad[i - 1]);
+  return gap;
+}
+
+/// Why the views that remain do not show the part as the scan was planned; empty where they do.
+std::string incomplete_reason(const RegistrationReport& report) {
+  // A view shows surfaces that are turned away by up to 60 degrees to either side.
+  constexpr double kSide = rad_from_deg(120.0);
+  constexpr double kSame = 1e-6;
+  const std::size_t views = report.given_angles_rad.size();
+  if (4 * report.outliers.size() > views) {
+    return fmt::format(
+        "{} of {} views are left out, more than a quarter: what the surface shows is not the whole "
+        "scan",
+        report.outliers.size(),
+        views);
+  }
+  if (report.outliers.empty() || !report.part_poses.empty()) return {};
+  std::vector<double> left;
+  for (std::size_t view = 0; view < views; ++view) {
+    if (std::find(report.outliers.begin(), report.outliers.end(), view) == report.outliers.end())
+      left.push_back(report.given_angles_rad[view]);
+  }
+  const double gap_rad = largest_gap_rad(std::move(left));
+  if (gap_rad < kSide + kSame || gap_rad < largest_gap_rad(report.given_angles_rad) + kSame)
+    return {};
+  return fmt::format(
+      "a whole side of the part is missing: without the views that are left out, no view looks "
+      "from {:.0f}° of the turn",
+      deg_from_rad(gap_rad));
 }
 
 std::string residual_text(const RegistrationReport& report) {
@@ -44,6 +86,12 @@ std::string residual_text(const RegistrationReport& report) {
 
 std::string RegistrationReport::untrusted_reason() const {
   constexpr double kContradicts = 3.0;  // standard deviations of a median, which noise never gives
+  if (trustworthy && explanation.best == PoseCause::Unexplained) {
+    return fmt::format(
+        "the views disagree by {:.2g} mm, and no single cause explains it: the part moved before "
+        "several views, or fringe orders are wrong",
+        explanation.effect_mm);
+  }
   if (trustworthy && disagreement_over_sigma > kContradicts) {
     return fmt::format(
         "where the views overlap, they disagree by {:.2g} mm, {:.1f} times what noise and the "
@@ -52,15 +100,7 @@ std::string RegistrationReport::untrusted_reason() const {
         disagreement_over_sigma,
         text_of(sigma));
   }
-  if (trustworthy) {
-    const std::size_t views = given_angles_rad.size();
-    if (4 * outliers.size() <= views) return {};
-    return fmt::format(
-        "{} of {} views are left out, more than a quarter: what the surface shows is not the whole "
-        "scan",
-        outliers.size(),
-        views);
-  }
+  if (trustworthy) return incomplete_reason(*this);
   return fmt::format(
       "the views contradict each other, up to {:.0f} % of a view's points lie in front of the "
       "surface that another view measured: either the part moved between views, or the rig's "

@@ -17,6 +17,19 @@ struct LampSwitch {
   double light = 0.15;    ///< on a white surface, as a share of white
 };
 
+/// What moves during a simulated scan although its rig.toml and scan.toml say otherwise.
+struct MotionFaults {
+  std::size_t slide_view = 0;  ///< first view after the part slid over the table; 0 for none
+  double slide_mm = 0.0;
+  double drift_mm = 0.0;   ///< of the projector's place, evenly from the first view to the last; it
+                           ///< turns by half a degree for each millimetre
+  double wobble_mm = 0.0;  ///< standard deviation of the table's top in each direction, from view
+                           ///< to view; it tilts by one degree for each millimetre
+  double table_scale = 1.0;        ///< angles over those commanded
+  std::size_t lost_step_view = 0;  ///< first view after the table lost steps; 0 for none
+  double lost_step_rad = 0.0;
+};
+
 /// Brightness and faults of the simulated rig. All faults except camera noise are off by default.
 struct SimulateOptions {
   std::uint64_t seed = 1;  ///< of all random numbers
@@ -62,6 +75,7 @@ struct SimulateOptions {
   double axis_offset_mm = 0.0;           ///< distance of the true axis from that of rig.toml
   double axis_tilt_rad = 0.0;            ///< tilt of the true axis against that of rig.toml
   double turntable_top_radius_mm = 0.0;  ///< a disc with its top at z = 0; 0 for none
+  MotionFaults motion;
 };
 
 }  // namespace frangia

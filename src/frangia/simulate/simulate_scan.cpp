@@ -1,5 +1,6 @@
 #include "frangia/simulate/simulate_scan.h"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <system_error>
@@ -17,6 +18,8 @@
 #include "frangia/files/ply.h"
 #include "frangia/frames/png.h"
 #include "frangia/geometry/transform_mesh.h"
+#include "frangia/rig/rig_of_camera.h"
+#include "frangia/simulate/internal/move_views.h"
 #include "frangia/simulate/internal/render_view.h"
 #include "frangia/simulate/internal/simulated_scene.h"
 #include "frangia/simulate/internal/surface_color.h"
@@ -112,8 +115,11 @@ std::vector<SimulatedSetup> make_setups(const Mesh& part,
                                         const SimulateOptions& options,
                                         const Run& run) {
   std::map<int, std::vector<SimulatedView>> views;
-  for (std::size_t i = 0; i < plan.views.size(); ++i)
-    views[plan.views[i].setup].push_back({i, plan.views[i].angle_rad});
+  const double last = std::max(1.0, static_cast<double>(plan.views.size()) - 1.0);
+  for (std::size_t i = 0; i < plan.views.size(); ++i) {
+    views[plan.views[i].setup].push_back(
+        {i, plan.views[i].angle_rad, static_cast<double>(i) / last});
+  }
   std::vector<SimulatedSetup> setups;
   for (auto& [setup, stations] : views) {
     const auto part_pose = plan.part_poses.find(setup);
@@ -134,12 +140,16 @@ std::vector<SimulatedSetup> make_setups(const Mesh& part,
   return setups;
 }
 
-void render_setup(const SimulatedSetup& setup, const Scan& plan, const Run& run) {
+void render_setup(SimulatedSetup& setup, const Scan& plan, const Run& run) {
   const std::size_t cameras = setup.scenes.size();
   for (const SimulatedView& view : setup.views) {
+    Rig drifted = plan.rig;
+    const double drift_mm = setup.scenes.front().options.motion.drift_mm;
+    drifted.projector = drift(drifted.projector, drift_mm, view.drift_share);
     for (std::size_t camera = 0; camera < cameras; ++camera) {
       const Run view_run = part_of(run, view.index * cameras + camera, plan.views.size() * cameras);
-      const SimulatedScene& scene = setup.scenes[camera];
+      SimulatedScene& scene = setup.scenes[camera];
+      scene.rig.projector = rig_of_camera(drifted, camera).projector;
       const std::filesystem::path folder =
           plan.folder / plan.views[view.index].folder / scene.known_rig.reference().name;
       const auto stacks = render_view(scene, plan.patterns, view, view_run);
@@ -182,9 +192,9 @@ Scan simulate_scan(const Mesh& part,
                    const Run& run) {
   require(!plan.patterns.empty() && !plan.views.empty(),
           "a scan needs at least one pattern and one view; add them to the plan");
-  const std::vector<SimulatedSetup> setups = make_setups(part, plan, options, run);
+  std::vector<SimulatedSetup> setups = make_setups(part, plan, options, run);
   const std::filesystem::path mark = claim(plan.folder);
-  for (const SimulatedSetup& setup : setups)
+  for (SimulatedSetup& setup : setups)
     render_setup(setup, plan, run);
   write_ply(plan.folder / "truth.ply", options.color > 0.0 ? colored(part, options.color) : part);
   if (!plan.part_poses.empty()) {

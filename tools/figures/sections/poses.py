@@ -22,9 +22,22 @@ def report(text, results):
     text.add(
         f"`build/release/bin/pose_study bracket {SEEDS}`: 8 views of the digital rig with a quarter of the pixels on a side, "
         f"points by the true rig and pose with noise of the phase, {SEEDS} seeds; RMS error of blocks of points after the best rigid fit, over that of the scan without the fault. "
-        "A size is the largest motion of the fault in multiples of the noise of a pair of surfels.\n"
+        "A size is the largest motion of the fault in multiples of the noise of a pair of surfels. "
+        "Refused: not trustworthy, exit code 5. "
+        "Silent: more than 5 % of the blocks off by more than 3 sigma of the poses, with exit code 0.\n"
     )
-    text.table("part", "fault", "size", "named right", "named wrong", "views left out", "RMS over that without")
+    text.table(
+        "part",
+        "fault",
+        "size",
+        "named right",
+        "named wrong",
+        "views left out",
+        "refused",
+        "silent",
+        "RMS over that without",
+        "error over sigma",
+    )
     for part, (cells,) in results.items():
         for cell in cells:
             text.row(
@@ -34,7 +47,10 @@ def report(text, results):
                 f"{cell['right']} of {cell['seeds']}",
                 f"{cell['wrong']}",
                 f"{cell['left_out']}",
+                f"{cell['refused']}",
+                f"{cell['silent']}",
                 f"{cell['ratio']:.2f}",
+                f"{cell['over_sigma']:.2f}",
             )
     blamed = [part for part, (cells,) in results.items() for cell in cells if cell["fault"] == "none" and cell["wrong"]]
     if blamed:

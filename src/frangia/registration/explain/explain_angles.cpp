@@ -1,11 +1,12 @@
 #include "frangia/registration/internal/explain_angles.h"
 
-#include <array>
+#include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <utility>
 
 #include "frangia/registration/explain/internal/describe_explanation.h"
-#include "frangia/registration/internal/find_moved_view.h"
+#include "frangia/registration/internal/assess_fit.h"
 
 namespace frangia {
 namespace {
@@ -31,6 +32,44 @@ std::vector<double> scaled(const std::vector<double>& angles_rad, double factor)
   for (double& angle : all)
     angle = angles_rad[0] + factor * (angle - angles_rad[0]);
   return all;
+}
+
+/// Largest error of the steps per turn that are stated, but for another number of teeth or poles.
+constexpr double kMostWrong = 0.12;
+
+/// Factors of the commanded angles: half, double and the other direction, and those of a table
+/// whose steps per turn are not as stated, near enough to each other that the last view fits.
+std::vector<double> factors() {
+  constexpr double kStep = 0.004;
+  std::vector<double> all{0.5, 2.0, -1.0};
+  for (int i = 1; i * kStep < kMostWrong; ++i)
+    all.insert(all.end(), {1.0 - i * kStep, 1.0 + i * kStep});
+  return all;
+}
+
+/// The factor near one of `factors` with which most surfels agree.
+double refined_factor(Bundle& bundle,
+                      const SurfelLists& surfels,
+                      const std::vector<double>& given,
+                      double factor) {
+  constexpr double kFinest = 3e-5;
+  const double open_mm = bundle.gate_mm;
+  for (double step = 0.002; step > kFinest; step *= 0.5) {
+    // The farther off the factor, the farther apart the surfaces.
+    bundle.gate_mm = std::max(bundle.min_gate_mm, 0.75 * bundle.gate_mm);
+    double best = factor;
+    double most = agreement_of(bundle, surfels, scaled(given, factor)).surfels;
+    for (const double tried : {factor - step, factor + step}) {
+      const double agree = agreement_of(bundle, surfels, scaled(given, tried)).surfels;
+      if (agree > most) {
+        most = agree;
+        best = tried;
+      }
+    }
+    factor = best;
+  }
+  bundle.gate_mm = open_mm;
+  return factor;
 }
 
 /// The turn to view `first` did not happen.
@@ -64,11 +103,16 @@ std::optional<ExplainedAngles> explain_angles(const Registration& work) {
     least = agreement.violation;
     best = {std::move(angles_rad), as};
   };
-  for (const double factor : std::array{0.5, 2.0, -1.0}) {
+  for (const double factor : factors()) {
     PoseExplanation scale;
     scale.best = PoseCause::AnglesScaled;
     scale.scale = factor;
     try_angles(scaled(given, factor), scale);
+  }
+  const double found = best.explanation.scale;
+  if (best.explanation.best == PoseCause::AnglesScaled && std::abs(found - 1.0) < kMostWrong) {
+    best.explanation.scale = refined_factor(bundle, surfels, given, found);
+    best.angles_rad = scaled(given, best.explanation.scale);
   }
   for (std::size_t view = 1; view < given.size(); ++view) {
     PoseExplanation lost;
@@ -80,7 +124,7 @@ std::optional<ExplainedAngles> explain_angles(const Registration& work) {
   if (best.explanation.best == PoseCause::AsStated) return std::nullopt;
   best.explanation.text =
       describe(best.explanation, [&](std::size_t view) { return work.name_of(view); });
-  best.explanation.remedy = remedy_of(best.explanation);
+  best.explanation.remedy = remedy_of(best.explanation, work.options.wrong_rig);
   return best;
 }
 

@@ -18,6 +18,8 @@ const char* name_of(PoseCause cause) {
       return "part-moved-twice";
     case PoseCause::ViewMoved:
       return "view-moved";
+    case PoseCause::ViewsMoved:
+      return "views-moved";
     case PoseCause::PartDrift:
       return "part-drift";
     case PoseCause::Wobble:

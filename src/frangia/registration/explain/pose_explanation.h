@@ -18,6 +18,7 @@ enum class PoseCause : std::uint8_t {
   PartMoved,     ///< the part moved between two views
   PartMovedTwice,
   ViewMoved,   ///< one view alone was taken in another pose
+  ViewsMoved,  ///< several views, each by itself
   PartDrift,   ///< the part, or the table, moves evenly with time
   Wobble,      ///< table or part move at random from view to view
   Rig,         ///< projector or camera are not where the rig states, all through the scan
@@ -38,17 +39,18 @@ struct PoseExplanation {
   double log_odds = 0.0;                   ///< natural logarithm, of the best against the second
   double log_odds_stated = 0.0;            ///< the same against what is stated
   bool decided = true;                     ///< the odds are above 100 : 1
-  /// Views of the best: those before which the part moved, or the one that is elsewhere.
+  /// Views of the best: those before which the part moved, or those that are elsewhere.
   std::vector<std::size_t> views;
   double effect_mm = 0.0;  ///< what the best changes between the views, root mean square of pairs
-  double moved_mm = kMissing;        ///< of the part's centre, where the part moved
-  double moved_sigma_mm = kMissing;  ///< its standard deviation
-  double turned_rad = kMissing;      ///< of the part or the table
-  double scale = kMissing;           ///< of the angles, or the standard deviation of a wobble in mm
-  std::vector<std::string> terms;    ///< of the rig, that changed most
-  double unexplained_mm = 0.0;       ///< what the pairs of two views still have in common
-  std::string text{};                ///< one sentence, empty when all is as stated
-  std::string remedy{};              ///< what to do, empty for nothing
+  double moved_mm = kMissing;          ///< of the part's centre, where the part moved
+  double moved_sigma_mm = kMissing;    ///< its standard deviation
+  double turned_rad = kMissing;        ///< of the table; of the part about its centre, if it did
+  double turned_sigma_rad = kMissing;  ///< its standard deviation, of the part
+  double scale = kMissing;         ///< of the angles, or the standard deviation of a wobble in mm
+  std::vector<std::string> terms;  ///< of the rig, that changed most
+  double unexplained_mm = 0.0;     ///< what the pairs of two views still have in common
+  std::string text{};              ///< one sentence, empty when all is as stated
+  std::string remedy{};            ///< what to do, empty for nothing
 };
 
 }  // namespace frangia

@@ -5,9 +5,16 @@
 #include <numeric>
 
 #include "frangia/core/median.h"
-#include "frangia/registration/internal/find_moved_view.h"
 
 namespace frangia {
+namespace {
+
+double violation_share(const PairTally& tally) {
+  const std::size_t all = tally.agree + tally.violations;
+  return all == 0 ? 0.0 : static_cast<double>(tally.violations) / static_cast<double>(all);
+}
+
+}  // namespace
 
 double rms_of(const std::vector<float>& distances) {
   double sum = 0.0;
@@ -39,17 +46,24 @@ std::vector<std::size_t> find_outliers(const BundleSums& sums, double outlier_ov
   return outliers;
 }
 
+double free_space_violation(const BundleSums& sums) {
+  PairTally all;
+  for (const PairTally& region : sums.regions)
+    all.add(region);
+  return violation_share(all);
+}
+
 double contradiction_of(const BundleSums& sums, const SurfelLists& surfels) {
   double most = 0.0;
   for (std::size_t view = 0; view < surfels.size(); ++view) {
-    std::size_t compared = 0;
+    PairTally all;
     for (std::size_t other = 0; other < surfels.size(); ++other) {
-      compared += sums.pair(view, other).agree + sums.pair(view, other).violations;
-      compared += sums.pair(other, view).agree + sums.pair(other, view).violations;
+      all.add(sums.pair(view, other));
+      all.add(sums.pair(other, view));
     }
     const double fewest = kMinOverlap * static_cast<double>(surfels[view].size());
-    if (static_cast<double>(compared) > fewest)
-      most = std::max(most, free_space_violation(sums, view));
+    if (static_cast<double>(all.agree + all.violations) > fewest)
+      most = std::max(most, violation_share(all));
   }
   return most;
 }

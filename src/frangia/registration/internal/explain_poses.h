@@ -28,6 +28,9 @@ struct ExplainedPoses {
   PoseExplanation explanation;
   std::optional<CorrectedPoses> corrected{};
   std::vector<Rig> rigs{};  ///< of each view, where the rig drifts
+  /// By what the views leave open between causes, where the poses are not corrected; those of
+  /// `corrected` have it.
+  ViewMotions spread{};
 };
 
 /// Explains what the views of a registration disagree about, after its table has been refined.

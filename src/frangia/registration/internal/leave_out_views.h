@@ -12,6 +12,11 @@
 
 namespace frangia {
 
+/// Surfels of a view that registration compares while it looks for the state of the table.
+[[nodiscard]] inline std::size_t surfels_to_explain(std::size_t views) {
+  return surfels_per_view(2500, views);
+}
+
 /// A registration in progress.
 struct Registration {
   Bundle bundle;
@@ -21,6 +26,7 @@ struct Registration {
   std::span<const Station> stations;
   const RegisterOptions& options;
   const Run& run;
+  double angle_factor = 1.0;  ///< of the commanded angles, in `bundle.given`
 
   [[nodiscard]] std::string name_of(std::size_t view) const {
     return stations[view].name.empty() ? std::to_string(view) : stations[view].name;
@@ -31,8 +37,5 @@ struct Registration {
 
 /// Leaves out views that fit no other one.
 void leave_out_outliers(RegistrationReport& report, Registration& work);
-
-/// Leaves out views of a moved part one by one, as long as the others then agree better.
-void leave_out_moved(RegistrationReport& report, Registration& work);
 
 }  // namespace frangia

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
 #include <Eigen/Geometry>
@@ -63,6 +64,13 @@ struct SurfelPair {
   ///
   /// @source   symmetric point-to-plane distance: Rusinkiewicz 2019
   [[nodiscard]] double distance_mm() const { return normal.dot(offset); }
+
+  /// Distance in front of the target from which on a point contradicts it: `least_mm`, and more
+  /// than the noise of the two explains. Faces that are seen at grazing incidence have a large one.
+  [[nodiscard]] static double margin_mm(double least_mm, double variance_mm2) {
+    constexpr double kSigmas = 6.0;
+    return std::max(least_mm, kSigmas * std::sqrt(variance_mm2));
+  }
 
   /// Whether the point lies in front of the target by more than `margin_mm`, both along the normal
   /// and towards the camera: the other view looked through the place where the point is.

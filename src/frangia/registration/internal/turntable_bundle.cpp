@@ -118,12 +118,15 @@ struct BundleAccumulator {
     if (target == nullptr) return std::nan("");
     const Eigen::Vector3d facing = transfer.rotation() * surfel.normal.cast<double>();
     const SurfelPair pair(point, facing, *target);
-    tally.violations += pair.violates_free_space(options.free_space_margin_mm) ? 1U : 0U;
+    const double variance = std::pow(static_cast<double>(surfel.sigma_mm), 2) +
+                            std::pow(static_cast<double>(target->sigma_mm), 2);
+    tally.violations +=
+        pair.violates_free_space(SurfelPair::margin_mm(options.free_space_margin_mm, variance))
+            ? 1U
+            : 0U;
     if (facing.dot(point) >= 0.0 || !pair.faces_alike()) return std::nan("");
     const double distance = pair.distance_mm();
     if (!(std::abs(distance) < options.gate_mm)) return std::abs(distance);
-    const double variance = std::pow(static_cast<double>(surfel.sigma_mm), 2) +
-                            std::pow(static_cast<double>(target->sigma_mm), 2);
     const double weight = tukey_weight(distance, options.gate_mm) / variance;
     const PairJacobian jacobian = transfer.jacobian(pair.normal, surfel.point_mm.cast<double>());
     add_row(jacobian, weight, distance, to);

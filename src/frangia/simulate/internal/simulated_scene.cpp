@@ -13,6 +13,7 @@
 #include "frangia/rig/rig_of_camera.h"
 #include "frangia/simulate/internal/gather_light.h"
 #include "frangia/simulate/internal/light_sample.h"
+#include "frangia/simulate/internal/move_views.h"
 #include "frangia/simulate/internal/solid_builder.h"
 
 namespace frangia {
@@ -63,6 +64,10 @@ void check(const SimulateOptions& options, const Rig& rig) {
   check_range("axis offset", options.axis_offset_mm, 0.0, kMany);
   check_range("axis tilt", options.axis_tilt_rad, 0.0, 0.5);
   check_range("turntable top radius", options.turntable_top_radius_mm, 0.0, kMany);
+  check_range("slide of the part", options.motion.slide_mm, -100.0, 100.0);
+  check_range("drift", options.motion.drift_mm, -100.0, 100.0);
+  check_range("wobble", options.motion.wobble_mm, 0.0, 10.0);
+  check_range("scale of the table", options.motion.table_scale, -10.0, 10.0);
   if (options.display_gamma != 1.0 && rig.projector.is_angular()) {
     throw Error(ErrorKind::Input,
                 "display gamma is a fault of a digital projector, but the rig has an angular one; "
@@ -153,7 +158,8 @@ Eigen::Isometry3d true_pose(const SimulatedScene& scene, const SimulatedView& vi
       view.index == 0 ? 0.0
                       : scene.options.angle_error_rad *
                             normal_from(hash(hash(scene.options.seed, kAngleStream), view.index));
-  return scene.rig.rig_from_object(view.angle_rad + error);
+  return pose_with_motion(
+      scene.rig, view.angle_rad + error, view.index, scene.options.motion, scene.options.seed);
 }
 
 SimulatedScene make_simulated_scene(const Mesh& part,

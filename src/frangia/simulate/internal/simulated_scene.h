@@ -32,7 +32,8 @@ struct SimulatedScene {
 /// One station of the turntable.
 struct SimulatedView {
   std::size_t index = 0;
-  double angle_rad = 0.0;  ///< commanded
+  double angle_rad = 0.0;    ///< commanded
+  double drift_share = 0.0;  ///< of the drift during the scan, from 0 to 1
 };
 
 /// Places a part on a rig and sets the exposure by the brightest pixel of all views. `part_pose` is

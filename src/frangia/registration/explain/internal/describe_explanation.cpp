@@ -10,13 +10,29 @@
 namespace frangia {
 namespace {
 
-/// "0.41 ± 0.01 mm".
+/// "0.41 ± 0.01 mm and 2.0 ± 0.1°".
 std::string text_of_motion(const PoseExplanation& found) {
-  return fmt::format("{:.2g} ± {:.1g} mm", found.moved_mm, found.moved_sigma_mm);
+  std::string words = fmt::format("{:.2g} ± {:.1g} mm", found.moved_mm, found.moved_sigma_mm);
+  if (!std::isnan(found.turned_rad)) {
+    words += fmt::format(" and {:.2g} ± {:.1g}°",
+                         deg_from_rad(found.turned_rad),
+                         deg_from_rad(found.turned_sigma_rad));
+  }
+  return words;
 }
 
 std::string between(std::size_t view, const ViewNames& names) {
   return fmt::format("between views {} and {}", names(view - 1), names(view));
+}
+
+/// "2, 4 and 6".
+std::string list_of(const std::vector<std::size_t>& views, const ViewNames& names) {
+  std::string list;
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    if (i > 0) list += i + 1 == views.size() ? " and " : ", ";
+    list += names(views[i]);
+  }
+  return list;
 }
 
 std::string cause_text(PoseCause cause, const PoseExplanation& found, const ViewNames& names) {
@@ -34,15 +50,22 @@ std::string cause_text(PoseCause cause, const PoseExplanation& found, const View
     case PoseCause::AnglesScaled:
       return fmt::format("the table turns by {:.4f} times the commanded angles", found.scale);
     case PoseCause::PartMoved:
-      return fmt::format(
-          "the part slid by {} {}", text_of_motion(found), between(found.views.front(), names));
+      return fmt::format("the part {} by {} {}",
+                         std::isnan(found.turned_rad) ? "slid" : "moved",
+                         text_of_motion(found),
+                         between(found.views.front(), names));
     case PoseCause::PartMovedTwice:
-      return fmt::format("the part moved {} and {}",
+      return fmt::format("the part moved by up to {} {} and {}",
+                         text_of_motion(found),
                          between(found.views.front(), names),
                          between(found.views.back(), names));
     case PoseCause::ViewMoved:
       return fmt::format("view {} fits no other view: the part was elsewhere in it alone, by {}",
                          names(found.views.front()),
+                         text_of_motion(found));
+    case PoseCause::ViewsMoved:
+      return fmt::format("in views {} the part was elsewhere, in each by itself and by up to {}",
+                         list_of(found.views, names),
                          text_of_motion(found));
     case PoseCause::PartDrift:
       return fmt::format("the part or the table moved evenly during the scan, by {}",
@@ -81,6 +104,8 @@ const char* words_of(PoseCause cause) {
       return "a part that moved twice";
     case PoseCause::ViewMoved:
       return "a part that was elsewhere in one view";
+    case PoseCause::ViewsMoved:
+      return "a part that was elsewhere in several views";
     case PoseCause::PartDrift:
       return "a part or table that moved evenly";
     case PoseCause::Wobble:
@@ -99,6 +124,13 @@ const char* words_of(PoseCause cause) {
 
 std::string describe(const PoseExplanation& found, const ViewNames& names) {
   if (found.best == PoseCause::AsStated) return {};
+  if (!found.decided && found.second == found.best) {
+    return fmt::format(
+        "the views disagree by {:.2g} mm because of {}, but before which views is not decided; "
+        "what that leaves open is in sigma",
+        found.effect_mm,
+        words_of(found.best));
+  }
   if (!found.decided) {
     return fmt::format(
         "the views disagree by {:.2g} mm for a reason that is not decided: {} or {}; their "
@@ -115,6 +147,8 @@ std::string describe(const PoseExplanation& found, const ViewNames& names) {
       return words + "; both groups were joined";
     case PoseCause::PartMovedTwice:
       return words + "; the groups were joined";
+    case PoseCause::ViewsMoved:
+      return words + "; they were joined by their surfaces";
     case PoseCause::Turned:
     case PoseCause::AnglesScaled:
     case PoseCause::PartDrift:
@@ -128,7 +162,7 @@ std::string describe(const PoseExplanation& found, const ViewNames& names) {
   }
 }
 
-std::string remedy_of(const PoseExplanation& found) {
+std::string remedy_of(const PoseExplanation& found, WrongRig wrong_rig) {
   if (!found.decided) return {};
   switch (found.best) {
     case PoseCause::Turntable:
@@ -139,12 +173,16 @@ std::string remedy_of(const PoseExplanation& found) {
     case PoseCause::PartMoved:
     case PoseCause::PartMovedTwice:
     case PoseCause::ViewMoved:
+    case PoseCause::ViewsMoved:
       return "clamp the part";
     case PoseCause::PartDrift:
     case PoseCause::Wobble:
       return "check the bearing of the table and how the part stands";
     case PoseCause::Rig:
-      return "refine the rig by `refine_rig`, or calibrate it";
+      if (wrong_rig == WrongRig::IsRefined) return {};
+      return wrong_rig == WrongRig::AdviseCalibration
+                 ? "calibrate the rig again"
+                 : "refine the rig by `refine_rig`, or calibrate it";
     case PoseCause::RigDrift:
       return "let the projector warm up before a scan";
     default:

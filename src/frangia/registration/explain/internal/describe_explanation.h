@@ -4,6 +4,7 @@
 #include <string>
 
 #include "frangia/registration/explain/pose_explanation.h"
+#include "frangia/registration/register_views.h"
 
 namespace frangia {
 
@@ -14,6 +15,6 @@ using ViewNames = std::function<std::string(std::size_t)>;
 [[nodiscard]] std::string describe(const PoseExplanation& found, const ViewNames& names);
 
 /// What to do about it, as a clause; empty for nothing.
-[[nodiscard]] std::string remedy_of(const PoseExplanation& found);
+[[nodiscard]] std::string remedy_of(const PoseExplanation& found, WrongRig wrong_rig);
 
 }  // namespace frangia

@@ -22,6 +22,10 @@ PoseEvidence::PoseEvidence(NormalEquations data, Eigen::MatrixXd table)
   reduced_.gradient = data_.gradient - across * of_table.solve(table_.transpose() * data_.gradient);
 }
 
+double PoseEvidence::table_log_odds() const {
+  return log_odds(table_.transpose() * data_.hessian * table_, table_.transpose() * data_.gradient);
+}
+
 double PoseEvidence::log_odds(const Eigen::MatrixXd& hessian, const Eigen::VectorXd& gradient) {
   const auto llt = with_prior(hessian);
   const double log_determinant = 2.0 * llt.matrixLLT().diagonal().array().log().sum();

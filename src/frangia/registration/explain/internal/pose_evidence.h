@@ -29,6 +29,8 @@ class PoseEvidence {
   /// @shape    `data`: in x, at x = 0; `table`: T
   PoseEvidence(NormalEquations data, Eigen::MatrixXd table);
 
+  /// Logarithm of the odds of the table against one that is exact.
+  [[nodiscard]] double table_log_odds() const;
   /// The data after the table has been fitted to it, in x.
   [[nodiscard]] const NormalEquations& without_table() const { return reduced_; }
   /// Logarithm of the odds against the table alone.

@@ -3,10 +3,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <utility>
 
+#include <Eigen/Cholesky>
+
 #include "frangia/core/symmetric_eigen.h"
+#include "frangia/registration/explain/internal/cause_motions.h"
 
 namespace frangia {
 namespace {
@@ -20,110 +24,13 @@ constexpr std::array<double, 4> kPlay{5e-6, 1.5e-5, 5e-5, 1e-4};
 constexpr std::array<double, 3> kElsewhere{1e-3, 3e-3, 1e-2};
 /// Of angles against those commanded.
 constexpr std::array<double, 3> kAngleScales{1e-3, 1e-2, 1e-1};
+/// Of a rig all through the scan, over the drift since its calibration: a calibration may be wrong,
+/// too.
+constexpr std::array<double, 3> kRigs{1.0, 3.0, 10.0};
 /// Of the drift during a scan, over that since the calibration.
 constexpr std::array<double, 3> kDrifts{0.1, 0.3, 1.0};
 
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
-
-/// Motions of points by changes of 1 mm: rotations about the part's centre by an arc of 1 mm, then
-/// shifts.
-Matrix6 motions_of_part(const PoseSetting& setting) {
-  Matrix6 by = Matrix6::Zero();
-  for (int i = 0; i < 3; ++i) {
-    const Eigen::Vector3d turn = Eigen::Vector3d::Unit(i) / setting.radius_mm;
-    by.block<3, 1>(0, i) = turn;
-    by.block<3, 1>(3, i) = setting.center_mm.cross(turn);
-    by(3 + i, 3 + i) = 1.0;
-  }
-  return by;
-}
-
-/// A rotation about the table's axis by 1 rad.
-Eigen::Matrix<double, 6, 1> turn_of_table() {
-  return Eigen::Matrix<double, 6, 1>::Unit(2);
-}
-
-Eigen::MatrixXd repeated(const Eigen::MatrixXd& motions,
-                         const Eigen::VectorXd& shares,
-                         Eigen::Index unknowns) {
-  Eigen::MatrixXd all = Eigen::MatrixXd::Zero(unknowns, motions.cols());
-  for (Eigen::Index view = 0; view < shares.size(); ++view)
-    all.middleRows(6 * view, 6) = shares[view] * motions;
-  return all;
-}
-
-/// 1 for each view from `first` on.
-Eigen::VectorXd from_on(std::size_t first, std::size_t views) {
-  Eigen::VectorXd shares = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(views));
-  shares.tail(static_cast<Eigen::Index>(views - first)).setOnes();
-  return shares;
-}
-
-Eigen::VectorXd turned_angles(const PoseSetting& setting) {
-  Eigen::VectorXd angles(static_cast<Eigen::Index>(setting.views));
-  for (std::size_t view = 0; view < setting.views; ++view)
-    angles[static_cast<Eigen::Index>(view)] = setting.angles_rad[view] - setting.angles_rad[0];
-  return angles;
-}
-
-Eigen::MatrixXd unit_motions(PoseCause cause,
-                             const std::vector<std::size_t>& at,
-                             const PoseSetting& setting,
-                             Eigen::Index unknowns) {
-  const auto views = static_cast<Eigen::Index>(setting.views);
-  const Eigen::Index rig = setting.rig_changes;
-  Eigen::MatrixXd none(unknowns, 0);
-  switch (cause) {
-    case PoseCause::AsStated:
-      return none;
-    case PoseCause::Turntable: {
-      Eigen::MatrixXd all = Eigen::MatrixXd::Zero(unknowns, setting.beyond_stated.cols());
-      all.topRows(6 * views) = setting.beyond_stated;
-      return all;
-    }
-    case PoseCause::Turned:
-      return repeated(turn_of_table() / setting.radius_mm, from_on(at[0], setting.views), unknowns);
-    case PoseCause::AnglesScaled:
-      return repeated(turn_of_table(), turned_angles(setting), unknowns);
-    case PoseCause::PartMoved:
-      return repeated(motions_of_part(setting), from_on(at[0], setting.views), unknowns);
-    case PoseCause::PartMovedTwice: {
-      Eigen::MatrixXd all(unknowns, 12);
-      all << unit_motions(PoseCause::PartMoved, {at[0]}, setting, unknowns),
-          unit_motions(PoseCause::PartMoved, {at[1]}, setting, unknowns);
-      return all;
-    }
-    case PoseCause::ViewMoved:
-      return repeated(motions_of_part(setting),
-                      Eigen::VectorXd::Unit(views, static_cast<Eigen::Index>(at[0])),
-                      unknowns);
-    case PoseCause::PartDrift:
-      return repeated(motions_of_part(setting),
-                      Eigen::Map<const Eigen::VectorXd>(setting.times.data(), views),
-                      unknowns);
-    case PoseCause::Wobble:
-    case PoseCause::Unexplained: {
-      Eigen::MatrixXd all = Eigen::MatrixXd::Zero(unknowns, 6 * views);
-      for (Eigen::Index view = 0; view < views; ++view)
-        all.block<6, 6>(6 * view, 6 * view) = motions_of_part(setting);
-      return all;
-    }
-    case PoseCause::Rig: {
-      Eigen::MatrixXd all = Eigen::MatrixXd::Zero(unknowns, rig);
-      all.middleRows(6 * views, rig).setIdentity();
-      return all;
-    }
-    case PoseCause::RigDrift: {
-      // The rig may be as stated at the beginning, at the end or between: its mean change is half
-      // of its drift.
-      Eigen::MatrixXd all = Eigen::MatrixXd::Zero(unknowns, 2 * rig);
-      all.bottomRightCorner(2 * rig, 2 * rig).setIdentity();
-      all.block(6 * views, 0, rig, rig) *= 0.5;
-      return all;
-    }
-  }
-  return none;
-}
 
 /// Collects the hypotheses of all causes.
 class CauseScores {
@@ -131,6 +38,8 @@ class CauseScores {
   void add(CauseHypothesis hypothesis) {
     Score& score = scores_[hypothesis.cause];
     score.log_odds.push_back(hypothesis.log_odds);
+    const auto [at, is_new] = score.by_views.try_emplace(hypothesis.views, hypothesis);
+    if (!is_new && hypothesis.log_odds > at->second.log_odds) at->second = hypothesis;
     if (score.log_odds.size() == 1 || hypothesis.log_odds > score.best.log_odds)
       score.best = std::move(hypothesis);
   }
@@ -140,13 +49,15 @@ class CauseScores {
                   const std::vector<std::size_t>& views,
                   const NormalEquations& data,
                   const std::array<double, n>& scales,
-                  double unit) {
+                  double unit,
+                  bool slides = false) {
     for (const double share : scales) {
       const double scale = share * unit;
       add({cause,
            views,
            scale,
-           PoseEvidence::log_odds(scale * scale * data.hessian, scale * data.gradient)});
+           PoseEvidence::log_odds(scale * scale * data.hessian, scale * data.gradient),
+           slides});
     }
   }
   [[nodiscard]] std::vector<ScoredCause> sorted() const {
@@ -156,8 +67,9 @@ class CauseScores {
       double sum = 0.0;
       for (const double odds : score.log_odds)
         sum += std::exp(odds - most);
-      const double mean = most + std::log(sum / static_cast<double>(score.log_odds.size()));
-      all.push_back({cause, mean, score.best});
+      const auto count = static_cast<double>(score.log_odds.size());
+      const double mean = most + std::log(sum / count);
+      all.push_back({cause, mean, score.best, others_than(score, std::log(count))});
     }
     std::stable_sort(all.begin(), all.end(), [](const ScoredCause& a, const ScoredCause& b) {
       return a.log_odds > b.log_odds;
@@ -169,7 +81,26 @@ class CauseScores {
   struct Score {
     std::vector<double> log_odds;
     CauseHypothesis best;
+    std::map<std::vector<std::size_t>, CauseHypothesis> by_views;  ///< the best of each
   };
+
+  static std::vector<CauseHypothesis> others_than(const Score& score, double log_count) {
+    constexpr double kNearly = 7.0;  // 1000 : 1
+    constexpr std::size_t kMost = 20;
+    std::vector<CauseHypothesis> others;
+    for (const auto& [views, hypothesis] : score.by_views) {
+      if (views == score.best.views || hypothesis.log_odds < score.best.log_odds - kNearly)
+        continue;
+      others.push_back(hypothesis);
+      others.back().log_odds -= log_count;
+    }
+    std::stable_sort(others.begin(), others.end(), [](const auto& a, const auto& b) {
+      return a.log_odds > b.log_odds;
+    });
+    if (others.size() > kMost) others.resize(kMost);
+    return others;
+  }
+
   std::map<PoseCause, Score> scores_;
 };
 
@@ -180,9 +111,11 @@ NormalEquations project(const NormalEquations& data, const Eigen::MatrixXd& moti
 /// Equations in motions of the part that some views share, from those of each view.
 class PartEquations {
  public:
-  PartEquations(const NormalEquations& data, const PoseSetting& setting) : views_(setting.views) {
+  PartEquations(const NormalEquations& data, const PoseSetting& setting, bool slides)
+      : views_(setting.views), slides_(slides) {
     const auto n = static_cast<Eigen::Index>(6 * views_);
-    const Eigen::MatrixXd motions = unit_motions(PoseCause::Wobble, {}, setting, n);
+    const Eigen::MatrixXd motions = unit_motions(PoseCause::Wobble, {}, setting, n) *
+                                    shares_of_motion(slides).replicate(n / 6, 1).asDiagonal();
     of_views_ = project({data.hessian.topLeftCorner(n, n), data.gradient.head(n)}, motions);
     // later(a, b): sum over the views from a on, and from b on.
     later_ = of_views_;
@@ -212,6 +145,7 @@ class PartEquations {
     return both;
   }
   [[nodiscard]] std::size_t views() const { return views_; }
+  [[nodiscard]] bool slides() const { return slides_; }
 
  private:
   [[nodiscard]] static NormalEquations part(const NormalEquations& of, std::size_t view) {
@@ -220,24 +154,114 @@ class PartEquations {
   }
 
   std::size_t views_;
+  bool slides_;
   NormalEquations of_views_;
   NormalEquations later_;
 };
 
+/// The view whose motion by itself explains most, but for some, and the logarithm of its odds.
+std::pair<std::size_t, double> most_displaced(const NormalEquations& of_views,
+                                              const std::vector<std::size_t>& but_for) {
+  std::pair<std::size_t, double> best{0, -std::numeric_limits<double>::infinity()};
+  for (std::size_t view = 0; 6 * static_cast<Eigen::Index>(view) < of_views.gradient.size();
+       ++view) {
+    if (std::find(but_for.begin(), but_for.end(), view) != but_for.end()) continue;
+    const auto at = static_cast<Eigen::Index>(6 * view);
+    const double log_odds = PoseEvidence::log_odds(of_views.hessian.block<6, 6>(at, at),
+                                                   of_views.gradient.segment<6>(at));
+    if (log_odds > best.second) best = {view, log_odds};
+  }
+  return best;
+}
+
+/// Reduces equations to what is left once a view moves by itself, with a prior of 1.
+void explain_view(NormalEquations& of_views, std::size_t view) {
+  const auto at = static_cast<Eigen::Index>(6 * view);
+  Matrix6 own = of_views.hessian.block<6, 6>(at, at);
+  own.diagonal().array() += 1.0;
+  const Eigen::MatrixXd across = of_views.hessian.middleCols<6>(at);
+  const Eigen::LLT<Matrix6> llt(own);
+  const Eigen::Matrix<double, 6, 1> gradient = of_views.gradient.segment<6>(at);
+  of_views.gradient -= across * llt.solve(gradient);
+  of_views.hessian -= across * llt.solve(across.transpose());
+}
+
 void add_part(CauseScores& scores, const PartEquations& part, double distance_mm) {
   const std::size_t views = part.views();
   for (std::size_t view = 1; view < views; ++view) {
-    scores.add_scales(PoseCause::PartMoved, {view}, part.from_on(view), kMotions, distance_mm);
+    scores.add_scales(
+        PoseCause::PartMoved, {view}, part.from_on(view), kMotions, distance_mm, part.slides());
     for (std::size_t later = view + 1; later < views; ++later) {
       scores.add_scales(PoseCause::PartMovedTwice,
                         {view, later},
                         part.from_on(view, later),
                         kMotions,
-                        distance_mm);
+                        distance_mm,
+                        part.slides());
     }
     // A last view that is elsewhere is one before which the part moved.
-    if (view + 1 < views && views > 3)
-      scores.add_scales(PoseCause::ViewMoved, {view}, part.of_view(view), kMotions, distance_mm);
+    if (view + 1 < views && views > 3) {
+      scores.add_scales(
+          PoseCause::ViewMoved, {view}, part.of_view(view), kMotions, distance_mm, part.slides());
+    }
+  }
+}
+
+/// Natural logarithm of the number of ways to choose some of the views.
+double log_choices(std::size_t views, std::size_t some) {
+  const auto n = static_cast<double>(views);
+  const auto k = static_cast<double>(some);
+  return std::lgamma(n + 1.0) - std::lgamma(k + 1.0) - std::lgamma(n - k + 1.0);
+}
+
+/// Several views that are elsewhere, each by itself, up to half of them: every two of a scan of few
+/// views, then the one that explains most of what the others leave.
+void add_several_views(CauseScores& scores, const PartEquations& part, double distance_mm) {
+  constexpr std::size_t kFewViews = 24;
+  const std::size_t views = part.views();
+  const std::size_t most = views / 2;
+  if (most < 2) return;
+  for (const double share : kMotions) {
+    const double scale = share * distance_mm;
+    NormalEquations all = part.of_views();
+    all.hessian *= scale * scale;
+    all.gradient *= scale;
+    const auto begin_with = [&](std::size_t first) {
+      NormalEquations left = all;
+      double log_odds =
+          PoseEvidence::log_odds(left.hessian.block<6, 6>(static_cast<Eigen::Index>(6 * first),
+                                                          static_cast<Eigen::Index>(6 * first)),
+                                 left.gradient.segment<6>(static_cast<Eigen::Index>(6 * first)));
+      explain_view(left, first);
+      CauseHypothesis several{PoseCause::ViewsMoved, {first}, scale, 0.0, part.slides()};
+      const auto add = [&](const CauseHypothesis& some, double odds) {
+        CauseHypothesis sorted = some;
+        sorted.log_odds = odds - log_choices(views, some.views.size());
+        std::sort(sorted.views.begin(), sorted.views.end());
+        scores.add(std::move(sorted));
+      };
+      for (std::size_t second = first + 1; views <= kFewViews && second < views; ++second) {
+        const auto at = static_cast<Eigen::Index>(6 * second);
+        CauseHypothesis two = several;
+        two.views.push_back(second);
+        add(two,
+            log_odds + PoseEvidence::log_odds(left.hessian.block<6, 6>(at, at),
+                                              left.gradient.segment<6>(at)));
+      }
+      while (several.views.size() < most) {
+        const auto [next, more] = most_displaced(left, several.views);
+        several.views.push_back(next);
+        log_odds += more;
+        explain_view(left, next);
+        if (views > kFewViews || several.views.size() > 2) add(several, log_odds);
+      }
+    };
+    if (views > kFewViews) {
+      begin_with(most_displaced(all, {}).first);
+    } else {
+      for (std::size_t first = 0; first < views; ++first)
+        begin_with(first);
+    }
   }
 }
 
@@ -258,12 +282,6 @@ void add_independent(CauseScores& scores, const PartEquations& part, double dist
 
 }  // namespace
 
-Eigen::MatrixXd motions_of(const CauseHypothesis& hypothesis,
-                           const PoseSetting& setting,
-                           Eigen::Index unknowns) {
-  return hypothesis.scale * unit_motions(hypothesis.cause, hypothesis.views, setting, unknowns);
-}
-
 std::vector<ScoredCause> score_causes(const PoseEvidence& evidence, const PoseSetting& setting) {
   const NormalEquations& data = evidence.without_table();
   const Eigen::Index unknowns = data.gradient.size();
@@ -283,11 +301,14 @@ std::vector<ScoredCause> score_causes(const PoseEvidence& evidence, const PoseSe
       PoseCause::AnglesScaled, {}, of(PoseCause::AnglesScaled, {}), kAngleScales, 1.0);
   scores.add_scales(
       PoseCause::PartDrift, {}, of(PoseCause::PartDrift, {}), kMotions, setting.distance_mm);
-  const PartEquations part(data, setting);
-  add_part(scores, part, setting.distance_mm);
-  add_independent(scores, part, setting.distance_mm);
+  for (const bool slides : {true, false}) {
+    const PartEquations part(data, setting, slides);
+    add_part(scores, part, setting.distance_mm);
+    add_several_views(scores, part, setting.distance_mm);
+    if (!slides) add_independent(scores, part, setting.distance_mm);
+  }
   if (setting.rig_changes > 0) {
-    scores.add_scales(PoseCause::Rig, {}, of(PoseCause::Rig, {}), kAsPrior, 1.0);
+    scores.add_scales(PoseCause::Rig, {}, of(PoseCause::Rig, {}), kRigs, 1.0);
     scores.add_scales(PoseCause::RigDrift, {}, of(PoseCause::RigDrift, {}), kDrifts, 1.0);
   }
   return scores.sorted();

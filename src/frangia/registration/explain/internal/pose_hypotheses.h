@@ -29,13 +29,22 @@ struct CauseHypothesis {
   std::vector<std::size_t> views;  ///< as `PoseExplanation` has them
   double scale = 0.0;              ///< standard deviation of its changes: mm, or a share
   double log_odds = 0.0;           ///< against what is stated
+  bool slides = false;             ///< the part stays on the table; else it may tip or rise, too
+  bool exact_table = false;        ///< axis and angles are nearly those of the rig
 };
+
+/// Standard deviations of the motions of a part in units of the scale of a hypothesis: three
+/// rotations about its centre, as arcs, and three shifts, object frame.
+[[nodiscard]] Eigen::Matrix<double, 6, 1> shares_of_motion(bool slides);
 
 /// All hypotheses of one cause.
 struct ScoredCause {
   PoseCause cause = PoseCause::AsStated;
   double log_odds = 0.0;  ///< mean over the hypotheses of this cause: each is as probable
   CauseHypothesis best;
+  /// Those that explain the data nearly as well, with other views, the most probable first; their
+  /// odds share those of the cause.
+  std::vector<CauseHypothesis> others{};
 };
 
 /// The motions of a hypothesis by its own changes: U of `PoseEvidence`.

@@ -71,6 +71,14 @@ void measure_part(PoseSetting& setting,
 
 }  // namespace
 
+PoseChart PoseChart::with_exact_table() const {
+  PoseChart exact = *this;
+  exact.table_sigma = table_sigma.cwiseProduct(exact_share);
+  exact.table = table * exact_share.asDiagonal();
+  exact.exact_share.setOnes();
+  return exact;
+}
+
 Eigen::VectorXd PoseChart::motions_to(const std::vector<Eigen::Isometry3d>& poses) const {
   Eigen::VectorXd all = stated;
   for (std::size_t view = 0; view < from.size(); ++view)
@@ -109,6 +117,13 @@ PoseChart make_chart(const Bundle& bundle,
   setting.distance_mm = bundle.prior_sigma[2] / options.relative_shift_sigma;
   measure_part(setting, surfels, chart.from);
   chart.table_sigma = stated_sigmas(bundle);
+  // Of the standard deviations that are assumed, which allow for a rig that was moved: most were
+  // not.
+  constexpr double kNotMoved = 0.03;
+  const Eigen::Index own = 4 + static_cast<Eigen::Index>(state.angles_rad.size()) - 1;
+  chart.exact_share = Eigen::VectorXd::Ones(state.unknowns());
+  for (Eigen::Index i = 0; i < own; ++i)
+    if (chart.table_sigma[i] >= bundle.prior_sigma[i]) chart.exact_share[i] = kNotMoved;
   const ViewMotions motions = motions_by_unknown(state);
   const Eigen::VectorXd beyond =
       (bundle.prior_sigma.cwiseAbs2() - chart.table_sigma.cwiseAbs2()).cwiseMax(0.0).cwiseSqrt();

@@ -17,10 +17,13 @@ struct PoseChart {
   TableState state;                     ///< where the motions are 0
   std::vector<Eigen::Isometry3d> from;  ///< object_from_rig of each view in it
   Eigen::VectorXd table_sigma;          ///< stated or assumed, of each unknown of the table
+  Eigen::VectorXd exact_share;          ///< of `table_sigma`, if the table is nearly exact
   Eigen::MatrixXd table;                ///< T of `PoseEvidence`, of the views alone
   Eigen::VectorXd stated;               ///< the motions of the state from what is stated
   PoseSetting setting;
 
+  /// The chart of a table that is nearly exact where the rig states no standard deviations.
+  [[nodiscard]] PoseChart with_exact_table() const;
   /// Motions x from what is stated, of views that are in other poses.
   [[nodiscard]] Eigen::VectorXd motions_to(const std::vector<Eigen::Isometry3d>& poses) const;
   /// object_from_rig of each view after motions x.

@@ -86,12 +86,13 @@ class PoseAccumulator {
     const Eigen::Vector3d towards = rig_from_object.linear() * facing;
     const SurfelPair pair(there, towards, *target);
     PairTally& tally = sums.tallies[paired];
-    tally.violations += pair.violates_free_space(margin_mm_) ? 1U : 0U;
+    const double variance = std::pow(static_cast<double>(surfel.sigma_mm), 2) +
+                            std::pow(static_cast<double>(target->sigma_mm), 2);
+    tally.violations +=
+        pair.violates_free_space(SurfelPair::margin_mm(margin_mm_, variance)) ? 1U : 0U;
     if (towards.dot(there) >= 0.0 || !pair.faces_alike()) return std::nan("");
     const double distance = pair.distance_mm();
     if (!(std::abs(distance) < bundle_.gate_mm)) return std::abs(distance);
-    const double variance = std::pow(static_cast<double>(surfel.sigma_mm), 2) +
-                            std::pow(static_cast<double>(target->sigma_mm), 2);
     const double weight = tukey_weight(distance, bundle_.gate_mm) / variance;
     const Eigen::Isometry3d& back = views_.object_from_rig[to];
     const Eigen::Vector3d normal = back.linear() * pair.normal;

@@ -1,0 +1,135 @@
+#include "frangia/registration/explain/internal/cause_motions.h"
+
+namespace frangia {
+namespace {
+
+using Matrix6 = Eigen::Matrix<double, 6, 6>;
+
+/// Motions of points by changes of 1 mm: rotations about the part's centre by an arc of 1 mm, then
+/// shifts.
+Matrix6 motions_of_part(const PoseSetting& setting) {
+  Matrix6 by = Matrix6::Zero();
+  for (int i = 0; i < 3; ++i) {
+    const Eigen::Vector3d turn = Eigen::Vector3d::Unit(i) / setting.radius_mm;
+    by.block<3, 1>(0, i) = turn;
+    by.block<3, 1>(3, i) = setting.center_mm.cross(turn);
+    by(3 + i, 3 + i) = 1.0;
+  }
+  return by;
+}
+
+/// A rotation about the table's axis by 1 rad.
+Eigen::Matrix<double, 6, 1> turn_of_table() {
+  return Eigen::Matrix<double, 6, 1>::Unit(2);
+}
+
+Eigen::MatrixXd repeated(const Eigen::MatrixXd& motions,
+                         const Eigen::VectorXd& shares,
+                         Eigen::Index unknowns) {
+  Eigen::MatrixXd all = Eigen::MatrixXd::Zero(unknowns, motions.cols());
+  for (Eigen::Index view = 0; view < shares.size(); ++view)
+    all.middleRows(6 * view, 6) = shares[view] * motions;
+  return all;
+}
+
+/// 1 for each view from `first` on.
+Eigen::VectorXd from_on(std::size_t first, std::size_t views) {
+  Eigen::VectorXd shares = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(views));
+  shares.tail(static_cast<Eigen::Index>(views - first)).setOnes();
+  return shares;
+}
+
+Eigen::VectorXd turned_angles(const PoseSetting& setting) {
+  Eigen::VectorXd angles(static_cast<Eigen::Index>(setting.views));
+  for (std::size_t view = 0; view < setting.views; ++view)
+    angles[static_cast<Eigen::Index>(view)] = setting.angles_rad[view] - setting.angles_rad[0];
+  return angles;
+}
+
+}  // namespace
+
+Eigen::MatrixXd unit_motions(PoseCause cause,
+                             const std::vector<std::size_t>& at,
+                             const PoseSetting& setting,
+                             Eigen::Index unknowns) {
+  const auto views = static_cast<Eigen::Index>(setting.views);
+  const Eigen::Index rig = setting.rig_changes;
+  Eigen::MatrixXd none(unknowns, 0);
+  switch (cause) {
+    case PoseCause::AsStated:
+      return none;
+    case PoseCause::Turntable: {
+      Eigen::MatrixXd all = Eigen::MatrixXd::Zero(unknowns, setting.beyond_stated.cols());
+      all.topRows(6 * views) = setting.beyond_stated;
+      return all;
+    }
+    case PoseCause::Turned:
+      return repeated(turn_of_table() / setting.radius_mm, from_on(at[0], setting.views), unknowns);
+    case PoseCause::AnglesScaled:
+      return repeated(turn_of_table(), turned_angles(setting), unknowns);
+    case PoseCause::PartMoved:
+      return repeated(motions_of_part(setting), from_on(at[0], setting.views), unknowns);
+    case PoseCause::PartMovedTwice: {
+      Eigen::MatrixXd all(unknowns, 12);
+      all << unit_motions(PoseCause::PartMoved, {at[0]}, setting, unknowns),
+          unit_motions(PoseCause::PartMoved, {at[1]}, setting, unknowns);
+      return all;
+    }
+    case PoseCause::ViewMoved:
+      return repeated(motions_of_part(setting),
+                      Eigen::VectorXd::Unit(views, static_cast<Eigen::Index>(at[0])),
+                      unknowns);
+    case PoseCause::ViewsMoved: {
+      const auto count = static_cast<Eigen::Index>(at.size());
+      Eigen::MatrixXd all(unknowns, 6 * count);
+      for (Eigen::Index i = 0; i < count; ++i) {
+        all.middleCols(6 * i, 6) = unit_motions(
+            PoseCause::ViewMoved, {at[static_cast<std::size_t>(i)]}, setting, unknowns);
+      }
+      return all;
+    }
+    case PoseCause::PartDrift:
+      return repeated(motions_of_part(setting),
+                      Eigen::Map<const Eigen::VectorXd>(setting.times.data(), views),
+                      unknowns);
+    case PoseCause::Wobble:
+    case PoseCause::Unexplained: {
+      Eigen::MatrixXd all = Eigen::MatrixXd::Zero(unknowns, 6 * views);
+      for (Eigen::Index view = 0; view < views; ++view)
+        all.block<6, 6>(6 * view, 6 * view) = motions_of_part(setting);
+      return all;
+    }
+    case PoseCause::Rig: {
+      Eigen::MatrixXd all = Eigen::MatrixXd::Zero(unknowns, rig);
+      all.middleRows(6 * views, rig).setIdentity();
+      return all;
+    }
+    case PoseCause::RigDrift: {
+      // The rig may be as stated at the beginning, at the end or between: its mean change is half
+      // of its drift.
+      Eigen::MatrixXd all = Eigen::MatrixXd::Zero(unknowns, 2 * rig);
+      all.bottomRightCorner(2 * rig, 2 * rig).setIdentity();
+      all.block(6 * views, 0, rig, rig) *= 0.5;
+      return all;
+    }
+  }
+  return none;
+}
+
+Eigen::Matrix<double, 6, 1> shares_of_motion(bool slides) {
+  // A part that slides stays on its face, but for dust and burrs.
+  constexpr double kOffTheTable = 0.03;
+  const double off = slides ? kOffTheTable : 1.0;
+  return {off, off, 1.0, 1.0, 1.0, off};
+}
+
+Eigen::MatrixXd motions_of(const CauseHypothesis& hypothesis,
+                           const PoseSetting& setting,
+                           Eigen::Index unknowns) {
+  Eigen::MatrixXd motions =
+      hypothesis.scale * unit_motions(hypothesis.cause, hypothesis.views, setting, unknowns);
+  if (!hypothesis.slides) return motions;
+  return motions * shares_of_motion(true).replicate(motions.cols() / 6, 1).asDiagonal();
+}
+
+}  // namespace frangia

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "frangia/registration/explain/internal/pose_hypotheses.h"
+
+namespace frangia {
+
+/// The motions of the views by the own changes of a cause, each by 1 mm or by its prior.
+///
+/// @shape    `at`: the views of the cause, as `PoseExplanation` has them
+[[nodiscard]] Eigen::MatrixXd unit_motions(PoseCause cause,
+                                           const std::vector<std::size_t>& at,
+                                           const PoseSetting& setting,
+                                           Eigen::Index unknowns);
+
+}  // namespace frangia

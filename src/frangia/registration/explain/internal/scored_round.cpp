@@ -1,0 +1,227 @@
+#include "frangia/registration/explain/internal/scored_round.h"
+
+#include <utility>
+
+#include <Eigen/Cholesky>
+
+namespace frangia {
+namespace {
+
+/// Of a fault before the scan is looked at: one scan in twenty has one.
+constexpr double kFaultsAreRare = -3.0;
+/// Of a turntable that is not as stated: the last hypothesis.
+constexpr double kStatementsHold = -4.6;
+/// Share of its effect by which a simpler cause may differ from one that explains more.
+constexpr double kAlike = 0.05;
+/// The same between changes of the rig: points move with them linearly to a tenth only.
+constexpr double kAlikeRigs = 0.3;
+
+/// Motions of the richest hypothesis: every view and the rig are elsewhere.
+Eigen::MatrixXd everything(const PoseChart& chart, Eigen::Index unknowns) {
+  const CauseHypothesis free{PoseCause::Unexplained, {}, 0.004 * chart.setting.distance_mm, 0.0};
+  Eigen::MatrixXd own = motions_of(free, chart.setting, unknowns);
+  const Eigen::Index rig = 2 * chart.setting.rig_changes;
+  own.conservativeResize(Eigen::NoChange, own.cols() + rig);
+  own.rightCols(rig).setZero();
+  own.bottomRightCorner(rig, rig).setIdentity();
+  return own;
+}
+
+double log_of_sum(double one, double other) {
+  const double most = std::max(one, other);
+  return most + std::log(std::exp(one - most) + std::exp(other - most));
+}
+
+/// The causes, each with a table that is nearly exact or not: either is as probable.
+std::vector<ScoredCause> with_either_table(const PoseRound& round) {
+  std::vector<ScoredCause> causes = score_causes(*round.evidence, round.chart.setting);
+  const std::vector<ScoredCause> exact = score_causes(*round.exact, round.chart.setting);
+  const double odds = round.exact->table_log_odds() - round.evidence->table_log_odds();
+  double stated = 0.0;
+  for (ScoredCause& cause : causes) {
+    const auto same = std::find_if(exact.begin(), exact.end(), [&](const ScoredCause& other) {
+      return other.cause == cause.cause;
+    });
+    if (same == exact.end()) continue;
+    ScoredCause with_exact = *same;
+    with_exact.log_odds += odds;
+    with_exact.best.exact_table = true;
+    for (CauseHypothesis& other : with_exact.others) {
+      other.exact_table = true;
+      other.log_odds += odds;
+    }
+    const double sum = log_of_sum(cause.log_odds, with_exact.log_odds);
+    if (with_exact.log_odds > cause.log_odds) cause = std::move(with_exact);
+    cause.log_odds = sum;
+    if (cause.cause == PoseCause::AsStated) stated = sum;
+  }
+  for (ScoredCause& cause : causes) {
+    cause.log_odds -= stated;
+    for (CauseHypothesis& other : cause.others)
+      other.log_odds -= stated;
+  }
+  return causes;
+}
+
+}  // namespace
+
+double PoseRound::surface_mm(const Eigen::VectorXd& difference) const {
+  using Matrix6 = Eigen::Matrix<double, 6, 6>;
+  using Motion = Eigen::Matrix<double, 6, 1>;
+  Matrix6 all = Matrix6::Zero();
+  Motion product = Motion::Zero();
+  double squares = 0.0;
+  double views = 0.0;
+  for (std::size_t view = 0; view < surfaces.size(); ++view) {
+    const Motion own = difference.segment<6>(static_cast<Eigen::Index>(6 * view));
+    all += surfaces[view];
+    product += surfaces[view] * own;
+    squares += own.dot(surfaces[view] * own);
+    views += surfaces[view].isZero() ? 0.0 : 1.0;
+  }
+  if (views == 0.0) return 0.0;
+  all.diagonal().array() += 1e-9 * all.trace();
+  const double common = product.dot(all.ldlt().solve(product));
+  return std::sqrt(std::max(0.0, squares - common) / views);
+}
+
+std::vector<Eigen::Matrix<double, 6, 6>> surfaces_of(
+    const SurfelLists& surfels, const std::vector<Eigen::Isometry3d>& object_from_rig) {
+  std::vector<Eigen::Matrix<double, 6, 6>> surfaces;
+  for (std::size_t view = 0; view < surfels.size(); ++view) {
+    Eigen::Matrix<double, 6, 6>& own = surfaces.emplace_back();
+    own.setZero();
+    for (const SurfelMap::Surfel& surfel : surfels[view]) {
+      const Eigen::Vector3d point = object_from_rig[view] * surfel.point_mm.cast<double>();
+      const Eigen::Vector3d normal = object_from_rig[view].linear() * surfel.normal.cast<double>();
+      Eigen::Matrix<double, 6, 1> row;
+      row << point.cross(normal), normal;
+      own += row * row.transpose();
+    }
+    own /= static_cast<double>(std::max<std::size_t>(1, surfels[view].size()));
+  }
+  return surfaces;
+}
+
+void weigh(PoseRound& round) {
+  const Eigen::VectorXd at = round.at();
+  NormalEquations data = from_stated(round.sums.all(), at);
+  const Eigen::Index unknowns = data.gradient.size();
+  const Eigen::MatrixXd table = padded(round.chart.table, unknowns);
+  const PoseEvidence plain(data, table);
+  const Eigen::VectorXd rich = plain.posterior(everything(round.chart, unknowns)).motion;
+  round.noise = noise_after(round.bundle, round.sums, plain, at, rich);
+  data.hessian *= round.noise.scale;
+  data.gradient *= round.noise.scale;
+  round.exact.emplace(data, padded(round.chart.with_exact_table().table, unknowns));
+  round.evidence.emplace(std::move(data), table);
+}
+
+void score(PoseRound& round) {
+  weigh(round);
+  round.causes = with_either_table(round);
+  for (ScoredCause& cause : round.causes) {
+    double rare = cause.cause == PoseCause::AsStated ? 0.0 : kFaultsAreRare;
+    if (cause.cause == PoseCause::Turntable) rare += kStatementsHold;
+    cause.log_odds += rare;
+    for (CauseHypothesis& other : cause.others)
+      other.log_odds += rare;
+  }
+  std::stable_sort(
+      round.causes.begin(), round.causes.end(), [](const ScoredCause& a, const ScoredCause& b) {
+        return a.log_odds > b.log_odds;
+      });
+  for (const ScoredCause& cause : round.causes)
+    round.motions.push_back(round.posterior(cause.best).motion);
+}
+
+double noticeable_mm(const PoseRound& round) {
+  constexpr double kCommon = 2.5;  // times what pairs of two views still have in common
+  return std::max(kCommon * round.noise.shared_mm, round.noise.scatter_mm);
+}
+
+bool changes_rig(PoseCause cause) {
+  return cause == PoseCause::Rig || cause == PoseCause::RigDrift;
+}
+
+int freedom_of(PoseCause cause) {
+  switch (cause) {
+    case PoseCause::AsStated:
+      return 0;
+    case PoseCause::Turned:
+    case PoseCause::AnglesScaled:
+      return 1;
+    case PoseCause::PartMoved:
+    case PoseCause::ViewMoved:
+    case PoseCause::PartDrift:
+      return 2;
+    case PoseCause::Rig:
+    case PoseCause::Turntable:
+      return 3;
+    case PoseCause::RigDrift:
+      return 4;
+    case PoseCause::PartMovedTwice:
+      return 5;
+    case PoseCause::ViewsMoved:
+      return 6;
+    case PoseCause::Wobble:
+      return 7;
+    case PoseCause::Unexplained:
+      break;
+  }
+  return 8;
+}
+
+bool are_alike(const PoseRound& round, const CauseMotion& one, const CauseMotion& other) {
+  const bool rigs = changes_rig(one.cause) && changes_rig(other.cause);
+  const double share = rigs ? kAlikeRigs : kAlike;
+  const Eigen::VectorXd none = round.stated();
+  const Eigen::VectorXd apart = one.motion - other.motion;
+  const Eigen::VectorXd first = one.motion - none;
+  const Eigen::VectorXd second = other.motion - none;
+  if (round.effect_mm(apart) >= share * std::min(round.effect_mm(first), round.effect_mm(second)))
+    return false;
+  if (changes_rig(one.cause) || changes_rig(other.cause)) return true;
+  return round.surface_mm(apart) <
+         share * std::min(round.surface_mm(first), round.surface_mm(second));
+}
+
+bool are_alike(const PoseRound& round, std::size_t one, std::size_t other) {
+  return are_alike(round,
+                   {round.causes[one].cause, round.motions[one]},
+                   {round.causes[other].cause, round.motions[other]});
+}
+
+std::size_t winner_of(const PoseRound& round) {
+  std::size_t best = 0;
+  for (std::size_t i = 1; i < round.causes.size(); ++i) {
+    const ScoredCause& cause = round.causes[i];
+    if (cause.log_odds > kNamed && freedom_of(cause.cause) < freedom_of(round.causes[best].cause) &&
+        are_alike(round, 0, i))
+      best = i;
+  }
+  return best;
+}
+
+bool predicts(const PoseRound& round, const CauseHypothesis& hypothesis) {
+  double gain = 0.0;
+  const Eigen::VectorXd at = round.at();
+  const Eigen::Index unknowns = at.size();
+  const Eigen::MatrixXd own = motions_of(hypothesis, round.chart.setting, unknowns);
+  for (std::size_t half = 0; half < 2; ++half) {
+    const auto evidence = [&](std::size_t which) {
+      NormalEquations data = from_stated(round.sums.halves.at(which), at);
+      data.hessian *= round.noise.scale;
+      data.gradient *= round.noise.scale;
+      const PoseChart chart = hypothesis.exact_table ? round.chart.with_exact_table() : round.chart;
+      return PoseEvidence(std::move(data), padded(chart.table, unknowns));
+    };
+    const PoseEvidence seen = evidence(half);
+    const PoseEvidence unseen = evidence(1 - half);
+    gain += unseen.loss(seen.posterior(Eigen::MatrixXd(unknowns, 0)).motion) -
+            unseen.loss(seen.posterior(own).motion);
+  }
+  return gain > 0.0;
+}
+
+}  // namespace frangia

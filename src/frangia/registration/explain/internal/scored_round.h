@@ -1,0 +1,103 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include "frangia/registration/explain/internal/pose_hypotheses.h"
+#include "frangia/registration/explain/internal/pose_round.h"
+
+namespace frangia {
+
+/// Natural logarithm of the odds from which on a cause is named: 100 : 1.
+inline constexpr double kNamed = 4.605;
+
+/// The hypotheses, scored about one state of table and rig.
+struct PoseRound {
+  Bundle bundle;
+  PoseChart chart;
+  std::vector<Eigen::Isometry3d> poses{};
+  std::optional<RigChanges> rig{};
+  Eigen::VectorXd rig_at{};  ///< constant changes of the rig, then those that grow
+  PoseSums sums{};
+  PairNoise noise{};
+  std::optional<PoseEvidence> evidence{};
+  std::optional<PoseEvidence> exact{};  ///< the same with a table that is nearly exact
+  /// How motions displace the surface of each view along its normals: mean squares.
+  std::vector<Eigen::Matrix<double, 6, 6>> surfaces{};
+  std::vector<ScoredCause> causes{};       ///< the most probable first
+  std::vector<Eigen::VectorXd> motions{};  ///< by each of them
+
+  [[nodiscard]] Eigen::VectorXd at() const {
+    Eigen::VectorXd all = chart.motions_to(poses);
+    const Eigen::Index views = all.size();
+    all.conservativeResize(views + rig_at.size());
+    all.tail(rig_at.size()) = rig_at;
+    return all;
+  }
+  [[nodiscard]] PosePosterior posterior(const CauseHypothesis& of) const {
+    const PoseEvidence& by = of.exact_table ? *exact : *evidence;
+    return by.posterior(motions_of(of, chart.setting, by.data().gradient.size()));
+  }
+  /// Root mean square over the pairs of what a difference of motions changes.
+  [[nodiscard]] double effect_mm(const Eigen::VectorXd& difference) const {
+    const double squares = difference.dot(evidence->data().hessian * difference) / noise.scale;
+    return std::sqrt(std::max(0.0, squares / sums.weight));
+  }
+  /// Root mean square over the surfaces of the views of what a difference of motions changes, but
+  /// for a motion of all of them.
+  [[nodiscard]] double surface_mm(const Eigen::VectorXd& difference) const;
+  /// The motions as rig and table are stated.
+  [[nodiscard]] Eigen::VectorXd stated() const { return posterior({}).motion; }
+  [[nodiscard]] double log_odds_of(PoseCause cause) const {
+    const auto at = std::find_if(
+        causes.begin(), causes.end(), [&](const ScoredCause& c) { return c.cause == cause; });
+    return at == causes.end() ? 0.0 : at->log_odds;
+  }
+};
+
+/// `surfaces` of a round.
+[[nodiscard]] std::vector<Eigen::Matrix<double, 6, 6>> surfaces_of(
+    const SurfelLists& surfels, const std::vector<Eigen::Isometry3d>& object_from_rig);
+
+/// Prepares the equations of a round, with the noise that its richest hypothesis leaves.
+void weigh(PoseRound& round);
+
+/// Scores all hypotheses on the pairs of a round.
+void score(PoseRound& round);
+
+/// The smallest effect that is explained: what the scatter of the pairs hides is not blamed, nor
+/// what surfaces of sound scans have in common.
+[[nodiscard]] double noticeable_mm(const PoseRound& round);
+
+[[nodiscard]] bool changes_rig(PoseCause cause);
+
+/// How much a cause says: that which says less must explain more.
+[[nodiscard]] int freedom_of(PoseCause cause);
+
+/// Motions of the views by a cause.
+struct CauseMotion {
+  PoseCause cause = PoseCause::AsStated;
+  Eigen::VectorXd motion{};
+};
+
+/// Whether two causes move the views alike: their surfaces, not only where others overlap with
+/// them.
+[[nodiscard]] bool are_alike(const PoseRound& round,
+                             const CauseMotion& one,
+                             const CauseMotion& other);
+
+/// The same of two of the causes, by their index.
+[[nodiscard]] bool are_alike(const PoseRound& round, std::size_t one, std::size_t other);
+
+/// The index of the winner: the most probable cause, or a simpler one that moves the views alike.
+[[nodiscard]] std::size_t winner_of(const PoseRound& round);
+
+/// Whether the pairs of either half of the regions are predicted by what the other half finds.
+[[nodiscard]] bool predicts(const PoseRound& round, const CauseHypothesis& hypothesis);
+
+}  // namespace frangia

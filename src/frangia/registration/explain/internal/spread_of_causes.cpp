@@ -1,0 +1,123 @@
+#include "frangia/registration/explain/internal/spread_of_causes.h"
+
+#include <cmath>
+
+#include <Eigen/Cholesky>
+
+namespace frangia {
+namespace {
+
+using Rows6 = Eigen::Matrix<double, 6, Eigen::Dynamic>;
+
+/// The rigid motion of a view that is nearest to how its points move with each change of the rig.
+Rows6 rigid_part(const RigChanges& rig,
+                 const std::vector<SurfelMap::Surfel>& surfels,
+                 const Eigen::Isometry3d& object_from_rig) {
+  constexpr std::size_t kSome = 300;  // surfels that represent the view
+  constexpr double kAlong = 0.01;     // weight of motions along the surface
+  const std::size_t step = surfels.size() / kSome + 1;
+  Eigen::Matrix<double, 6, 6> squares = Eigen::Matrix<double, 6, 6>::Zero();
+  Rows6 products = Rows6::Zero(6, rig.count);
+  for (std::size_t i = 0; i < surfels.size(); i += step) {
+    const Eigen::Vector3d seen = surfels[i].point_mm.cast<double>();
+    const Eigen::Vector3d point = object_from_rig * seen;
+    const Eigen::Vector3d normal = object_from_rig.linear() * surfels[i].normal.cast<double>();
+    const Eigen::MatrixXd moved =
+        object_from_rig.linear() * rig.drift.of(seen, rig.pattern).cast<double>();
+    Eigen::Matrix<double, 3, 6> by;
+    by << 0.0, point.z(), -point.y(), 1.0, 0.0, 0.0, -point.z(), 0.0, point.x(), 0.0, 1.0, 0.0,
+        point.y(), -point.x(), 0.0, 0.0, 0.0, 1.0;
+    const Eigen::Matrix3d weight =
+        normal * normal.transpose() + kAlong * Eigen::Matrix3d::Identity();
+    squares += by.transpose() * weight * by;
+    products += by.transpose() * weight * moved;
+  }
+  if (!(squares(5, 5) > 0.0)) return products;
+  return squares.ldlt().solve(products);
+}
+
+/// Motions of the views alone that are nearest to motions of views and rig.
+Eigen::MatrixXd of_views_alone(const Eigen::MatrixXd& motions,
+                               const PoseRound& scored,
+                               const Registration& work) {
+  const auto views = static_cast<Eigen::Index>(6 * work.surfels.size());
+  Eigen::MatrixXd all = motions.topRows(views);
+  if (!scored.rig || motions.rows() == views) return all;
+  const Eigen::Index count = scored.rig->count;
+  for (std::size_t view = 0; view < work.surfels.size(); ++view) {
+    const Rows6 by_rig = rigid_part(*scored.rig, work.surfels[view], scored.poses[view]);
+    all.middleRows(static_cast<Eigen::Index>(6 * view), 6) +=
+        by_rig *
+        (motions.middleRows(views, count) + scored.rig->times[view] * motions.bottomRows(count));
+  }
+  return all;
+}
+
+/// What two views have in common that the winner does not explain.
+double left_mm(const PoseRound& scored, const Eigen::VectorXd& motion) {
+  NormalEquations plain = scored.evidence->data();
+  plain.hessian /= scored.noise.scale;
+  plain.gradient /= scored.noise.scale;
+  const PoseEvidence unscaled(std::move(plain), Eigen::MatrixXd(motion.size(), 0));
+  const PairNoise noise = noise_after(scored.bundle, scored.sums, unscaled, scored.at(), motion);
+  const double least_mm = scored.bundle.systematic_mm;
+  return std::sqrt(std::max(0.0, noise.shared_mm * noise.shared_mm - least_mm * least_mm));
+}
+
+}  // namespace
+
+ViewMotions PoseSpread::of_views() const {
+  ViewMotions motions;
+  for (Eigen::Index at = 0; at < columns.rows(); at += 6)
+    motions.emplace_back(columns.middleRows(at, 6));
+  return motions;
+}
+
+PoseSpread operator+(const PoseSpread& one, const PoseSpread& other) {
+  PoseSpread both{Eigen::MatrixXd(one.columns.rows(), one.columns.cols() + other.columns.cols())};
+  both.columns << one.columns, other.columns;
+  return both;
+}
+
+PoseSpread spread_of_winner(const PoseRound& scored,
+                            const PosePosterior& won,
+                            const Registration& work) {
+  // Errors that the views have in common are those of views, not of their regions.
+  const double wider = std::sqrt(static_cast<double>(kRegionsPerView));
+  return {wider * of_views_alone(won.factor, scored, work)};
+}
+
+PoseSpread spread_of_causes(const PoseRound& scored,
+                            const ScoredCause& winner,
+                            const Registration& work) {
+  constexpr double kLeast = 1e-3;  // probability
+  const Eigen::VectorXd own = scored.posterior(winner.best).motion;
+  const auto views = static_cast<Eigen::Index>(6 * work.surfels.size());
+  Eigen::MatrixXd others(own.size(), 0);
+  const double most = scored.causes.front().log_odds;
+  double sum = 0.0;
+  for (const ScoredCause& cause : scored.causes)
+    sum += std::exp(cause.log_odds - most);
+  const auto add = [&](double log_odds, const auto& motion) {
+    const double probability = std::exp(log_odds - most) / sum;
+    if (probability < kLeast) return;
+    others.conservativeResize(Eigen::NoChange, others.cols() + 1);
+    others.rightCols<1>() = std::sqrt(probability) * (motion() - own);
+  };
+  for (std::size_t i = 0; i < scored.causes.size(); ++i) {
+    const ScoredCause& cause = scored.causes[i];
+    if (cause.cause != winner.cause) add(cause.log_odds, [&] { return scored.motions[i]; });
+    for (const CauseHypothesis& other : cause.others)
+      add(other.log_odds, [&] { return scored.posterior(other).motion; });
+  }
+  PoseSpread spread{of_views_alone(others, scored, work)};
+  const double shift_mm = left_mm(scored, own);
+  if (!(shift_mm > scored.bundle.systematic_mm)) return spread;
+  PoseSpread left{Eigen::MatrixXd::Zero(views, views / 2)};
+  for (Eigen::Index view = 0; view < views / 6; ++view)
+    left.columns.block<3, 3>(6 * view + 3, 3 * view).setIdentity();
+  left.columns *= shift_mm / std::sqrt(2.0);  // of each of the two
+  return spread + left;
+}
+
+}  // namespace frangia

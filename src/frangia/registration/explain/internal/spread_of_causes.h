@@ -1,0 +1,37 @@
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "frangia/registration/explain/internal/scored_round.h"
+#include "frangia/registration/internal/leave_out_views.h"
+
+namespace frangia {
+
+/// Changes of one standard deviation that what is known of the poses leaves open, as columns of six
+/// rows for each view: a rotation and a translation of its points.
+struct PoseSpread {
+  Eigen::MatrixXd columns;
+
+  [[nodiscard]] ViewMotions of_views() const;
+};
+
+/// Returns where the causes beside the winner place the views instead, each with the root of its
+/// probability, and what no cause explains: the winner leaves that much between views, as shifts of
+/// each view by itself. What a cause changes of the rig counts as the rigid motion that is nearest.
+[[nodiscard]] PoseSpread spread_of_causes(const PoseRound& scored,
+                                          const ScoredCause& winner,
+                                          const Registration& work);
+
+/// Returns what the changes of the winner leave open themselves.
+///
+/// @shape    `won`: of the winner, in the unknowns of `scored`, or of the views alone
+[[nodiscard]] PoseSpread spread_of_winner(const PoseRound& scored,
+                                          const PosePosterior& won,
+                                          const Registration& work);
+
+/// Both together.
+[[nodiscard]] PoseSpread operator+(const PoseSpread& one, const PoseSpread& other);
+
+}  // namespace frangia
