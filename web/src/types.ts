@@ -77,6 +77,8 @@ export interface Summary {
     closure_deg: number | null;
   };
   untrusted_reason: string;
+  /** What else the surface says about the rig; missing in older ones. */
+  findings?: string[];
   /** How the setups join; missing or empty for a scan of one. */
   setups?: SetupJoin[];
 }

@@ -7,6 +7,7 @@
 
 #include "frangia/core/missing.h"
 #include "frangia/decode/triangulate_view.h"
+#include "frangia/range/difference_uncertainty.h"
 #include "frangia/range/match_by_phase.h"
 #include "frangia/range/recover_edge_pixels.h"
 #include "frangia/rig/rig_of_camera.h"
@@ -99,13 +100,19 @@ RangeGrid match_camera(std::span<const CameraPhases> cameras, std::size_t own, c
 }
 
 /// Replaces the grids of the cameras that are compared by the fused ones.
-CameraDisagreement fuse_grids(const CommonPhases& common,
+CameraDisagreement fuse_grids(const Rig& rig,
+                              const CommonPhases& common,
                               std::vector<MeasuredCamera>& cameras,
                               const Run& run) {
   std::vector<RangeGrid> ranges;
   for (const std::size_t i : common.indices)
     ranges.push_back(std::move(cameras[i].range));
-  const CameraDisagreement disagreement = fuse_cameras(common.cameras, ranges, {}, run);
+  const FuseCamerasOptions options{
+      .calibration = between_cameras(rig,
+                                     common.cameras.front().phases.front()->pattern,
+                                     common.indices[0],
+                                     common.indices[1])};
+  const CameraDisagreement disagreement = fuse_cameras(common.cameras, ranges, options, run);
   for (std::size_t k = 0; k < ranges.size(); ++k)
     cameras[common.indices[k]].range = std::move(ranges[k]);
   return disagreement;
@@ -122,7 +129,7 @@ MeasuredView match_cameras(const Rig& rig,
   if (common.cameras.empty()) return out;
   for (std::size_t k = 0; k < common.cameras.size(); ++k)
     out.cameras[common.indices[k]].range = match_camera(common.cameras, k, run);
-  out.between_cameras = fuse_grids(common, out.cameras, run);
+  out.between_cameras = fuse_grids(rig, common, out.cameras, run);
   for (const std::size_t i : common.indices) {
     RangeGrid& range = out.cameras[i].range;
     Image<PixelStatus>& status = cameras[i].decoded.phase.status;
@@ -159,7 +166,7 @@ MeasuredView fuse_view_cameras(const Rig& rig,
   for (std::size_t i = 0; i < cameras.size(); ++i)
     remove_unused_phases(out.cameras[i].range, cameras[i].decoded);
   const CommonPhases common = common_phases(rig, cameras);
-  if (!common.cameras.empty()) out.between_cameras = fuse_grids(common, out.cameras, run);
+  if (!common.cameras.empty()) out.between_cameras = fuse_grids(rig, common, out.cameras, run);
   return out;
 }
 

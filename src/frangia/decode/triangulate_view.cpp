@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "frangia/range/difference_uncertainty.h"
 #include "frangia/range/triangulate.h"
 
 namespace frangia {
@@ -22,7 +23,13 @@ TriangulatedView triangulate_view(DecodedView& decoded,
   const auto fusion =
       directions == DirectionChoice::Best ? DirectionFusion::Best : DirectionFusion::LeastSquares;
   out.disagreement =
-      fuse_directions(second, rays, {.fusion = fusion}, out.range, decoded.phase.status);
+      fuse_directions(second,
+                      rays,
+                      {.fusion = fusion,
+                       .calibration = between_directions(
+                           rig, decoded.phase.pattern, decoded.second_phase->pattern)},
+                      out.range,
+                      decoded.phase.status);
   return out;
 }
 

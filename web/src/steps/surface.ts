@@ -187,6 +187,8 @@ export function surfaceStep(app: App): TemplateResult {
     ${joins(app)} ${comparing(app)}
     <section class="group">
       <h2>${t('surface.figures')}</h2>
+      ${summary?.untrusted_reason ? html`<p><span class="dot poor"></span>${summary.untrusted_reason}</p>` : ''}
+      ${(summary?.findings ?? []).map((text) => html`<p><span class="dot poor"></span>${text}</p>`)}
       <dl class="figures">
         <dt>${t('surface.sigmaMedian')}</dt>
         ${um(surface.sigma_mm.combined)}
@@ -218,7 +220,6 @@ export function surfaceStep(app: App): TemplateResult {
         <dd class="num">${number(surface.hole_count)}</dd>
       </dl>
       ${summary?.registration ? html`<p class="quiet">${registrationWords(summary)}</p>` : ''}
-      ${summary?.untrusted_reason ? html`<p><span class="dot poor"></span>${summary.untrusted_reason}</p>` : ''}
       ${
         app.project.scan_complete
           ? html`<button class="btn wide" ?disabled=${app.busy} @click=${() => app.build()}>

@@ -199,6 +199,7 @@ MeasuredViews measure_views(const Scan& scan,
         scan.views[i].folder.string(), scan.views[i].angle_rad, scan.views[i].setup};
     DecodedView& reference = decoded.front().decoded;
     summary.quality = view_quality(reference.assessments);
+    if (i == 0) all.response = describe_corrections(reference.assessments);
     if (!decoded.front().used) {
       summary.left_out = true;
       summary.reason = decoded.front().fit.reason;
@@ -209,15 +210,12 @@ MeasuredViews measure_views(const Scan& scan,
     MeasuredView measured =
         fuse_view_cameras(scan.rig, decoded, decode.directions, mixed_pixels, run);
     if (measured.directions.pixels > 0) {
-      all.disagreements_mm.push_back(static_cast<float>(measured.directions.median_mm));
-      all.disagreements_over_sigma.push_back(
-          static_cast<float>(measured.directions.median_over_sigma));
+      all.first = reference.phase.pattern;
+      all.second = reference.second_phase->pattern;
+      all.direction_agreements.push_back(std::move(measured.directions));
     }
-    if (measured.between_cameras.pixels > 0) {
-      all.camera_disagreements_mm.push_back(static_cast<float>(measured.between_cameras.median_mm));
-      all.camera_disagreements_over_sigma.push_back(
-          static_cast<float>(measured.between_cameras.median_over_sigma));
-    }
+    if (measured.between_cameras.pixels > 0)
+      all.camera_agreements.push_back(std::move(measured.between_cameras));
     summary.points = count_points(measured);
     summary.sigma_mm = median_sigma_mm(measured.cameras.front().range);
     summary.left_out = summary.points == 0 && reference.unresolved.empty();

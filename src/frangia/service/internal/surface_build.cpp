@@ -39,6 +39,11 @@ std::string summary_of(const Reconstruction& result) {
     json["turntable"] = json_of_turntable(*result.registration);
   }
   json["untrusted_reason"] = result.untrusted_reason;
+  json["findings"] = nlohmann::ordered_json::array();
+  for (const RigAgreement& agreement : result.agreements) {
+    if (!agreement.is_consistent() && agreement.text() != result.untrusted_reason)
+      json["findings"].push_back(agreement.text());
+  }
   json["setups"] = nlohmann::ordered_json::array();
   for (const SetupJoin& join : result.setups) {
     const Eigen::AngleAxisd turn(join.part_pose.linear());
