@@ -109,9 +109,9 @@ struct SimulatedViews {
   explicit SimulatedViews(const std::filesystem::path& folder)
       : scan(read_scan(folder)),
         truth(read_ply(folder / "truth.ply")),
-        measured(measure_views(scan, rays_of(scan.rig.camera.model), {}, {})) {
-    for (std::size_t i = 0; i < measured.views.size(); ++i)
-      poses.push_back(measured.views.rig_from_object(i));
+        measured(measure_views(scan, rays_of(scan.rig.reference().model), {}, {})) {
+    for (std::size_t i = 0; i < measured.reference().size(); ++i)
+      poses.push_back(measured.reference().rig_from_object(i));
   }
 
   Scan scan;
@@ -132,8 +132,8 @@ void measure(const SimulatedViews& views,
              const FusionParameters& parameters,
              const NamedParameter& changed,
              double factor) {
-  const Mesh mesh =
-      fuse_views(views.measured.views, views.scan.rig.camera.model, {.parameters = parameters});
+  const Mesh mesh = fuse_views(
+      views.measured.reference(), views.scan.rig.reference().model, {.parameters = parameters});
   const SurfaceError error = surface_error(mesh, views.truth);
   CompletenessOptions how;
   how.samples = 30'000;

@@ -73,11 +73,11 @@ Scan large_scan() {
   plan.folder = folder;
   plan.name = "bust";
   plan.rig = rig_preset("digital");
-  plan.rig.camera.model = {.width_px = 2560,
-                           .height_px = 2048,
-                           .focal_px = {4800.0, 4800.0},
-                           .principal_point_px = {1308.7, 1007.1},
-                           .distortion = {-0.09, 0.05, 4e-4, -3e-4, 0.0}};
+  plan.rig.reference().model = {.width_px = 2560,
+                                .height_px = 2048,
+                                .focal_px = {4800.0, 4800.0},
+                                .principal_point_px = {1308.7, 1007.1},
+                                .distortion = {-0.09, 0.05, 4e-4, -3e-4, 0.0}};
   plan.patterns = default_patterns(plan.rig);
   for (int i = 0; i < kViews; ++i)
     plan.views.push_back({kTwoPi * i / kViews, fmt::format("views/{:03}", i), 0});

@@ -34,7 +34,7 @@ struct RecordedSet {
 Rig app_rig(const std::filesystem::path& folder, int width_px, int height_px) {
   write_simulated_rig(folder / "rig.toml", "bust");
   Rig rig = read_rig(folder / "rig.toml");
-  CameraModel& model = rig.camera.model;
+  CameraModel& model = rig.reference().model;
   const double scale = static_cast<double>(width_px) / model.width_px;
   model.width_px = width_px;
   model.height_px = height_px;
@@ -47,7 +47,7 @@ RecordedSet record(int width_px, int height_px, bool finest_alone) {
   const testing::TemporaryFolder folder;
   RecordedSet set;
   set.rig = app_rig(folder.path(), width_px, height_px);
-  set.rays = rays_of(set.rig.camera.model);
+  set.rays = rays_of(set.rig.reference().model);
   std::vector<Pattern> patterns = patterns_of(set.settings.capture, set.rig);
   if (finest_alone) patterns = {patterns.back()};
   Scan plan;

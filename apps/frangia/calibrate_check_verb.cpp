@@ -60,8 +60,8 @@ void calibrate_check_verb(const CheckArguments& arguments, Terminal& terminal) {
   const Run run = terminal.run();
   const Rig rig = read_rig(arguments.rig, run);
   Scan scan = read_scan(arguments.scan, run, RigContent::StartValues);
-  const CameraModel& own = scan.rig.camera.model;
-  const CameraModel& given = rig.camera.model;
+  const CameraModel& own = scan.rig.reference().model;
+  const CameraModel& given = rig.reference().model;
   if (own.width_px != given.width_px || own.height_px != given.height_px ||
       scan.rig.projector.is_angular() != rig.projector.is_angular()) {
     throw Error(ErrorKind::Input,

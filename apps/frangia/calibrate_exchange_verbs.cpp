@@ -68,10 +68,9 @@ void import_calibration(const ImportArguments& arguments, Terminal& terminal) {
   const Rig rig = rig_from_calibration(calibration, options, run);
   write_rig(arguments.output, rig, Durability::Synced, arguments.base);
   terminal.finish();
-  const CameraModel& camera = rig.camera.model;
-  const double baseline_mm = arguments.second_camera.empty()
-                                 ? rig.projector.position_mm.norm()
-                                 : rig.more_cameras.front().position_mm.norm();
+  const CameraModel& camera = rig.reference().model;
+  const double baseline_mm = arguments.second_camera.empty() ? rig.projector.position_mm.norm()
+                                                             : rig.cameras[1].position_mm.norm();
   if (terminal.json) {
     print_json(
         nlohmann::ordered_json{{"rig", arguments.output.string()},

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -106,13 +107,14 @@ void print_summary(const RigCalibration& result, const Board& board) {
              name_of(board.kind),
              board.columns,
              board.rows);
-  print_device("camera", "camera", solution.camera, solution.camera_residuals, solution);
+  const SolvedCamera& reference = solution.reference();
+  print_device("camera", "camera", reference.model, reference.residuals, solution);
   if (solution.has_projector) {
     print_device(
-        "projector", "projector", solution.projector, solution.projector_residuals, solution);
+        "projector", "projector", solution.projector, reference.projector_residuals, solution);
     print_distance("baseline", "projector", solution.projector_from_camera, solution);
   }
-  for (const FurtherCameraSolution& camera : solution.more_cameras) {
+  for (const SolvedCamera& camera : std::span(solution.cameras).subspan(1)) {
     const std::string prefix = "camera-" + camera.name;
     print_device(camera.name, prefix, camera.model, camera.residuals, solution);
     print_distance("", prefix, camera.camera_from_rig, solution);
@@ -147,7 +149,7 @@ nlohmann::ordered_json json_of(const RigCalibration& result, const RigArguments&
       {"poses", result.views.size()},
       {"views_without_board", result.without_board},
       {"views_left_out", result.left_out},
-      {"camera_rms_px", solution.camera_residuals.rms_px},
+      {"camera_rms_px", solution.reference().residuals.rms_px},
       {"projector_rms_px", result.rig.calibration->projector_rms_px},
       {"point_sigma_mm", solution.point_sigma_mm},
       {"distance_mm", solution.distance_mm},
@@ -162,7 +164,7 @@ nlohmann::ordered_json json_of(const RigCalibration& result, const RigArguments&
     json["baseline_mm"] = baseline;
     json["baseline_sigma_mm"] = sigma;
   }
-  for (const FurtherCameraSolution& camera : solution.more_cameras) {
+  for (const SolvedCamera& camera : std::span(solution.cameras).subspan(1)) {
     const auto [distance, sigma] =
         distance_of(solution, "camera-" + camera.name, camera.camera_from_rig.translation());
     json["more_cameras"].push_back({{"name", camera.name},
@@ -175,8 +177,8 @@ nlohmann::ordered_json json_of(const RigCalibration& result, const RigArguments&
     json["sigma"][name] = sigma;
   for (std::size_t i = 0; i < result.views.size(); ++i) {
     json["views"].push_back({{"folder", result.views[i].name},
-                             {"camera_rms_px", solution.camera_by_view[i].rms_px},
-                             {"projector_rms_px", solution.projector_by_view[i].rms_px},
+                             {"camera_rms_px", solution.reference().by_view[i].rms_px},
+                             {"projector_rms_px", solution.reference().projector_by_view[i].rms_px},
                              {"leave_one_out_mm", solution.leave_one_out_mm[i]}});
     nlohmann::ordered_json points = nlohmann::ordered_json::array();
     for (const BoardPoint& point : result.views[i].points) {

@@ -113,12 +113,12 @@ struct ViewFigures {
 };
 
 ViewFigures figures_of(const ViewResult& result) {
-  const AbsolutePhase& phase = result.decoded.phase;
+  const AbsolutePhase& phase = result.decoded.directions.front().phase;
   return {measured_count(phase.phase_rad.pixels()),
           known_median(phase.sigma_rad.pixels()),
           measured_count(result.range.depth_mm.pixels()),
           known_median(result.range.sigma_mm.pixels()),
-          view_quality(result.decoded.assessments)};
+          view_quality(assessments_of(result.decoded))};
 }
 
 Json json_of_view(const Scan& scan, const ViewResult& result, const ViewFigures& figures) {
@@ -132,18 +132,19 @@ Json json_of_view(const Scan& scan, const ViewResult& result, const ViewFigures&
   const bool has_points = !result.range.depth_mm.empty();
   json["points"] = has_points ? Json(figures.points) : Json();
   json["sigma_mm"] = number_or_null(figures.sigma_mm);
-  const auto status = result.decoded.phase.status.pixels();
+  const auto status = result.decoded.directions.front().phase.status.pixels();
   for (const StatusLegend& entry : status_legend())
     json["pixels"][entry.meaning] = std::count(status.begin(), status.end(), entry.status);
   json["patterns"] = Json::array();
-  for (const FrameAssessment& assessment : result.decoded.assessments)
+  for (const FrameAssessment& assessment : assessments_of(result.decoded))
     json["patterns"].push_back(json_of(assessment));
   json["checks"] = Json::array();
-  for (const SequenceCheck& check : result.decoded.checks)
-    json["checks"].push_back(json_of(check));
   json["explanations"] = Json::array();
-  for (const FrameVerdict& verdict : result.decoded.frames)
-    json["explanations"].push_back(json_of(verdict));
+  for (const DecodedDirection& direction : result.decoded.directions) {
+    if (direction.check) json["checks"].push_back(json_of(*direction.check));
+    for (const FrameVerdict& verdict : direction.frames)
+      json["explanations"].push_back(json_of(verdict));
+  }
   const std::string& reason = result.reason.empty() ? result.empty : result.reason;
   json["trustworthy"] = reason.empty();
   if (!reason.empty()) json["reason"] = with_flags(reason);
@@ -156,7 +157,7 @@ Json json_of_view(const Scan& scan, const ViewResult& result, const ViewFigures&
 }
 
 void print_stages(const ViewResult& result, const std::filesystem::path& folder) {
-  const auto status = result.decoded.phase.status.pixels();
+  const auto status = result.decoded.directions.front().phase.status.pixels();
   for (const StatusLegend& entry : status_legend()) {
     const auto count = std::count(status.begin(), status.end(), entry.status);
     if (count == 0) continue;
@@ -166,7 +167,7 @@ void print_stages(const ViewResult& result, const std::filesystem::path& folder)
                entry.meaning,
                entry.color_name);
   }
-  for (const FrameAssessment& assessment : result.decoded.assessments)
+  for (const FrameAssessment& assessment : assessments_of(result.decoded))
     print_text("{}\n", with_flags(describe(assessment)));
   for (const StageFile& file : result.files) {
     if (std::filesystem::path(file.name).extension() == ".png")
@@ -232,7 +233,7 @@ void DecodedScan::add(const ViewResult& result) {
     views_->push_back(json_of_view(scan_, result, figures));
     return;
   }
-  for (const FrameAssessment& assessment : result.decoded.assessments) {
+  for (const FrameAssessment& assessment : assessments_of(result.decoded)) {
     if (needs_attention(assessment))
       terminal_.run().warn(fmt::format("{}: {}", name, describe(assessment)));
   }
@@ -241,7 +242,8 @@ void DecodedScan::add(const ViewResult& result) {
   const auto share = [](double value) {
     return std::isfinite(value) ? fmt::format("{:.1f} %", 100.0 * value) : std::string("-");
   };
-  const auto all = static_cast<double>(result.decoded.phase.phase_rad.pixels().size());
+  const auto all =
+      static_cast<double>(result.decoded.directions.front().phase.phase_rad.pixels().size());
   std::string text = fmt::format("{:03}  {:7.2f} deg  {:>6} measured, {:>5} saturated, contrast {}",
                                  result.view,
                                  deg_from_rad(scan_.views[result.view].angle_rad),

@@ -43,9 +43,9 @@ struct DecodeArguments {
 Scan choose_camera(const Scan& scan, const std::string& name) {
   if (name.empty()) return scan_of_camera(scan, 0);
   std::vector<std::string> names;
-  for (const PosedCamera& posed : scan.rig.more_cameras) {
-    names.push_back(posed.camera.name);
-    if (names.back() == name) return scan_of_camera(scan, names.size());
+  for (std::size_t i = 1; i < scan.rig.cameras.size(); ++i) {
+    names.push_back(scan.rig.cameras[i].camera.name);
+    if (names.back() == name) return scan_of_camera(scan, i);
   }
   throw Error(ErrorKind::Input,
               fmt::format("{} has no `camera` \"{}\" in its rig.toml; {}",
@@ -73,9 +73,9 @@ ViewResult decode_one(const DecodeTask& task, std::size_t view, const Run& run) 
   out.decoded =
       decode_view(frames, task.plan, scan.rig, task.rays, options_of_view(task.options, view), run);
   if (!scan.patterns.empty() && !task.options.phase_files)
-    out.empty = explain_no_phase(frames, out.decoded.phase.status);
+    out.empty = explain_no_phase(frames, out.decoded.directions.front().phase.status);
   if (task.rays.empty()) {
-    out.reason = task.options.accept_inconsistent ? "" : describe(out.decoded.checks);
+    out.reason = task.options.accept_inconsistent ? "" : misfit_of(out.decoded);
     return out;
   }
   run.stage("range");
@@ -85,7 +85,9 @@ ViewResult decode_one(const DecodeTask& task, std::size_t view, const Run& run) 
   if (fit.fits()) {
     out.range =
         triangulate_view(out.decoded, fit, scan.rig, task.rays, task.options.directions).range;
-    remove_mixed_pixels(out.range, task.rays, out.decoded.phase.status);
+    // Maps and figures show the direction whose pixels have the points.
+    std::swap(out.decoded.directions.front(), out.decoded.directions[fit.leading()]);
+    remove_mixed_pixels(out.range, task.rays, out.decoded.directions.front().phase.status);
   }
   if (fit.accepted) {
     run.warn(out.reason + "; triangulated because `accept_inconsistent` is set");
@@ -139,7 +141,7 @@ void decode_verb(const DecodeArguments& arguments, Terminal& terminal) {
   make_folder(arguments.folder);
   check_can_write(arguments.folder / "index.html");
   if (has_geometry(scan.rig)) {
-    task.rays = rays_of(scan.rig.camera.model);
+    task.rays = rays_of(scan.rig.reference().model);
     if (!is_absolute(task.plan)) {
       run.warn(
           "the scan holds neither an absolute pattern nor the laser sheet: phases and depths are "

@@ -76,8 +76,8 @@ Image<Rgb> grey_picture(const Frame& frame, int white_level) {
 void picture_phase(const Scan& scan, DemoCase& demo_case, const Run& run) {
   const auto stacks = read_frames(scan, 0, run);
   const DecodedView decoded =
-      decode_view(stacks, scan.rig, rays_of(scan.rig.camera.model), {}, run);
-  const WrappedPhase& finest = decoded.wrapped.back();
+      decode_view(stacks, scan.rig, rays_of(scan.rig.reference().model), {}, run);
+  const WrappedPhase& finest = decoded.directions.front().wrapped.back();
   for (const FrameStack& stack : stacks) {
     if (stack.pattern.name != finest.pattern.name) continue;
     demo_case.pictures.push_back(

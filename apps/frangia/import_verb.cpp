@@ -90,7 +90,7 @@ void warn_of_compression(const ImportPlan& plan, const ImportResult& result, con
       });
   if (has_fringes) {
     const std::vector<FrameStack> stacks = read_frames(result.scan, 0, run);
-    const double middle = 0.5 * result.scan.rig.camera.white_level;
+    const double middle = 0.5 * result.scan.rig.reference().white_level;
     for_comparison = fmt::format(" (the frames show {:.2g} counts)",
                                  std::sqrt(estimate_noise(stacks).variance(middle)));
   }
@@ -108,7 +108,7 @@ void print_result(const ImportPlan& plan,
                   const std::string& folder,
                   Terminal& terminal) {
   terminal.finish();
-  const Camera& camera = result.scan.rig.camera;
+  const Camera& camera = result.scan.rig.reference();
   if (terminal.json) {
     nlohmann::ordered_json json{{"scan", folder},
                                 {"names", plan.names},

@@ -51,7 +51,7 @@ ResponseFrames read_response_frames(const Scan& scan, const Run& run) {
   for (std::size_t i = 0; i < scan.views.size(); ++i) {
     std::vector<FrameStack> stacks = read_frames(scan, i, run);
     const NoiseModel noise =
-        scan.rig.camera.noise ? *scan.rig.camera.noise : estimate_noise(stacks);
+        scan.rig.reference().noise ? *scan.rig.reference().noise : estimate_noise(stacks);
     std::vector<FittedAlgorithm> fits;
     for (FrameStack& stack : stacks) {
       const Pattern& pattern = stack.pattern;

@@ -102,7 +102,7 @@ void simulate_artifacts(const SimulateArguments& arguments,
 }
 
 void refuse_label_of_one_camera(const SimulateArguments& arguments, const Rig& rig) {
-  if (!arguments.label || !rig.more_cameras.empty()) return;
+  if (!arguments.label || rig.cameras.size() > 1) return;
   throw Error(ErrorKind::Input, "`label` needs a rig with two cameras, such as `--rig binocular`");
 }
 

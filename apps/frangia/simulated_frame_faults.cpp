@@ -128,7 +128,7 @@ void apply_frame_faults(const SimulatedFrameFaults& faults, const Scan& scan, co
         run.check();
         const std::filesystem::path path =
             scan.folder / view.folder / frame_file_name(pattern, frame);
-        write_png(path, with_video_levels(read_png(path), scan.rig.camera.white_level));
+        write_png(path, with_video_levels(read_png(path), scan.rig.reference().white_level));
       }
     }
   }

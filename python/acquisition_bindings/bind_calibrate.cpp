@@ -51,11 +51,12 @@ std::vector<CalibrationView> views_of(const RigCalibration& found) {
       view.camera_px.row(static_cast<Eigen::Index>(k)) = points[k].camera_px;
       view.projector_px.row(static_cast<Eigen::Index>(k)) = points[k].projector_px;
     }
-    view.camera_residuals_px = rows_of(found.solution.camera_residuals_px.at(i));
-    view.camera_rms_px = found.solution.camera_by_view.at(i).rms_px;
+    view.camera_residuals_px = rows_of(found.solution.reference().residuals_px.at(i));
+    view.camera_rms_px = found.solution.reference().by_view.at(i).rms_px;
     if (found.solution.has_projector) {
-      view.projector_residuals_px = rows_of(found.solution.projector_residuals_px.at(i));
-      view.projector_rms_px = found.solution.projector_by_view.at(i).rms_px;
+      view.projector_residuals_px =
+          rows_of(found.solution.reference().projector_residuals_px.at(i));
+      view.projector_rms_px = found.solution.reference().projector_by_view.at(i).rms_px;
     }
     view.leave_one_out_mm = found.solution.leave_one_out_mm.at(i);
     out.push_back(std::move(view));
@@ -118,11 +119,13 @@ void bind_calibrate(py::module_& module) {
           "Of the parameters, P x P, in the squares of their units.")
       .def_property_readonly(
           "camera_rms_px",
-          [](const RigCalibration& self) { return self.solution.camera_residuals.rms_px; },
+          [](const RigCalibration& self) { return self.solution.reference().residuals.rms_px; },
           "Reprojection error of the camera, px.")
       .def_property_readonly(
           "projector_rms_px",
-          [](const RigCalibration& self) { return self.solution.projector_residuals.rms_px; },
+          [](const RigCalibration& self) {
+            return self.solution.reference().projector_residuals.rms_px;
+          },
           "That of the projector, projector px.")
       .def_property_readonly(
           "point_sigma_mm",

@@ -277,7 +277,7 @@ void bind_phase(py::module_& module) {
       "triangulate",
       [](AbsolutePhase phase, const Rig& rig) {
         require_period(phase.pattern, "the phase");
-        return triangulate(phase, rig, rays_of(rig.camera.model));
+        return triangulate(phase, rig, rays_of(rig.reference().model));
       },
       py::arg("phase"),
       py::arg("rig"),

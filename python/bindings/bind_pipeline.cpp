@@ -64,10 +64,11 @@ DecodeOptions decode_options(const py::object& algorithm,
 
 /// Fringe order of the finest fringes: whole turns between absolute and wrapped phase; -1 where not
 /// measured.
-py::array_t<std::int32_t> order_of(const DecodedView& view) {
-  if (view.wrapped.empty()) throw Error(ErrorKind::Input, "the view holds no wrapped phase");
-  const Image<float>& wrapped = view.wrapped.back().phase_rad;
-  const Image<float>& absolute = view.phase.phase_rad;
+py::array_t<std::int32_t> order_of(const DecodedDirection& direction) {
+  if (direction.wrapped.empty())
+    throw Error(ErrorKind::Input, "the direction holds no wrapped phase");
+  const Image<float>& wrapped = direction.wrapped.back().phase_rad;
+  const Image<float>& absolute = direction.phase.phase_rad;
   Image<std::int32_t> order(absolute.width(), absolute.height(), -1);
   for (std::size_t i = 0; i < order.pixels().size(); ++i) {
     const float turns = (absolute.pixels()[i] - wrapped.pixels()[i]) / static_cast<float>(kTwoPi);
@@ -80,7 +81,7 @@ DecodedView decode_stacks(const std::vector<FrameStack>& stacks,
                           const Rig& rig,
                           const DecodeOptions& options,
                           const Run& run) {
-  const auto rays = has_geometry(rig) ? rays_of(rig.camera.model) : Image<Eigen::Vector2f>();
+  const auto rays = has_geometry(rig) ? rays_of(rig.reference().model) : Image<Eigen::Vector2f>();
   return decode_view(stacks, rig, rays, options, run);
 }
 
@@ -98,9 +99,9 @@ DecodedView decode(const Scan& scan, std::size_t view, DecodeOptions options, co
 
 std::vector<std::string> findings_of(const DecodedView& view) {
   std::vector<std::string> out;
-  for (const FrameAssessment& assessment : view.assessments)
+  for (const FrameAssessment& assessment : assessments_of(view))
     out.push_back(describe(assessment));
-  const std::string misfit = describe(view.checks);
+  const std::string misfit = misfit_of(view);
   if (!misfit.empty()) out.push_back(misfit);
   return out;
 }
@@ -112,15 +113,35 @@ void bind_results(py::module_& module) {
           [](const DecodePlan& self) { return is_absolute(self); },
           "False: phases are relative, or regions have offsets of their own.")
       .def("__str__", [](const DecodePlan& self) { return describe(self); });
-  py::class_<DecodedView>(module, "DecodedView", "The phase of one view and intermediate results.")
-      .def_readonly("phase", &DecodedView::phase, "Absolute phase of the finest fringes.")
-      .def_readonly("second_phase",
-                    &DecodedView::second_phase,
-                    "That of horizontal fringes, where both directions were decoded; else None.")
-      .def_readonly("wrapped", &DecodedView::wrapped, "Wrapped maps, coarse to fine.")
-      .def_readonly("relative", &DecodedView::relative, "Spatially unwrapped phase, or None.")
-      .def_readonly("noise", &DecodedView::noise, "Noise of the camera.")
-      .def_property_readonly("order", &order_of, "Fringe order; -1: not measured.")
+  const auto add_parts = [](auto part) {
+    part("phase", &DecodedDirection::phase, "Absolute phase of the finest fringes.");
+    part("wrapped", &DecodedDirection::wrapped, "Wrapped maps, coarse to fine.");
+    part("relative", &DecodedDirection::relative, "Spatially unwrapped phase, or None.");
+    part("noise", &DecodedDirection::noise, "Noise of the camera.");
+  };
+  py::class_<DecodedDirection> direction(
+      module, "DecodedDirection", "One direction of fringes of a view and intermediate results.");
+  add_parts([&](const char* name, auto member, const char* text) {
+    direction.def_readonly(name, member, text);
+  });
+  direction.def_property_readonly("order", &order_of, "Fringe order; -1: not measured.");
+  py::class_<DecodedView> view(
+      module, "DecodedView", "The phase of one view; its parts are those of the first direction.");
+  add_parts([&](const char* name, auto member, const char* text) {
+    view.def_property_readonly(
+        name,
+        [member](const DecodedView& self) -> const auto& {
+          return self.directions.front().*member;
+        },
+        text);
+  });
+  view.def_readonly("directions",
+                    &DecodedView::directions,
+                    "The decoded directions of fringes: two only if both have an absolute phase.")
+      .def_property_readonly(
+          "order",
+          [](const DecodedView& self) { return order_of(self.directions.front()); },
+          "Fringe order; -1: not measured.")
       .def_property_readonly("findings", &findings_of, "What the frames show, in sentences.");
   py::class_<ViewSummary>(module, "ViewSummary", "A view after reconstruction.");
   py::class_<Reconstruction>(module, "Reconstruction", "A surface and what the stages report.")

@@ -28,11 +28,11 @@ void bind_rig(py::module_& module) {
   py::class_<Rig>(module, "Rig", "A calibrated scanner; its frame is that of the camera, in mm.")
       .def_property_readonly(
           "camera",
-          [](const Rig& rig) -> const CameraModel& { return rig.camera.model; },
+          [](const Rig& rig) -> const CameraModel& { return rig.reference().model; },
           py::return_value_policy::reference_internal,
           "Model of the reference camera.")
       .def_property_readonly(
-          "white_level", [](const Rig& rig) { return rig.camera.white_level; }, "Counts.")
+          "white_level", [](const Rig& rig) { return rig.reference().white_level; }, "Counts.")
       .def_property_readonly(
           "projector_position_mm", [](const Rig& rig) { return rig.projector.position_mm; }, "mm.")
       .def_property_readonly(
@@ -50,12 +50,12 @@ void bind_rig(py::module_& module) {
           "Pose of the object at a table angle, 4 x 4, mm.")
       .def(
           "rays",
-          [](const Rig& rig) { return array_of<float>(rays_of(rig.camera.model)); },
+          [](const Rig& rig) { return array_of<float>(rays_of(rig.reference().model)); },
           "Direction (x / z, y / z) of each pixel, height x width x 2.")
       .def("__repr__", [](const Rig& rig) {
         return fmt::format("<frangia.Rig, camera {} x {}, {} projector>",
-                           rig.camera.model.width_px,
-                           rig.camera.model.height_px,
+                           rig.reference().model.width_px,
+                           rig.reference().model.height_px,
                            rig.projector.is_angular() ? "angular" : "digital");
       });
   module.def(

@@ -79,8 +79,35 @@ class DecodePlan:
         """False: phases are relative, or regions have offsets of their own."""
         ...
 
+class DecodedDirection:
+    """One direction of fringes of a view and intermediate results."""
+    @property
+    def noise(self) -> NoiseModel:
+        """Noise of the camera."""
+        ...
+    @property
+    def order(self) -> NDArray[np.int32]:
+        """Fringe order; -1: not measured."""
+        ...
+    @property
+    def phase(self) -> AbsolutePhase:
+        """Absolute phase of the finest fringes."""
+        ...
+    @property
+    def relative(self) -> RelativePhase | None:
+        """Spatially unwrapped phase, or None."""
+        ...
+    @property
+    def wrapped(self) -> list[WrappedPhase]:
+        """Wrapped maps, coarse to fine."""
+        ...
+
 class DecodedView:
-    """The phase of one view and intermediate results."""
+    """The phase of one view; its parts are those of the first direction."""
+    @property
+    def directions(self) -> list[DecodedDirection]:
+        """The decoded directions of fringes: two only if both have an absolute phase."""
+        ...
     @property
     def findings(self) -> list[str]:
         """What the frames show, in sentences."""
@@ -100,10 +127,6 @@ class DecodedView:
     @property
     def relative(self) -> RelativePhase | None:
         """Spatially unwrapped phase, or None."""
-        ...
-    @property
-    def second_phase(self) -> AbsolutePhase | None:
-        """That of horizontal fringes, where both directions were decoded; else None."""
         ...
     @property
     def wrapped(self) -> list[WrappedPhase]:

@@ -257,7 +257,7 @@ TEST_F(CaptureScan, BadPlanIsOneSentence) {
 TEST_F(CaptureScan, CameraOfAnotherSizeThanTheRigIsRefused) {
   static_cast<void>(capture());
   devices_["camera"] = "driver = \"folder\"\nfolder = \"" + plan_.folder.string() + "\"\n";
-  plan_.rig.camera.model.width_px += 2;
+  plan_.rig.reference().model.width_px += 2;
   EXPECT_TRUE(holds(complaint(), "camera.size_px is not the 128 x 128 pixels"));
 }
 

@@ -23,7 +23,7 @@ class StepControl : public testing::SimulatedCapture {
   [[nodiscard]] double error_over_limit(std::size_t view, const std::string& algorithm) const {
     const Scan scan = read_scan(plan_.folder);
     const FrameStack stack = read_frames(scan, view).front();
-    const NoiseModel noise = *scan.rig.camera.noise;
+    const NoiseModel noise = *scan.rig.reference().noise;
     const WrappedPhase map =
         wrap_phase(stack, fit_algorithm(algorithm, stack, noise).algorithm, noise);
     const auto scene = make_simulated_scene(make_plate(), plan_.rig, std::array{SimulatedView{}});

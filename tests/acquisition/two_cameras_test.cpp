@@ -12,12 +12,12 @@ class CaptureTwoCameras : public testing::SimulatedCapture {
  protected:
   CaptureTwoCameras() {
     use("binocular", 8);
-    CameraModel& model = plan_.rig.more_cameras.front().camera.model;
+    CameraModel& model = plan_.rig.cameras.at(1).camera.model;
     model.width_px = 100;
     model.height_px = 80;
     model.focal_px /= 8.0;
     model.principal_point_px /= 8.0;
-    plan_.rig.more_cameras.front().camera.noise = plan_.rig.camera.noise;
+    plan_.rig.cameras.at(1).camera.noise = plan_.rig.reference().noise;
     devices_["camera-left"] = "driver = \"simulated\"\npart = \"plate\"\n";
     views(2);
   }
@@ -27,7 +27,7 @@ TEST_F(CaptureTwoCameras, WritesTheFramesOfEachCamera) {
   const CaptureReport report = capture();
   EXPECT_TRUE(report.skipped.empty());
   const Scan scan = read_scan(plan_.folder);
-  ASSERT_EQ(scan.rig.more_cameras.size(), 1U);
+  ASSERT_EQ(scan.rig.cameras.size(), 2U);
   const auto reference = read_frames(scan, 1);
   const auto left = read_frames(scan_of_camera(scan, 1), 1);
   ASSERT_EQ(reference.size(), left.size());

@@ -69,7 +69,7 @@ TEST_F(CaptureOfPoses, GoesOnWhereAPipeEndedAndCalibratesTheRig) {
   EXPECT_NE(testing::text_of(found).find("[devices.turntable]"), std::string::npos);
   const Rig truth = read_rig(folder_.path() / "truth.toml");
   const Rig rig = read_rig(found);
-  EXPECT_NEAR(rig.camera.model.focal_px.x() / truth.camera.model.focal_px.x(), 1.0, 0.01);
+  EXPECT_NEAR(rig.reference().model.focal_px.x() / truth.reference().model.focal_px.x(), 1.0, 0.01);
   EXPECT_NEAR(rig.projector.position_mm.norm() / truth.projector.position_mm.norm(), 1.0, 0.02);
 }
 

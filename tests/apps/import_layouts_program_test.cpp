@@ -54,7 +54,7 @@ class ImportLayouts : public ::testing::TestWithParam<LayoutCase> {
   }
   [[nodiscard]] static Rig rig() {
     Rig rig = testing::small_rig("digital");
-    CameraModel& camera = rig.camera.model;
+    CameraModel& camera = rig.reference().model;
     camera.width_px /= 2;
     camera.height_px /= 2;
     camera.focal_px *= 0.5;
@@ -74,7 +74,7 @@ class ImportLayouts : public ::testing::TestWithParam<LayoutCase> {
             scan.folder / "views/000" / frame_file_name(pattern, static_cast<int>(image->second)),
             path);
       } else {
-        const CameraModel& camera = scan.rig.camera.model;
+        const CameraModel& camera = scan.rig.reference().model;
         write_png(path, Frame(Image<std::uint8_t>(camera.width_px, camera.height_px, 3)));
       }
     }

@@ -28,11 +28,11 @@ namespace {
 /// An angular rig with a camera of 256 x 256 pixels.
 Rig small_angular_rig() {
   Rig rig = rig_preset("angular");
-  rig.camera.model = {.width_px = 256,
-                      .height_px = 256,
-                      .focal_px = {500.0, 500.0},
-                      .principal_point_px = {130.3, 124.8},
-                      .distortion = {-0.08, 0.03, 0.0, 0.0, 0.0}};
+  rig.reference().model = {.width_px = 256,
+                           .height_px = 256,
+                           .focal_px = {500.0, 500.0},
+                           .principal_point_px = {130.3, 124.8},
+                           .distortion = {-0.08, 0.03, 0.0, 0.0, 0.0}};
   return rig;
 }
 
@@ -93,8 +93,8 @@ TEST_F(CalibrateArtifacts, FindsAnAngularRigFromScreenPlateAndBallBar) {
   const ArtifactCalibration& found = CalibrateArtifacts::found();
   const Rig rig = truth();
   EXPECT_TRUE(found.left_out.empty());
-  EXPECT_NEAR(found.rig.camera.model.focal_px.x(), 500.0, 0.3);
-  EXPECT_NEAR(found.rig.camera.model.principal_point_px.x(), 130.3, 0.3);
+  EXPECT_NEAR(found.rig.reference().model.focal_px.x(), 500.0, 0.3);
+  EXPECT_NEAR(found.rig.reference().model.principal_point_px.x(), 130.3, 0.3);
   EXPECT_NEAR(std::get<AngularModel>(found.rig.projector.model).pitch_scale, 1.0, 2e-3);
   EXPECT_LT(degrees_apart(found.rig.projector.rotation.row(2), rig.projector.rotation.row(2)), 0.1);
   EXPECT_LT(degrees_apart(found.rig.turntable->axis, rig.turntable->axis), 0.05);

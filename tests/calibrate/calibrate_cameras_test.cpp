@@ -50,7 +50,7 @@ class CalibrateCameras : public ::testing::Test {
     return *found_;
   }
   [[nodiscard]] static PosedCamera true_camera() {
-    return read_rig(poses() / "truth-rig.toml").more_cameras.at(0);
+    return read_rig(poses() / "truth-rig.toml").cameras.at(1);
   }
 
  private:
@@ -63,7 +63,7 @@ RigCalibration* CalibrateCameras::found_ = nullptr;
 
 /// Expects the second camera within three standard deviations.
 void expect_near_truth(const RigCalibration& found, const PosedCamera& truth) {
-  const PosedCamera& camera = found.rig.more_cameras.at(0);
+  const PosedCamera& camera = found.rig.cameras.at(1);
   const auto sigma = [&](const std::string& name) {
     for (const auto& [parameter, value] : found.rig.calibration->sigma)
       if (parameter == "camera-left." + name) return value;
@@ -109,7 +109,7 @@ TEST_F(CalibrateCameras, FindTheSecondCameraWithinItsStandardDeviations) {
   write_rig(folder.path() / "rig.toml", rig);
   const Rig read = read_rig(folder.path() / "rig.toml");
   EXPECT_EQ(read.calibration->covariance.parameters.back(), "camera-left.z_mm");
-  EXPECT_NEAR(read.more_cameras[0].position_mm.x(), rig.more_cameras[0].position_mm.x(), 1e-6);
+  EXPECT_NEAR(read.cameras[1].position_mm.x(), rig.cameras[1].position_mm.x(), 1e-6);
 }
 
 TEST_F(CalibrateCameras, FindEachOtherByAProjectorThatLabelsPoints) {
@@ -120,7 +120,7 @@ TEST_F(CalibrateCameras, FindEachOtherByAProjectorThatLabelsPoints) {
   EXPECT_TRUE(found.rig.projector.is_label);
   EXPECT_EQ(found.solution.parameters.size(), 24U);
   EXPECT_GT(found.solution.point_sigma_mm, 0.0);
-  EXPECT_LT(found.solution.more_cameras[0].projector_residuals.rms_px, 0.2);
+  EXPECT_LT(found.solution.cameras[1].projector_residuals.rms_px, 0.2);
 }
 
 TEST_F(CalibrateCameras, AreInTheReport) {

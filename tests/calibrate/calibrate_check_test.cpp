@@ -49,7 +49,7 @@ TEST(CalibrateCheck, NamesAFurtherCameraThatWasKnocked) {
   const RigCheck sound = calibrate_check(scan, scan.rig);
   EXPECT_TRUE(sound.passed());
   Rig knocked = scan.rig;
-  PosedCamera& camera = knocked.more_cameras.at(0);
+  PosedCamera& camera = knocked.cameras.at(1);
   camera.rotation =
       Eigen::AngleAxisd(rad_from_deg(0.2), Eigen::Vector3d::UnitX()).toRotationMatrix() *
       camera.rotation;

@@ -13,8 +13,8 @@ RigCalibration result_of(const std::vector<double>& camera_px,
                          const std::vector<double>& projector_px) {
   RigCalibration result;
   RigSolution& solution = result.solution;
-  solution.camera.width_px = 640;
-  solution.camera.height_px = 480;
+  solution.cameras.front().model.width_px = 640;
+  solution.cameras.front().model.height_px = 480;
   solution.projector.width_px = 1280;
   solution.projector.height_px = 800;
   for (std::size_t i = 0; i < camera_px.size(); ++i) {
@@ -25,13 +25,13 @@ RigCalibration result_of(const std::vector<double>& camera_px,
     point.projector_px = {100.0, 30.0};
     view.points = {point};
     result.views.push_back(view);
-    solution.camera_residuals_px.push_back({{camera_px[i], 0.0}});
-    solution.projector_residuals_px.push_back({{0.0, projector_px[i]}});
+    solution.cameras.front().residuals_px.push_back({{camera_px[i], 0.0}});
+    solution.cameras.front().projector_residuals_px.push_back({{0.0, projector_px[i]}});
     const auto summary = [](double px) {
       return ResidualSummary{.rms_px = std::abs(px), .max_px = std::abs(px), .points = 1};
     };
-    solution.camera_by_view.push_back(summary(camera_px[i]));
-    solution.projector_by_view.push_back(summary(projector_px[i]));
+    solution.cameras.front().by_view.push_back(summary(camera_px[i]));
+    solution.cameras.front().projector_by_view.push_back(summary(projector_px[i]));
     Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
     pose.rotate(Eigen::AngleAxisd(rad_from_deg(30.0), Eigen::Vector3d::UnitX()));
     pose.pretranslate(Eigen::Vector3d(0.0, 300.0, 400.0));

@@ -73,11 +73,11 @@ TEST_F(CalibrateRig, FindsTheRigThatRenderedThePoses) {
   const auto& projector = std::get<PinholeModel>(found.rig.projector.model);
   const auto& true_projector = std::get<PinholeModel>(rig.projector.model);
   EXPECT_EQ(found.views.size(), 6U);
-  EXPECT_LT(found.solution.camera_residuals.rms_px, 0.1);
-  EXPECT_LT(found.solution.projector_residuals.rms_px,
+  EXPECT_LT(found.solution.reference().residuals.rms_px, 0.1);
+  EXPECT_LT(found.solution.reference().projector_residuals.rms_px,
             0.25);  // of a camera with pixels twice as wide
-  const double focal_px = rig.camera.model.focal_px.x();
-  EXPECT_NEAR(found.rig.camera.model.focal_px.x(), focal_px, 2e-3 * focal_px);
+  const double focal_px = rig.reference().model.focal_px.x();
+  EXPECT_NEAR(found.rig.reference().model.focal_px.x(), focal_px, 2e-3 * focal_px);
   EXPECT_NEAR(projector.focal_px.x(), true_projector.focal_px.x(), 2e-3 * focal_px);
   EXPECT_NEAR(found.rig.projector.position_mm.norm(), rig.projector.position_mm.norm(), 0.3);
   EXPECT_GT(found.solution.point_sigma_mm, 0.0);
@@ -104,7 +104,7 @@ TEST(CalibrateRigByCode, FindsTheRigFromGrayCodeAlone) {
   const Rig& rig = plan.rig;
   const auto& projector = std::get<PinholeModel>(found.rig.projector.model);
   const double true_focal_px = std::get<PinholeModel>(rig.projector.model).focal_px.x();
-  EXPECT_LT(found.solution.projector_residuals.rms_px, 0.4);
+  EXPECT_LT(found.solution.reference().projector_residuals.rms_px, 0.4);
   EXPECT_NEAR(projector.focal_px.x(), true_focal_px, 4e-3 * true_focal_px);
   EXPECT_NEAR(found.rig.projector.position_mm.norm(), rig.projector.position_mm.norm(), 1.0);
 }

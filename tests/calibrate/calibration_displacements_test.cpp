@@ -72,7 +72,8 @@ Mesh seen_by(const Rig& truth, const Scan& scan, const Mesh& part) {
       const Eigen::Vector3d point = pose * part.vertices_mm[i].cast<double>();
       const double cosine = -(pose.linear() * normals[i].cast<double>()).dot(point.normalized());
       if (cosine < 0.2) continue;
-      const Eigen::Vector2d ray = scan.rig.camera.model.ray(truth.camera.model.project(point));
+      const Eigen::Vector2d ray =
+          scan.rig.reference().model.ray(truth.reference().model.project(point));
       const double phase = phase_at(point, pattern, truth.projector);
       const RayDepth found = intersect_fringe(ray, phase, pattern, scan.rig.projector);
       sights.push_back({i, cosine * cosine, &pose, found.depth_mm * ray.homogeneous()});

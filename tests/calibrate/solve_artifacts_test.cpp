@@ -108,7 +108,7 @@ ArtifactCapture plate_capture(int views,
     for (int y = 60; y < 512; y += 30) {
       for (int x = 60; x < 460; x += 30) {
         const Eigen::Vector2d pixel(x, y);
-        const Eigen::Vector3d ray = rig.camera.model.ray(pixel).homogeneous();
+        const Eigen::Vector3d ray = rig.reference().model.ray(pixel).homogeneous();
         const Eigen::Vector3d point = ray * (there / now.dot(ray));
         const Eigen::Vector3d from_axis = point - rig.turntable->point_mm;
         if ((from_axis - axis * axis.dot(from_axis)).norm() > 45.0) continue;
@@ -141,7 +141,7 @@ ArtifactCapture ball_capture(int views, const Bend& bend = {}) {
       for (int y = 0; y < 512; y += 6) {
         for (int x = 0; x < 512; x += 6) {
           const Eigen::Vector2d pixel(x, y);
-          const Eigen::Vector3d ray = rig.camera.model.ray(pixel).homogeneous().normalized();
+          const Eigen::Vector3d ray = rig.reference().model.ray(pixel).homogeneous().normalized();
           const double near = ray.dot(center);
           const double inside = near * near - center.squaredNorm() + 400.0;
           if (inside < 80.0) continue;

@@ -35,13 +35,13 @@ TrueRig with_left_camera() {
 Rig known_cameras() {
   Rig rig = known_rig();
   PosedCamera left;
-  left.camera = rig.camera;
+  left.camera = rig.reference();
   left.camera.name = "left";
   left.camera.model.width_px = 960;
   left.camera.model.height_px = 768;
   left.position_mm.setConstant(std::nan(""));
   left.rotation.setConstant(std::nan(""));
-  rig.more_cameras.push_back(left);
+  rig.cameras.push_back(left);
   return rig;
 }
 
@@ -90,11 +90,11 @@ Rig true_cameras() {
   const TrueRig right;
   const TrueRig left = with_left_camera();
   Rig rig = known_cameras();
-  rig.camera.model = model_of(right.camera, right.camera_distortion, 1280, 1024);
+  rig.reference().model = model_of(right.camera, right.camera_distortion, 1280, 1024);
   rig.projector.model = model_of(right.projector, right.projector_distortion, 1280, 800);
   place(right, rig.projector.rotation, rig.projector.position_mm);
-  rig.more_cameras[0].camera.model = model_of(left.projector, left.projector_distortion, 960, 768);
-  place(left, rig.more_cameras[0].rotation, rig.more_cameras[0].position_mm);
+  rig.cameras[1].camera.model = model_of(left.projector, left.projector_distortion, 960, 768);
+  place(left, rig.cameras[1].rotation, rig.cameras[1].position_mm);
   return rig;
 }
 
@@ -117,16 +117,15 @@ Eigen::VectorXd errors_of(const RigSolution& found, const Rig& truth) {
   projector.translation() = -(truth.projector.rotation * truth.projector.position_mm);
   const bool lit = found.has_projector;
   Eigen::VectorXd out(lit ? 39 : 24);
-  out.head<9>() = intrinsics(found.camera) - intrinsics(truth.camera.model);
+  out.head<9>() = intrinsics(found.reference().model) - intrinsics(truth.reference().model);
   if (lit) {
     out.segment<9>(9) =
         intrinsics(found.projector) - intrinsics(std::get<PinholeModel>(truth.projector.model));
     out.segment<6>(18) = pose(found.projector_from_camera) - pose(projector);
   }
   out.segment<9>(lit ? 24 : 9) =
-      intrinsics(found.more_cameras[0].model) - intrinsics(truth.more_cameras[0].camera.model);
-  out.tail<6>() =
-      pose(found.more_cameras[0].camera_from_rig) - pose(truth.more_cameras[0].camera_from_rig());
+      intrinsics(found.cameras[1].model) - intrinsics(truth.cameras[1].camera.model);
+  out.tail<6>() = pose(found.cameras[1].camera_from_rig) - pose(truth.cameras[1].camera_from_rig());
   return out;
 }
 
@@ -165,18 +164,18 @@ TEST(SolveCameras, NamesTheParametersOfEachCamera) {
   EXPECT_EQ(found.parameters.back(), "camera-left.z_mm");
   const Rig moved = change_parameters(
       true_cameras(), {"camera-left.z_mm", "camera-left.focal_px"}, Eigen::Vector2d(2.0, 5.0));
-  EXPECT_NEAR(moved.more_cameras[0].camera_from_rig().translation().z(), 92.0, 1e-9);
-  EXPECT_NEAR(moved.more_cameras[0].camera.model.focal_px.y(), 2305.0, 1e-9);
-  EXPECT_EQ(moved.camera.model.focal_px, true_cameras().camera.model.focal_px);
+  EXPECT_NEAR(moved.cameras[1].camera_from_rig().translation().z(), 92.0, 1e-9);
+  EXPECT_NEAR(moved.cameras[1].camera.model.focal_px.y(), 2305.0, 1e-9);
+  EXPECT_EQ(moved.reference().model.focal_px, true_cameras().reference().model.focal_px);
 }
 
 TEST(SolveCameras, APoseThatOneCameraMissesStillServesTheOthers) {
   std::vector<BoardView> views = views_of_both(1e-4, 3);
   views[2].more[0].clear();
   const RigSolution found = solve_rig(kBoard, views, known_cameras());
-  EXPECT_EQ(found.more_cameras[0].by_view[2].points, 0U);
-  EXPECT_GT(found.camera_by_view[2].points, 0U);
-  EXPECT_NEAR(found.more_cameras[0].camera_from_rig.translation().x(), -320.0, 0.01);
+  EXPECT_EQ(found.cameras[1].by_view[2].points, 0U);
+  EXPECT_GT(found.reference().by_view[2].points, 0U);
+  EXPECT_NEAR(found.cameras[1].camera_from_rig.translation().x(), -320.0, 0.01);
   for (std::size_t i = 2; i < views.size(); ++i)
     views[i].more[0].clear();
   const std::string fault =

@@ -22,16 +22,16 @@ using testing::TrueRig;
 TEST(SolveRig, FindsTheRigThatOpenCvProjectedWith) {
   const TrueRig rig;
   const RigSolution found = solve_rig(kBoard, make_views(rig, 12, 1e-4, 1), known_rig());
-  EXPECT_NEAR(found.camera.focal_px.x(), 2400.0, 0.05);
-  EXPECT_NEAR(found.camera.principal_point_px.x(), 646.8, 0.05);
-  EXPECT_NEAR(found.camera.principal_point_px.y(), 507.4, 0.05);
-  EXPECT_NEAR(found.camera.distortion[0], -0.09, 1e-3);
-  EXPECT_NEAR(found.camera.distortion[2], 4e-4, 1e-5);
+  EXPECT_NEAR(found.reference().model.focal_px.x(), 2400.0, 0.05);
+  EXPECT_NEAR(found.reference().model.principal_point_px.x(), 646.8, 0.05);
+  EXPECT_NEAR(found.reference().model.principal_point_px.y(), 507.4, 0.05);
+  EXPECT_NEAR(found.reference().model.distortion[0], -0.09, 1e-3);
+  EXPECT_NEAR(found.reference().model.distortion[2], 4e-4, 1e-5);
   EXPECT_NEAR(found.projector.focal_px.x(), 1800.0, 0.05);
   EXPECT_NEAR(found.projector.principal_point_px.y(), 420.0, 0.1);
   EXPECT_NEAR(found.projector_from_camera.translation().x(), -190.0, 0.01);
   EXPECT_NEAR(found.projector_from_camera.translation().z(), 40.0, 0.02);
-  EXPECT_LT(found.camera_residuals.rms_px, 2e-4);
+  EXPECT_LT(found.reference().residuals.rms_px, 2e-4);
   EXPECT_TRUE(found.undetermined.empty());
 }
 
@@ -62,7 +62,7 @@ double true_value(const TrueRig& rig, const std::string& name) {
 double found_value(const RigSolution& found, const std::string& name) {
   const bool projector = name.rfind("projector.", 0) == 0;
   const std::string key = name.substr(name.find('.') + 1);
-  const CameraModel& model = projector ? found.projector : found.camera;
+  const CameraModel& model = projector ? found.projector : found.reference().model;
   const Eigen::AngleAxisd turn(found.projector_from_camera.linear());
   const Eigen::Vector3d rotation = turn.angle() * turn.axis();
   const Eigen::Vector3d translation = found.projector_from_camera.translation();
@@ -112,7 +112,7 @@ Eigen::Matrix3Xd triangulated(const RigSolution& found,
                               const std::vector<cv::Point2d>& lit) {
   Eigen::Matrix3Xd points(3, static_cast<Eigen::Index>(seen.size()));
   for (std::size_t i = 0; i < seen.size(); ++i) {
-    const Eigen::Vector3d ray = found.camera.ray({seen[i].x, seen[i].y}).homogeneous();
+    const Eigen::Vector3d ray = found.reference().model.ray({seen[i].x, seen[i].y}).homogeneous();
     const auto gap = [&](double z) {
       return found.projector.project(found.projector_from_camera * (z * ray).eval()).x() - lit[i].x;
     };
@@ -220,7 +220,7 @@ TEST(SolveRig, UsesThatAPhaseIsReadAtTheCornerThatTheCameraSees) {
   const RigSolution separate = solve_rig(kBoard, apart, known_rig());
   EXPECT_LT(joint.point_sigma_mm, 0.7 * separate.point_sigma_mm);
   EXPECT_NEAR(joint.projector_from_camera.translation().x(), -190.0, 0.2);
-  EXPECT_LT(joint.projector_residuals.sigma_px, 3.0);
+  EXPECT_LT(joint.reference().projector_residuals.sigma_px, 3.0);
 }
 
 /// Center of the area that a circle about a point of the board shows, from its outline.
@@ -278,16 +278,16 @@ TEST(SolveRig, AllowsForTheEllipsesThatCirclesShow) {
   EXPECT_GT(largest_px, 0.1);  // what the correction is for
   const RigSolution found = solve_rig(board, views, known_rig());
   // Distortion moves the center of the image, too: without it, 1e-3 px and 0.1 px.
-  EXPECT_LT(found.camera_residuals.rms_px, 1e-5);
-  EXPECT_NEAR(found.camera.focal_px.x(), 2400.0, 1e-3);
+  EXPECT_LT(found.reference().residuals.rms_px, 1e-5);
+  EXPECT_NEAR(found.reference().model.focal_px.x(), 2400.0, 1e-3);
 }
 
 TEST(SolveRig, StartsFromTheGivenFocalLengthsButDoesNotTrustWrongOnes) {
   Rig wrong = known_rig();
-  wrong.camera.model.focal_px.setConstant(700.0);
-  wrong.camera.model.principal_point_px = {640.0, 512.0};
+  wrong.reference().model.focal_px.setConstant(700.0);
+  wrong.reference().model.principal_point_px = {640.0, 512.0};
   const RigSolution found = solve_rig(kBoard, make_views({}, 12, 1e-4, 1), wrong);
-  EXPECT_NEAR(found.camera.focal_px.x(), 2400.0, 0.05);
+  EXPECT_NEAR(found.reference().model.focal_px.x(), 2400.0, 0.05);
 }
 
 TEST(SolveRig, NamesTheViewsThatAreTooFew) {

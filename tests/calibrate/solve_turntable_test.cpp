@@ -37,7 +37,7 @@ Rig calibrated_rig(const TrueRig& truth) {
         return model;
       };
   Rig rig;
-  rig.camera.model = model_of(truth.camera, truth.camera_distortion, 1280, 1024);
+  rig.reference().model = model_of(truth.camera, truth.camera_distortion, 1280, 1024);
   rig.projector.model = model_of(truth.projector, truth.projector_distortion, 1280, 800);
   const Eigen::Vector3d turn = vector_of(truth.rotation);
   rig.projector.rotation = Eigen::AngleAxisd(turn.norm(), turn.normalized()).toRotationMatrix();

@@ -70,8 +70,8 @@ class ImportFrames : public ::testing::Test {
                                        .height_px = 800,
                                        .focal_px = {1900.0, 1900.0},
                                        .principal_point_px = {640.0, 400.0}};
-    rig.camera.model.width_px = width_px;
-    rig.camera.model.height_px = height_px;
+    rig.reference().model.width_px = width_px;
+    rig.reference().model.height_px = height_px;
     options_.rig = folder_.path() / "rig.toml";
     write_rig(options_.rig, rig);
   }
@@ -131,8 +131,8 @@ TEST_F(ImportFrames, SortsFramesByPatternAndNumberWithoutChangingAPixel) {
   for (int k = 0; k < 4; ++k)
     EXPECT_EQ(counts_at(stacks[1].frames[static_cast<std::size_t>(k)], 7, 5), 10 * k + 3);
   EXPECT_EQ(counts_at(stacks[0].frames[2], 0, 0), 22);
-  EXPECT_EQ(scan.rig.camera.model.width_px, 8);
-  EXPECT_EQ(scan.rig.camera.white_level, 255);
+  EXPECT_EQ(scan.rig.reference().model.width_px, 8);
+  EXPECT_EQ(scan.rig.reference().white_level, 255);
 }
 
 TEST_F(ImportFrames, PutsEachCamerasFramesIntoAFolderOfItsName) {
@@ -148,9 +148,9 @@ TEST_F(ImportFrames, PutsEachCamerasFramesIntoAFolderOfItsName) {
   for (int k = 0; k < 4; ++k)
     write(fmt::format("right/a_{:02}.png", k), 100 + k, 10, 4);
   const Scan scan = import();
-  ASSERT_EQ(scan.rig.more_cameras.size(), 1U);
-  EXPECT_EQ(scan.rig.more_cameras.front().camera.name, "right");
-  EXPECT_EQ(scan.rig.more_cameras.front().camera.model.width_px, 10);
+  ASSERT_EQ(scan.rig.cameras.size(), 2U);
+  EXPECT_EQ(scan.rig.cameras.at(1).camera.name, "right");
+  EXPECT_EQ(scan.rig.cameras.at(1).camera.model.width_px, 10);
   EXPECT_TRUE(scan.rig.projector.is_label);
   EXPECT_EQ(counts_at(read_frames(scan, 0)[0].frames[2], 0, 0), 12);
   EXPECT_EQ(counts_at(read_frames(scan_of_camera(scan, 1), 0)[0].frames[3], 9, 3), 103);
@@ -178,7 +178,7 @@ TEST_F(ImportFrames, KeepsTheColorOfAWhiteFrameBesideGreyFringes) {
   ASSERT_EQ(scan.patterns.size(), 3U);
   EXPECT_EQ(scan.patterns[1].kind, PatternKind::Ambient);
   EXPECT_EQ(scan.patterns[2].kind, PatternKind::White);
-  EXPECT_EQ(scan.rig.camera.white_level, 255);
+  EXPECT_EQ(scan.rig.reference().white_level, 255);
   const auto stacks = read_frames(scan, 0);
   EXPECT_TRUE(stacks[1].color.empty());
   ASSERT_EQ(stacks[2].color.width(), 8);
@@ -211,8 +211,8 @@ TEST_F(ImportFrames, TakesTheCovarianceOfACalibratedRigAlong) {
                                      .height_px = 800,
                                      .focal_px = {1900.0, 1900.0},
                                      .principal_point_px = {640.0, 400.0}};
-  rig.camera.model.width_px = 8;
-  rig.camera.model.height_px = 6;
+  rig.reference().model.width_px = 8;
+  rig.reference().model.height_px = 6;
   rig.calibration = Calibration{.date = "2026-01-01", .board = "checkerboard", .poses = 12};
   rig.calibration->covariance_file = "rig-covariance.csv";
   rig.calibration->covariance.parameters = {"camera.focal_px"};
@@ -257,7 +257,7 @@ TEST_F(ImportFrames, KeepsFloatingPointFramesAndScalesThemWhenTheyAreRead) {
   const Scan scan = import();
   EXPECT_TRUE(scan.frames.is_float);
   EXPECT_EQ(scan.frames.full_scale, 1.0);
-  EXPECT_EQ(scan.rig.camera.white_level, 65535);
+  EXPECT_EQ(scan.rig.reference().white_level, 65535);
   const ImageFile kept(target() / "views/000/fringes-1-0.tiff");
   const ImageFile original(image_path("float.tiff"));
   const auto pixels = [](const ImageFile& file) {
@@ -273,11 +273,11 @@ TEST_F(ImportFrames, FindsTheWhiteLevelOf16BitFrames) {
   options_.projector_px = {1280, 800};
   for (int k = 0; k < 3; ++k)
     write<std::uint16_t>(fmt::format("a_{:02}.png", k), 1000 + 1000 * k);
-  EXPECT_EQ(import().rig.camera.white_level, 4095);
+  EXPECT_EQ(import().rig.reference().white_level, 4095);
   std::filesystem::remove_all(target());
   for (int k = 0; k < 3; ++k)  // 12 bits, shifted to the left
     write<std::uint16_t>(fmt::format("a_{:02}.png", k), (1001 + 1000 * k) * 16);
-  EXPECT_EQ(import().rig.camera.white_level, 65520);
+  EXPECT_EQ(import().rig.reference().white_level, 65520);
 }
 
 TEST_F(ImportFrames, StatesTheVarianceOfAJpeg) {

@@ -53,16 +53,17 @@ TEST(ExchangedFrames, AreDecidedByTheGrayCode) {
         [&](double column) { return std::cos(kTwoPi * column / kFringe_px + shift); }, generator));
   }
   Rig rig;
-  rig.camera.model.width_px = kAcross_px;
-  rig.camera.model.height_px = kDown_px;
-  rig.camera.noise = NoiseModel{2.3, 0.0};
+  rig.reference().model.width_px = kAcross_px;
+  rig.reference().model.height_px = kDown_px;
+  rig.reference().noise = NoiseModel{2.3, 0.0};
   rig.projector.model = CameraModel{.width_px = 640, .height_px = 480};
   const std::vector<FrameStack> stacks{std::move(gray), std::move(fringes)};
   const DecodedView view = decode_view(stacks, rig, {});
-  ASSERT_FALSE(view.checks.empty());
-  EXPECT_FALSE(view.checks.front().consistent);
-  ASSERT_EQ(view.checks.front().fits.size(), 1U) << describe(view.checks.front());
-  EXPECT_EQ(view.checks.front().fits[0].what, "frames 1 and 2 exchanged");
+  const auto& check = view.directions.front().check;
+  ASSERT_TRUE(check);
+  EXPECT_FALSE(check->consistent);
+  ASSERT_EQ(check->fits.size(), 1U) << describe(*check);
+  EXPECT_EQ(check->fits[0].what, "frames 1 and 2 exchanged");
 }
 
 }  // namespace

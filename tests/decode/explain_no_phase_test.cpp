@@ -21,8 +21,8 @@ constexpr int kFlatFrame_px = 64;
 /// Four frames of fringes of 16 pixels, decoded without a rig.
 std::string reason_of(double mean, double amplitude) {
   Rig rig;
-  rig.camera.model.width_px = kFlatFrame_px;
-  rig.camera.model.height_px = kFlatFrame_px;
+  rig.reference().model.width_px = kFlatFrame_px;
+  rig.reference().model.height_px = kFlatFrame_px;
   rig.projector.model = PinholeModel{};
   FrameStack stack;
   stack.pattern.name = "fine";
@@ -43,7 +43,7 @@ std::string reason_of(double mean, double amplitude) {
     stack.frames.emplace_back(std::move(frame));
   }
   const std::array<FrameStack, 1> stacks{std::move(stack)};
-  return explain_no_phase(stacks, decode_view(stacks, rig, {}).phase.status);
+  return explain_no_phase(stacks, decode_view(stacks, rig, {}).directions.front().phase.status);
 }
 
 TEST(ExplainNoPhase, NamesDarkFramesAndHowMuchLongerToExpose) {

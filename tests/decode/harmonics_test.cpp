@@ -14,7 +14,7 @@ namespace {
 
 struct DecodedPlate {
   Rig rig = testing::small_rig("digital", 4);
-  Image<Eigen::Vector2f> rays = rays_of(rig.camera.model);
+  Image<Eigen::Vector2f> rays = rays_of(rig.reference().model);
   std::vector<FrameStack> stacks;
 
   DecodedPlate(const PatternPlan& plan, double gamma) {
@@ -25,8 +25,8 @@ struct DecodedPlate {
                          default_patterns(rig, plan),
                          view);
   }
-  [[nodiscard]] DecodedView decode(const DecodeOptions& options) const {
-    return decode_view(stacks, rig, rays, options);
+  [[nodiscard]] DecodedDirection decode(const DecodeOptions& options) const {
+    return decode_view(stacks, rig, rays, options).directions.front();
   }
 };
 
@@ -66,7 +66,7 @@ TEST(DecodeView, HasNoSystematicPartForALinearProjectorOrAfterTheCorrection) {
     EXPECT_EQ(mean_systematic(DecodedPlate(plan, 1.0).decode({.keep_maps = keep_maps}).phase),
               -1.0);
   const DecodedPlate plate(plan, 1.8);
-  const DecodedView corrected = plate.decode({});  // the default
+  const DecodedDirection corrected = plate.decode({});  // the default
   EXPECT_LT(mean_systematic(corrected.phase), 0.01);
   for (const FrameAssessment& assessment : corrected.assessments)
     EXPECT_TRUE(assessment.harmonics_corrected);

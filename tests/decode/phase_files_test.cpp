@@ -23,7 +23,7 @@ class PhaseFilesOfAScan : public ::testing::Test {
   PhaseFilesOfAScan()
       : scan_(testing::small_scan(
             folder_.path() / "scan", "plate", "digital", 2, {.samples_per_px = 4}, 4)),
-        rays_(rays_of(scan_.rig.camera.model)) {
+        rays_(rays_of(scan_.rig.reference().model)) {
     options_.indirect_light = false;
     options_.register_views = false;
     options_.decode.survey = survey_scan(scan_);
@@ -41,9 +41,9 @@ class PhaseFilesOfAScan : public ::testing::Test {
         write_float_tiff(to / (map.pattern.name + "-sigma.tiff"), map.sigma_rad);
       };
       if (kind == PhaseKind::Absolute) {
-        write(decoded.phase);
+        write(decoded.directions.front().phase);
       } else {
-        for (const WrappedPhase& map : decoded.wrapped)
+        for (const WrappedPhase& map : decoded.directions.front().wrapped)
           write(map);
       }
     }

@@ -92,13 +92,13 @@ Rig angular() {
 /// A rig of which nothing but the size of the projector is known.
 Rig phases_only() {
   Rig rig = digital();
-  rig.camera.model.focal_px.setZero();
+  rig.reference().model.focal_px.setZero();
   return rig;
 }
 
 Rig angular_phases_only() {
   Rig rig = angular();
-  rig.camera.model.focal_px.setZero();
+  rig.reference().model.focal_px.setZero();
   return rig;
 }
 

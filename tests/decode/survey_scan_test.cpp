@@ -25,7 +25,7 @@ double true_variance(double counts) {
 TEST(SurveyScan, FindsTheNoiseOfACameraThatTheRigSaysNothingOf) {
   const TemporaryFolder folder;
   Scan scan = small_scan(folder.path(), "shaft", "digital", 4);
-  scan.rig.camera.noise.reset();
+  scan.rig.reference().noise.reset();
   const ScanSurvey survey = survey_scan(scan);
   ASSERT_TRUE(survey.noise);
   EXPECT_TRUE(survey.gain_error.empty());  // a digital projector's shifts are exact
@@ -34,7 +34,7 @@ TEST(SurveyScan, FindsTheNoiseOfACameraThatTheRigSaysNothingOf) {
   // And decoding a view goes by it.
   DecodeOptions options;
   options.survey = survey;
-  const auto rays = rays_of(scan.rig.camera.model);
+  const auto rays = rays_of(scan.rig.reference().model);
   const DecodedView view = decode_view(read_frames(scan, 1), scan.rig, rays, options);
   EXPECT_EQ(view.noise.slope_counts, survey.noise->slope_counts);
 }
@@ -42,7 +42,7 @@ TEST(SurveyScan, FindsTheNoiseOfACameraThatTheRigSaysNothingOf) {
 TEST(SurveyScan, IsNeededForNothingThatTheRigGives) {
   const TemporaryFolder folder;
   Scan scan = small_scan(folder.path(), "plate", "digital", 2, {}, 4);
-  scan.rig.camera.noise = NoiseModel::from_camera(50.0, 10.0);
+  scan.rig.reference().noise = NoiseModel::from_camera(50.0, 10.0);
   scan.folder = "/nowhere";  // and no frame is read
   const ScanSurvey survey = survey_scan(scan);
   EXPECT_FALSE(survey.noise);

@@ -20,7 +20,7 @@ using testing::TemporaryFolder;
 
 class DecodesAhead : public ::testing::Test {
  protected:
-  [[nodiscard]] Image<Eigen::Vector2f> rays() const { return rays_of(scan_.rig.camera.model); }
+  [[nodiscard]] Image<Eigen::Vector2f> rays() const { return rays_of(scan_.rig.reference().model); }
   [[nodiscard]] std::filesystem::path frame(int view) const {
     return scan_.folder / "views" / std::to_string(view) / frame_file_name(scan_.patterns[0], 0);
   }
@@ -38,8 +38,8 @@ TEST_F(DecodesAhead, GivesTheViewsInTheirOrderAsDecodedOneByOne) {
     const DecodedView expected =
         decode_view(read_frames(scan_, view), scan_.rig, rays_of_camera, options);
     const DecodedView found = decoder.next();
-    const auto a = found.phase.phase_rad.pixels();
-    const auto b = expected.phase.phase_rad.pixels();
+    const auto a = found.directions.front().phase.phase_rad.pixels();
+    const auto b = expected.directions.front().phase.phase_rad.pixels();
     EXPECT_TRUE(std::equal(a.begin(), a.end(), b.begin(), [](float x, float y) {
       return x == y || (std::isnan(x) && std::isnan(y));
     }));

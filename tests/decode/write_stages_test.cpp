@@ -22,11 +22,11 @@ using testing::text_of;
 TEST(WriteStages, WritesEveryFileThatItNamesAndAPageThatShowsEachPictureWithItsCaption) {
   const testing::TemporaryFolder folder;
   const Scan scan = testing::small_scan(folder.path() / "scan", "bracket", "angular", 1, {}, 4);
-  const auto rays = rays_of(scan.rig.camera.model);
+  const auto rays = rays_of(scan.rig.reference().model);
   DecodeOptions options;
   options.spatial.keep_growth_order = true;
   DecodedView decoded = decode_view(read_frames(scan, 0), scan.rig, rays, options);
-  const RangeGrid range = triangulate(decoded.phase, scan.rig, rays);
+  const RangeGrid range = triangulate(decoded.directions.front().phase, scan.rig, rays);
   const auto files = write_stages(decoded, range, folder.path() / "stages");
   const std::string page = text_of(folder.path() / "stages/index.html");
   for (const StageFile& file : files) {

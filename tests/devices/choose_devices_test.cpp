@@ -76,7 +76,7 @@ TEST_F(ChooseDevices, KeepsTheTablesOfFurtherCameras) {
   EXPECT_NE(text().find("seed = 7"), std::string::npos);
   EXPECT_NE(text().find("part = \"bust\""), std::string::npos);
   EXPECT_EQ(text().find("[devices.light]"), std::string::npos) << "it was not chosen again";
-  EXPECT_EQ(read_rig(project_.rig()).more_cameras.size(), 1U);
+  EXPECT_EQ(read_rig(project_.rig()).cameras.size(), 2U);
 }
 
 #ifdef FRANGIA_WITH_ARAVIS
@@ -90,13 +90,13 @@ TEST_F(ChooseDevices, MakesARigOfAConnectedCameraAndAProjector) {
           screen_,
           {"turntable", "driver = \"grbl\"\nport = \"/dev/ttyUSB0\"\nhome = \"here\"\n"}});
   const Rig rig = read_rig(project_.rig(), {}, RigContent::StartValues);
-  EXPECT_EQ(rig.camera.model.width_px, 320);
-  EXPECT_EQ(rig.camera.model.height_px, 240);
-  EXPECT_EQ(rig.camera.white_level, 255);
+  EXPECT_EQ(rig.reference().model.width_px, 320);
+  EXPECT_EQ(rig.reference().model.height_px, 240);
+  EXPECT_EQ(rig.reference().white_level, 255);
   const auto& projector = std::get<PinholeModel>(rig.projector.model);
   EXPECT_EQ(projector.width_px, 1280);
   EXPECT_EQ(projector.height_px, 800);
-  EXPECT_FALSE(rig.camera.model.focal_px.allFinite()) << "that is for the calibration";
+  EXPECT_FALSE(rig.reference().model.focal_px.allFinite()) << "that is for the calibration";
   const auto devices = read_device_settings(project_.rig());
   ASSERT_EQ(devices.size(), 3U);
   EXPECT_EQ(devices[0].device(), "camera");

@@ -30,7 +30,7 @@ class GigeScan : public ::testing::Test {
  protected:
   GigeScan() : fake_("FRANGIA2", folder_.path(), [this](const auto& e, auto* p) { paint(e, p); }) {
     plan_.rig = testing::small_rig("angular");
-    plan_.rig.camera.noise = NoiseModel::from_camera(78.4, 8.0);
+    plan_.rig.reference().noise = NoiseModel::from_camera(78.4, 8.0);
     plan_.patterns = default_patterns(plan_.rig);
     plan_.name = "gige";
     plan_.folder = folder_.path() / "scan";

@@ -53,7 +53,7 @@ double error_px(const Rig& rig) {
     const Eigen::Vector3d point(p[0], p[1], p[2]);
     const auto& c = truth["camera_px"][i];
     const auto& q = truth["projector_px"][i];
-    const Eigen::Vector2d camera = rig.camera.model.project(point);
+    const Eigen::Vector2d camera = rig.reference().model.project(point);
     const Eigen::Vector2d projector =
         std::get<PinholeModel>(rig.projector.model).project(rig.projector.from_rig(point));
     worst = std::max(worst, (camera - Eigen::Vector2d(c[0], c[1])).norm());
@@ -74,7 +74,7 @@ TEST(CalibrationFiles, ProjectAsOpenCvWhateverProgramWroteThem) {
                                              {"cameras.txt", "extrinsics.yml"}}) {
     const Rig rig = rig_of(data(names), kSizes);
     EXPECT_LT(error_px(rig), 1e-6) << names[0];
-    EXPECT_EQ(rig.camera.model.width_px, 1280) << names[0];
+    EXPECT_EQ(rig.reference().model.width_px, 1280) << names[0];
     EXPECT_EQ(std::get<PinholeModel>(rig.projector.model).height_px, 800) << names[0];
   }
 }
@@ -90,7 +90,7 @@ TEST(CalibrationFiles, OfOneCameraReplaceThatOfABase) {
   ImportRigOptions options;
   options.base = rig_of(data({"slstudio.xml"}));
   options.base->turntable = Turntable{.point_mm = {1.0, 2.0, 480.0}};
-  options.base->camera.model.focal_px *= 2.0;
+  options.base->reference().model.focal_px *= 2.0;
   options.base->calibration = Calibration{.date = "2026-11-23"};
   for (const char* name : {"camera.yml", "ros.yaml", "cameras.txt"}) {
     const Rig rig = rig_of(data({name}), options);
@@ -143,7 +143,7 @@ TEST(CalibrationFiles, ReadBackWhatWasWritten) {
 TEST(CalibrationFiles, RefuseToDropDistortion) {
   const TemporaryFolder folder;
   Rig rig = rig_of(data({"slstudio.xml"}));
-  rig.camera.model.distortion[7] = 0.01;
+  rig.reference().model.distortion[7] = 0.01;
   EXPECT_NE(error_of([&] {
               write_calibration_file(folder.path() / "a.xml", rig, CalibrationLayout::SlStudio);
               return 0;
@@ -151,7 +151,7 @@ TEST(CalibrationFiles, RefuseToDropDistortion) {
             std::string::npos);
   write_calibration_file(folder.path() / "a.yml", rig, CalibrationLayout::OpenCv);
   const Rig back = rig_of({folder.path() / "a.yml"});
-  EXPECT_EQ(back.camera.model.distortion, rig.camera.model.distortion);
+  EXPECT_EQ(back.reference().model.distortion, rig.reference().model.distortion);
 }
 
 /// The message about a .yml with this text.

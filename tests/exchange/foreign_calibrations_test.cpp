@@ -54,9 +54,9 @@ void expect_the_values(const ImportedText& found, const std::string& which) {
   ASSERT_EQ(found.error, "") << which;
   const auto* projector = std::get_if<PinholeModel>(&found.rig.projector.model);
   ASSERT_NE(projector, nullptr) << which;
-  EXPECT_EQ(found.rig.camera.model.focal_px, Eigen::Vector2d(1400.0, 1402.0)) << which;
-  EXPECT_EQ(found.rig.camera.model.principal_point_px, Eigen::Vector2d(640.0, 512.0)) << which;
-  EXPECT_EQ(found.rig.camera.model.distortion[0], -0.1) << which;
+  EXPECT_EQ(found.rig.reference().model.focal_px, Eigen::Vector2d(1400.0, 1402.0)) << which;
+  EXPECT_EQ(found.rig.reference().model.principal_point_px, Eigen::Vector2d(640.0, 512.0)) << which;
+  EXPECT_EQ(found.rig.reference().model.distortion[0], -0.1) << which;
   EXPECT_EQ(projector->focal_px, Eigen::Vector2d(2000.0, 2003.0)) << which;
   EXPECT_TRUE(found.rig.projector.position_mm.isApprox(Eigen::Vector3d(150.0, -3.0, -40.0)))
       << which;
@@ -135,7 +135,7 @@ TEST(ForeignCalibrations, StateSizesAsOneValue) {
                                   "cam_size: [1280, 1024]\npro_size: [800, 600]\n",
                               "a.yaml")
                       .rig;
-  EXPECT_EQ(rig.camera.model.height_px, 1024);
+  EXPECT_EQ(rig.reference().model.height_px, 1024);
 }
 
 TEST(ForeignCalibrations, ListNamesThatAreUnknownAndTakeThemByAMap) {

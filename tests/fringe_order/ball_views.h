@@ -20,10 +20,10 @@ struct Ball {
   double radius_mm = 45.0;
 
   Ball() {
-    rig.camera.model.focal_px.setConstant(600.0);
-    rig.camera.model.principal_point_px = {80.0, 80.0};
+    rig.reference().model.focal_px.setConstant(600.0);
+    rig.reference().model.principal_point_px = {80.0, 80.0};
     rig.turntable = Turntable{.point_mm = {0.0, 0.0, 490.0}, .axis = {0.0, -1.0, 0.0}};
-    rays = rays_of(rig.camera.model);
+    rays = rays_of(rig.reference().model);
   }
   [[nodiscard]] View view(double angle_rad) const {
     View out;

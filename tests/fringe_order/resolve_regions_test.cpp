@@ -17,7 +17,7 @@ const Pattern kPattern{.name = "fringe", .fringes_per_degree = 1.0};
 /// Two walls side by side at different depths with phases of unknown fringe order.
 struct TwoWalls {
   Rig rig = make_paper_rig({.columns = 100, .rows = 60});
-  Image<Eigen::Vector2f> rays = rays_of(rig.camera.model);
+  Image<Eigen::Vector2f> rays = rays_of(rig.reference().model);
   Image<float> truth{100, 60, kMissing};
   RelativePhase phase{.pattern = kPattern,
                       .phase_rad = Image<float>(100, 60, kMissing),
@@ -45,7 +45,7 @@ struct TwoWalls {
   [[nodiscard]] std::vector<ProfilePoint> line_at(int x, double z_mm, int rows) const {
     std::vector<ProfilePoint> profile;
     for (int y = 5; y < 5 + rows; ++y) {
-      const Eigen::Vector2d ray = rig.camera.model.ray({x + 0.4, static_cast<double>(y)});
+      const Eigen::Vector2d ray = rig.reference().model.ray({x + 0.4, static_cast<double>(y)});
       profile.push_back({.pixel = {x + 0.4, static_cast<double>(y)},
                          .point_mm = z_mm * Eigen::Vector3d(ray.x(), ray.y(), 1.0)});
     }

@@ -15,10 +15,10 @@ using testing::box;
 /// away.
 Rig two_eyes() {
   Rig rig;
-  rig.camera.model = {.width_px = 200,
-                      .height_px = 200,
-                      .focal_px = {800.0, 800.0},
-                      .principal_point_px = {99.5, 99.5}};
+  rig.reference().model = {.width_px = 200,
+                           .height_px = 200,
+                           .focal_px = {800.0, 800.0},
+                           .principal_point_px = {99.5, 99.5}};
   rig.projector.model = AngularModel{rad_from_deg(-10.0), rad_from_deg(10.0)};
   rig.projector.position_mm = {100.0, 0.0, 0.0};
   rig.projector.rotation = Eigen::AngleAxisd(std::atan(0.2), Eigen::Vector3d::UnitY()).matrix();
@@ -89,8 +89,8 @@ TEST(IsMeasurable, NeedsTwoCamerasWhereTheProjectorIsALabel) {
   Rig rig = two_eyes();
   const std::vector<Eigen::Isometry3d> poses{rig.rig_from_object(0.0)};
   const RayScene nothing((Mesh()));
-  PosedCamera second{rig.camera, rig.projector.position_mm, rig.projector.rotation};
-  rig.more_cameras.push_back(second);
+  PosedCamera second{rig.reference(), rig.projector.position_mm, rig.projector.rotation};
+  rig.cameras.push_back(second);
   rig.projector.is_label = true;
   rig.projector.position_mm.setConstant(std::nan(""));
   rig.projector.rotation.setConstant(std::nan(""));

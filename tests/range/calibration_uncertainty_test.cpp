@@ -13,7 +13,6 @@
 #include "frangia/range/fringe_ray.h"
 #include "frangia/rig/paper_rig.h"
 #include "frangia/rig/rig_covariance.h"
-#include "frangia/rig/rig_of_camera.h"
 
 namespace frangia {
 namespace {
@@ -25,7 +24,7 @@ const Pattern kColumns{.name = "columns", .period_px = 20.0};
 
 Rig digital_rig() {
   Rig rig = make_paper_rig({});
-  rig.camera.model.distortion = {-0.09, 0.05, 4e-4, -3e-4, 0.0};
+  rig.reference().model.distortion = {-0.09, 0.05, 4e-4, -3e-4, 0.0};
   CameraModel projector;
   projector.width_px = 1280;
   projector.height_px = 800;
@@ -73,7 +72,7 @@ using SeenBy = std::function<Vector3d(const Rig& rig, const Vector3d& point)>;
 /// Reference camera and projector.
 SeenBy by_projector(const Rig& truth, const Pattern& pattern) {
   return [&truth, &pattern](const Rig& rig, const Vector3d& point) {
-    const Eigen::Vector2d ray = rig.camera.model.ray(truth.camera.model.project(point));
+    const Eigen::Vector2d ray = rig.reference().model.ray(truth.reference().model.project(point));
     const double phase = phase_at(point, pattern, truth.projector);
     return Vector3d(intersect_fringe(ray, phase, pattern, rig.projector).depth_mm *
                     ray.homogeneous());
@@ -83,10 +82,10 @@ SeenBy by_projector(const Rig& truth, const Pattern& pattern) {
 /// The point on the first camera's ray that the second one sees nearest to its pixel, by search.
 SeenBy by_second_camera(const Rig& truth) {
   return [&truth](const Rig& rig, const Vector3d& point) {
-    const PosedCamera& nominal = truth.more_cameras.front();
-    const PosedCamera& second = rig.more_cameras.front();
+    const PosedCamera& nominal = truth.cameras.at(1);
+    const PosedCamera& second = rig.cameras.at(1);
     const Eigen::Vector2d pixel = nominal.camera.model.project(nominal.camera_from_rig() * point);
-    const Eigen::Vector2d ray = rig.camera.model.ray(truth.camera.model.project(point));
+    const Eigen::Vector2d ray = rig.reference().model.ray(truth.reference().model.project(point));
     double low = 0.8 * point.z();
     double high = 1.25 * point.z();
     for (int i = 0; i < 90; ++i) {
@@ -145,8 +144,8 @@ void expect_scatter(const Rig& rig,
                     std::size_t camera = 0) {
   const std::vector<Vector3d> points = measured_points();
   const CalibrationUncertainty stated(rig, pattern, points, camera);
-  const Eigen::Isometry3d camera_from = camera_from_rig(rig, camera);
-  const CameraModel& model = model_of_camera(rig, camera);
+  const Eigen::Isometry3d camera_from = rig.cameras[camera].camera_from_rig();
+  const CameraModel& model = rig.cameras[camera].camera.model;
   const std::vector<double> scatter =
       scatter_of(rig, seen_by, points, 800, camera_from.inverse().translation());
   double stated_squares = 0.0;
@@ -180,13 +179,13 @@ TEST(CalibrationUncertainty, IsTheScatterOfRigsDrawnFromTheCovarianceOfAnAngular
 Rig two_camera_rig() {
   Rig rig = digital_rig();
   PosedCamera second;
-  second.camera = rig.camera;
+  second.camera = rig.reference();
   second.camera.name = "left";
   second.position_mm = {150.0, 4.0, 20.0};
   second.rotation =
       (Eigen::AngleAxisd(0.3, Vector3d::UnitY()) * Eigen::AngleAxisd(0.02, Vector3d::UnitX()))
           .toRotationMatrix();
-  rig.more_cameras.push_back(second);
+  rig.cameras.push_back(second);
   Eigen::VectorXd sigma(39);
   sigma << digital_covariance().covariance.diagonal().cwiseSqrt(),  // camera, projector, pose
       0.9, 1e-4, 1.1, 0.9, 3e-3, 1e-2, 1e-4, 1e-4, 1e-2,            // second camera
@@ -204,8 +203,8 @@ TEST(CalibrationUncertainty, IsTheScatterOfTwoCamerasWithAProjectorThatIsALabel)
 TEST(CalibrationUncertainty, IsTheScatterOfASecondCameraAndTheProjector) {
   const Rig truth = two_camera_rig();
   const SeenBy search = [&](const Rig& rig, const Vector3d& point) {
-    const PosedCamera& nominal = truth.more_cameras.front();
-    const PosedCamera& second = rig.more_cameras.front();
+    const PosedCamera& nominal = truth.cameras.at(1);
+    const PosedCamera& second = rig.cameras.at(1);
     const Eigen::Vector2d pixel = nominal.camera.model.project(nominal.camera_from_rig() * point);
     const Vector3d direction =
         second.rotation.transpose() * second.camera.model.ray(pixel).homogeneous();
@@ -248,7 +247,7 @@ TEST(CalibrationUncertainty, ExcludesTheRigidMotionOfThePart) {
     const CalibrationUncertainty stated(rig, kColumns, points);
     double largest = 0.0;
     for (const Vector3d& point : points) {
-      const Eigen::Vector2d pixel = rig.camera.model.project(point);
+      const Eigen::Vector2d pixel = rig.reference().model.project(point);
       largest = std::max(largest, stated.along_ray_mm(pixel.x(), pixel.y(), point.z()));
     }
     return largest;

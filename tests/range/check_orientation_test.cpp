@@ -13,10 +13,10 @@ constexpr double kTurn = 6.283185307179586;
 /// mm.
 Rig crossed_rig() {
   Rig rig;
-  rig.camera.model = {.width_px = 160,
-                      .height_px = 120,
-                      .focal_px = {300.0, 300.0},
-                      .principal_point_px = {80.0, 60.0}};
+  rig.reference().model = {.width_px = 160,
+                           .height_px = 120,
+                           .focal_px = {300.0, 300.0},
+                           .principal_point_px = {80.0, 60.0}};
   const double angle = std::atan2(200.0, 500.0);
   rig.projector.position_mm = {200.0, 0.0, 0.0};
   rig.projector.rotation << std::cos(angle), 0.0, std::sin(angle), 0.0, 1.0, 0.0, -std::sin(angle),
@@ -53,7 +53,7 @@ AbsolutePhase bumpy(const Rig& rig,
 
 TEST(CheckOrientation, AcceptsThePhasesOfABumpySurface) {
   const Rig rig = crossed_rig();
-  const auto rays = rays_of(rig.camera.model);
+  const auto rays = rays_of(rig.reference().model);
   for (const auto direction : {FringeDirection::Vertical, FringeDirection::Horizontal}) {
     const OrientationCheck found = check_orientation(bumpy(rig, direction), rig, rays);
     EXPECT_TRUE(found.decided);
@@ -65,7 +65,7 @@ TEST(CheckOrientation, AcceptsThePhasesOfABumpySurface) {
 TEST(CheckOrientation, DoesNotTakeFineFringesForFallingOnes) {
   // 3.3 projector pixels a camera pixel: a fringe of 8 spans 2.4 camera pixels, one of 14 spans 4.
   const Rig rig = crossed_rig();
-  const auto rays = rays_of(rig.camera.model);
+  const auto rays = rays_of(rig.reference().model);
   for (const double period : {5.0, 8.0, 10.0, 14.0}) {
     for (const auto direction : {FringeDirection::Vertical, FringeDirection::Horizontal}) {
       AbsolutePhase phase = bumpy(rig, direction);
@@ -82,7 +82,7 @@ TEST(CheckOrientation, DoesNotTakeFineFringesForFallingOnes) {
 
 TEST(CheckOrientation, NamesAPhaseThatFallsInsteadOfRises) {
   const Rig rig = crossed_rig();
-  const auto rays = rays_of(rig.camera.model);
+  const auto rays = rays_of(rig.reference().model);
   for (const auto direction : {FringeDirection::Vertical, FringeDirection::Horizontal}) {
     const OrientationCheck found = check_orientation(bumpy(rig, direction, -1.0), rig, rays);
     EXPECT_TRUE(found.decided);
@@ -93,7 +93,7 @@ TEST(CheckOrientation, NamesAPhaseThatFallsInsteadOfRises) {
 
 TEST(CheckOrientation, NamesRowsThatAreExchangedWithColumns) {
   const Rig rig = crossed_rig();
-  const auto rays = rays_of(rig.camera.model);
+  const auto rays = rays_of(rig.reference().model);
   const OrientationCheck vertical =
       check_orientation(bumpy(rig, FringeDirection::Vertical, 1.0, true), rig, rays);
   EXPECT_FALSE(vertical.consistent);
@@ -106,9 +106,9 @@ TEST(CheckOrientation, NamesRowsThatAreExchangedWithColumns) {
 
 TEST(CheckOrientation, DecidesForANarrowPart) {
   Rig rig = crossed_rig();
-  rig.camera.model.width_px = 640;
-  rig.camera.model.height_px = 480;
-  const auto rays = rays_of(rig.camera.model);
+  rig.reference().model.width_px = 640;
+  rig.reference().model.height_px = 480;
+  const auto rays = rays_of(rig.reference().model);
   const AbsolutePhase whole = bumpy(crossed_rig(), FringeDirection::Vertical, -1.0);
   AbsolutePhase narrow{.pattern = whole.pattern,
                        .phase_rad = Image<float>(640, 480, std::nanf("")),
@@ -127,7 +127,7 @@ TEST(CheckOrientation, DecidesNothingForAnEmptyPhase) {
   const Rig rig = crossed_rig();
   AbsolutePhase phase = bumpy(rig, FringeDirection::Vertical);
   phase.phase_rad = Image<float>(160, 120, std::nanf(""));
-  const OrientationCheck found = check_orientation(phase, rig, rays_of(rig.camera.model));
+  const OrientationCheck found = check_orientation(phase, rig, rays_of(rig.reference().model));
   EXPECT_FALSE(found.decided);
   EXPECT_TRUE(found.consistent);
 }

@@ -55,11 +55,11 @@ struct TwoCameras {
         radius_mm(40.0 * given.scale) {
     if (options.bead) bead_radius_mm = 4.0 * given.scale;
     const double s = options.scale;
-    rig.camera.model = {.width_px = 160,
-                        .height_px = 128,
-                        .focal_px = {700.0, 700.0},
-                        .principal_point_px = {79.5, 63.5},
-                        .distortion = {-0.05}};
+    rig.reference().model = {.width_px = 160,
+                             .height_px = 128,
+                             .focal_px = {700.0, 700.0},
+                             .principal_point_px = {79.5, 63.5},
+                             .distortion = {-0.05}};
     rig.projector.model = PinholeModel{.width_px = 1000,
                                        .height_px = 800,
                                        .focal_px = {4000.0, 4000.0},
@@ -68,11 +68,11 @@ struct TwoCameras {
     rig.projector.rotation = looking_at(rig.projector.position_mm, center_mm);
     PosedCamera second;
     second.camera.name = "second";
-    second.camera.model = rig.camera.model;
+    second.camera.model = rig.reference().model;
     second.camera.model.focal_px *= 1.1;
     second.position_mm = s * options.second_mm;
     second.rotation = looking_at(second.position_mm, center_mm);
-    rig.more_cameras.push_back(second);
+    rig.cameras.push_back(second);
     for (const FringeDirection direction :
          {FringeDirection::Vertical, FringeDirection::Horizontal}) {
       Pattern pattern;
@@ -83,18 +83,18 @@ struct TwoCameras {
     }
     patterns.resize(static_cast<std::size_t>(options.directions));
     const Rig truth = rig;
-    rig.more_cameras[0].rotation =
+    rig.cameras[1].rotation =
         Eigen::AngleAxisd(options.turned_rad, Eigen::Vector3d::UnitX()).toRotationMatrix() *
-        rig.more_cameras[0].rotation;
+        rig.cameras[1].rotation;
     rig.projector.is_label = options.label;
     for (std::size_t i = 0; i < 2; ++i) {
       rigs.push_back(rig_of_camera(rig, i));
-      rays.push_back(rays_of(rigs.back().camera.model));
+      rays.push_back(rays_of(rigs.back().reference().model));
       for (const Pattern& pattern : patterns)
         phases[i].push_back(phase_of(rig_of_camera(truth, i), pattern, i));
     }
     for (std::size_t i = 0; i < 2; ++i) {
-      cameras.push_back({rigs[i], rays[i], camera_from_rig(rig, i), {}});
+      cameras.push_back({rigs[i], rays[i], rig.cameras[i].camera_from_rig(), {}});
       for (const AbsolutePhase& phase : phases[i])
         cameras.back().phases.push_back(&phase);
     }
@@ -144,7 +144,7 @@ struct TwoCameras {
   [[nodiscard]] AbsolutePhase phase_of(const Rig& seen,
                                        const Pattern& pattern,
                                        std::size_t camera) const {
-    const auto pixels = rays_of(seen.camera.model);
+    const auto pixels = rays_of(seen.reference().model);
     AbsolutePhase out{pattern,
                       Image<float>(pixels.width(), pixels.height(), kMissing),
                       Image<float>(pixels.width(), pixels.height(), kMissing),
@@ -178,7 +178,7 @@ struct TwoCameras {
   }
 
   [[nodiscard]] Eigen::Isometry3d truth_from_rig() const {
-    PosedCamera second = rig.more_cameras[0];
+    PosedCamera second = rig.cameras[1];
     second.rotation = looking_at(second.position_mm, center_mm);
     return second.camera_from_rig();
   }

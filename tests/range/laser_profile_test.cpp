@@ -28,7 +28,7 @@ struct WallWithStrayLight {
   [[nodiscard]] double true_column(double /*row*/) const {
     const LaserSheet& plane = *rig.laser_sheet;
     const double x = (plane.offset_mm / z_mm - plane.normal.z()) / plane.normal.x();
-    return rig.camera.model.focal_px.x() * x + rig.camera.model.principal_point_px.x();
+    return rig.reference().model.focal_px.x() * x + rig.reference().model.principal_point_px.x();
   }
   [[nodiscard]] FrameStack photograph() const {
     std::mt19937 generator(2);
@@ -179,7 +179,7 @@ TEST(LaserProfile, FindsALineThatRunsAcrossTheImageInEachColumn) {
   WallWithStrayLight wall;
   wall.rig.laser_sheet->normal = Eigen::Vector3d(0.05, 1.0, 0.1).normalized();
   wall.rig.laser_sheet->offset_mm = wall.rig.laser_sheet->normal.z() * wall.z_mm;
-  const CameraModel& camera = wall.rig.camera.model;
+  const CameraModel& camera = wall.rig.reference().model;
   const auto row_of = [&](double x) {  // normal . (x, y, 0) = 0 at the depth of the wall
     return camera.principal_point_px.y() -
            0.05 * (x - camera.principal_point_px.x()) * camera.focal_px.y() / camera.focal_px.x();

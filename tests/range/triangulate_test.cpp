@@ -20,7 +20,7 @@ const Pattern kAngularFringe{.name = "fringe", .fringes_per_degree = 1.0};
 
 struct Wall {
   Rig rig = make_paper_rig({.columns = 64, .rows = 48});
-  Image<Eigen::Vector2f> rays = rays_of(rig.camera.model);
+  Image<Eigen::Vector2f> rays = rays_of(rig.reference().model);
 
   /// The phase of a plane across the view at `z_mm`.
   [[nodiscard]] AbsolutePhase phase(double z_mm, float sigma_rad) const {

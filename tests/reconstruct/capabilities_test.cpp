@@ -154,8 +154,7 @@ Scan small_groove(const std::filesystem::path& folder, bool bounces, int setups)
     model.focal_px /= shrink;
     model.principal_point_px = (model.principal_point_px.array() + 0.5) / shrink - 0.5;
   };
-  reduce(plan.rig.camera.model);
-  for (PosedCamera& posed : plan.rig.more_cameras)
+  for (PosedCamera& posed : plan.rig.cameras)
     reduce(posed.camera.model);
   plan.patterns = default_patterns(plan.rig, {.periods_px = {1280.0, 160.0, 40.0}});
   const Mesh part = make_part("groove");
@@ -186,7 +185,7 @@ struct Cell {
 };
 
 Reconstruction reconstruct_cell(Scan scan, const Cell& cell) {
-  if (cell.cameras == 1) scan.rig.more_cameras.clear();
+  if (cell.cameras == 1) scan.rig.cameras.resize(1);
   scan.rig.projector.is_label = cell.is_label;
   ReconstructOptions options;
   options.refine_rig = cell.refines_rig;

@@ -23,7 +23,7 @@ Scan small_groove(const std::filesystem::path& folder, const SimulateOptions& op
   Scan plan;
   plan.folder = folder;
   plan.rig = rig_preset("digital");
-  CameraModel& model = plan.rig.camera.model;
+  CameraModel& model = plan.rig.reference().model;
   model.width_px /= 3;
   model.height_px /= 3;
   model.focal_px /= 3.0;

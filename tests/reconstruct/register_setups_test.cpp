@@ -31,7 +31,7 @@ struct Setups {
   Run run;
 
   Setups() {
-    rig.camera.model = small_camera_model(160, 800.0);
+    rig.reference().model = small_camera_model(160, 800.0);
     rig.turntable = Turntable{{2.0, 8.0, 650.0}, Eigen::Vector3d(0.03, -0.9, -0.4).normalized()};
     run.on_warning = [&](const std::string& sentence) { warnings.push_back(sentence); };
   }
@@ -41,9 +41,9 @@ struct Setups {
     const Eigen::Isometry3d back = part_pose.inverse();
     for (int i = 0; i < kViews; ++i) {
       const double angle_rad = kTwoPi * i / kViews;
-      setup.measured.views.add(
+      setup.measured.reference().add(
           testing::snapshot([&](const Eigen::Vector3d& p) { return shape(back * p); },
-                            rig.camera.model,
+                            rig.reference().model,
                             rig.rig_from_object(angle_rad),
                             {.seed = static_cast<std::uint32_t>(10 * setup.number + i + 1)}));
       setup.measured.stations.push_back({angle_rad, "views/" + std::to_string(i), 0});
@@ -76,7 +76,7 @@ TEST(RegisterSetups, FindsHowThePartWasTurnedOver) {
   const MeasuredSetup joined = register_setups(std::move(all.setups), all.rig, {}, all.run);
   EXPECT_TRUE(all.warnings.empty()) << all.warnings.front();
   ASSERT_TRUE(joined.registration.has_value());
-  EXPECT_EQ(joined.measured.views.size(), 10U);
+  EXPECT_EQ(joined.measured.reference().size(), 10U);
   ASSERT_EQ(joined.registration->part_poses.size(), 1U);
   expect_near(joined.registration->part_poses[0], turned_over());
   EXPECT_LT(joined.registration->rms_after_mm, 0.035);
@@ -147,7 +147,7 @@ TEST(RegisterSetups, NamesASetupThatFitsNoOtherAndLeavesItOut) {
   ASSERT_EQ(all.warnings.size(), 1U);
   EXPECT_NE(all.warnings[0].find("setup 1 (views/0 to views/4)"), std::string::npos)
       << all.warnings[0];
-  EXPECT_EQ(joined.measured.views.size(), 5U);
+  EXPECT_EQ(joined.measured.reference().size(), 5U);
   ASSERT_EQ(joined.joins.size(), 2U);
   EXPECT_TRUE(joined.joins[0].joined);
   EXPECT_FALSE(joined.joins[1].joined);

@@ -39,7 +39,7 @@ SurfaceError surface_error_of(const Reconstruction& result) {
 }
 
 Scan with_reference_camera_alone(Scan scan) {
-  scan.rig.more_cameras.clear();
+  scan.rig.cameras.resize(1);
   return scan;
 }
 
@@ -69,7 +69,7 @@ TEST(TwoCameras, MeasureMoreThanOneAndMoreExactly) {
 TEST(TwoCameras, ReportACameraThatHasTurned) {
   const TemporaryFolder folder;
   Scan scan = small_scan(folder.path(), "bracket", "binocular", kViews);
-  PosedCamera& second = scan.rig.more_cameras.front();
+  PosedCamera& second = scan.rig.cameras.at(1);
   second.rotation =
       Eigen::AngleAxisd(rad_from_deg(0.2), Eigen::Vector3d::UnitY()) * second.rotation;
   const Reconstruction result = reconstruct_by_rig(scan);

@@ -33,8 +33,8 @@ Registered registered(const FaultyScan& scan, const RayScene& part, bool with_er
   const auto stations = scan.stations();
   Run run;
   run.on_warning = [&](const std::string& sentence) { out.warnings.push_back(sentence); };
-  out.report =
-      register_views(views, scan.stated.camera.model, scan.given(stations), RegisterOptions{}, run);
+  out.report = register_views(
+      views, scan.stated.reference().model, scan.given(stations), RegisterOptions{}, run);
   if (with_error) out.error_mm = testing::surface_error_mm(scan, part, views);
   return out;
 }

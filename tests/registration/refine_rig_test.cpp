@@ -29,7 +29,7 @@ const Pattern kRows{.name = "rows", .direction = FringeDirection::Horizontal, .p
 /// A rig of any size: projector left of the camera, both look at the turntable.
 Rig true_rig(double scale = 1.0) {
   Rig rig;
-  rig.camera.model = small_camera_model(160, 800.0);
+  rig.reference().model = small_camera_model(160, 800.0);
   rig.projector.model = PinholeModel{.width_px = 1280,
                                      .height_px = 800,
                                      .focal_px = {1900.0, 1900.0},
@@ -60,8 +60,8 @@ ViewStore scaled_views(const Shape& shape, const Rig& unit, int count, double sc
   for (int i = 0; i < count; ++i)
     poses.push_back(unit.rig_from_object(kTwoPi * i / count));
   ViewStore out;
-  const ViewStore views =
-      testing::snapshots(shape, unit.camera.model, poses, {.noise_mm = 0.01, .sigma_mm = 0.01});
+  const ViewStore views = testing::snapshots(
+      shape, unit.reference().model, poses, {.noise_mm = 0.01, .sigma_mm = 0.01});
   for (std::size_t i = 0; i < views.size(); ++i) {
     View view = views.load(i);
     for (Image<float>* image : {&view.range.depth_mm, &view.range.sigma_mm}) {
@@ -100,8 +100,8 @@ ShapeError shape_error(const ViewStore& truth, const Rig& true_one, const Rig& r
   const View right = truth.load(0);
   const ViewStore other = retriangulate_views(truth, kColumns, true_one, rig);
   const View wrong = other.load(0);
-  const auto rays = rays_of(true_one.camera.model);
-  const auto rays_other = rays_of(rig.camera.model);
+  const auto rays = rays_of(true_one.reference().model);
+  const auto rays_other = rays_of(rig.reference().model);
   std::vector<Eigen::Vector3d> from;
   std::vector<Eigen::Vector3d> to;
   for (int y = 0; y < rays.height(); y += 3) {
@@ -241,7 +241,7 @@ TEST(PointDrift, IsTheMotionOfATriangulatedPoint) {
   const Eigen::VectorXd none = Eigen::VectorXd::Zero(model.count());
   const PointDrift drift(model, none);
   const ViewStore views = scaled_views(knobbly, rig, 1, 1.0);
-  const auto rays = rays_of(rig.camera.model);
+  const auto rays = rays_of(rig.reference().model);
   const View view = views.load(0);
   const int x = 80;
   const int y = 78;
@@ -254,8 +254,9 @@ TEST(PointDrift, IsTheMotionOfATriangulatedPoint) {
     w[i] = kStep;
     const Rig changed = model.rig_at(w);
     const View moved = retriangulate_views(views, kColumns, rig, changed).load(0);
-    const Eigen::Vector3d there = static_cast<double>(moved.range.depth_mm(x, y)) *
-                                  rays_of(changed.camera.model)(x, y).cast<double>().homogeneous();
+    const Eigen::Vector3d there =
+        static_cast<double>(moved.range.depth_mm(x, y)) *
+        rays_of(changed.reference().model)(x, y).cast<double>().homogeneous();
     // Second order and rounding of single-precision depths.
     EXPECT_LT((there - point - kStep * by.col(i).cast<double>()).norm(),
               0.01 * kStep * by.col(i).norm() + 2e-4)
@@ -277,13 +278,12 @@ TEST(DriftModel, AddsNothingToACovarianceThatIsNotMeasured) {
 
 TEST(RefineRig, ScalesFurtherCamerasWithTheRig) {
   Rig rig = true_rig();
-  rig.more_cameras.emplace_back();
-  rig.more_cameras[0].position_mm = {100.0, -20.0, 5.0};
-  const double distance_mm = (rig.more_cameras[0].position_mm - rig.projector.position_mm).norm();
+  rig.cameras.emplace_back();
+  rig.cameras[1].position_mm = {100.0, -20.0, 5.0};
+  const double distance_mm = (rig.cameras[1].position_mm - rig.projector.position_mm).norm();
   scale_rig(rig, 1.01);
-  EXPECT_NEAR((rig.more_cameras[0].position_mm - rig.projector.position_mm).norm(),
-              1.01 * distance_mm,
-              1e-9);
+  EXPECT_NEAR(
+      (rig.cameras[1].position_mm - rig.projector.position_mm).norm(), 1.01 * distance_mm, 1e-9);
 }
 
 }  // namespace

@@ -47,8 +47,8 @@ TEST(Calibration, OfAWrittenRigIsReadBack) {
       read_rig(save_known(folder, kSizesOnly + "[line]\nnormal = [1.0, 0.0, 0.0]\noffset_mm = 3\n"),
                {},
                RigContent::StartValues);
-  rig.camera.model.focal_px = rig.camera.model.principal_point_px = {640.0, 512.0};
-  rig.projector.model = rig.camera.model;
+  rig.reference().model.focal_px = rig.reference().model.principal_point_px = {640.0, 512.0};
+  rig.projector.model = rig.reference().model;
   rig.projector.position_mm = {100.0, 0.0, 0.0};
   rig.projector.rotation.setIdentity();
   rig.calibration = Calibration{.date = "2026-11-23",
@@ -100,8 +100,8 @@ TEST(WriteRig, CarriesTheDevicesOfAnotherFileOver) {
 TEST(ReadRig, TakesStartValuesFromAFileThatHoldsSizesOnly) {
   const TemporaryFolder folder;
   const Rig rig = read_rig(save_known(folder, kSizesOnly), {}, RigContent::StartValues);
-  EXPECT_EQ(rig.camera.model.width_px, 1280);
-  EXPECT_TRUE(std::isnan(rig.camera.model.focal_px.x()));
+  EXPECT_EQ(rig.reference().model.width_px, 1280);
+  EXPECT_TRUE(std::isnan(rig.reference().model.focal_px.x()));
   EXPECT_EQ(std::get<PinholeModel>(rig.projector.model).height_px, 800);
   EXPECT_TRUE(std::isnan(rig.projector.position_mm.x()));
 }

@@ -73,10 +73,10 @@ TEST(PhaseRangeOfField, IsThatOfTheAnglesDividedByTheScaleOfThePitch) {
 /// A camera and a projector whose axes cross at a point, both turned by hand.
 TEST(CrossingOfAxes, IsTheMiddleOfTheShortestLineBetweenTheAxes) {
   Rig rig;
-  rig.camera.model = {.width_px = 101,
-                      .height_px = 81,
-                      .focal_px = {200.0, 200.0},
-                      .principal_point_px = {50.0, 40.0}};
+  rig.reference().model = {.width_px = 101,
+                           .height_px = 81,
+                           .focal_px = {200.0, 200.0},
+                           .principal_point_px = {50.0, 40.0}};
   const Eigen::Vector3d crossing(0.0, 0.0, 500.0);
   rig.projector.position_mm = {-300.0, 40.0, 100.0};
   const Eigen::Vector3d forward = (crossing - rig.projector.position_mm).normalized();
@@ -99,7 +99,7 @@ TEST(CrossingOfAxes, IsTheMiddleOfTheShortestLineBetweenTheAxes) {
   pinhole.principal_point_px = {320.0 + 90.0, 240.0};
   rig.projector.model = pinhole;
   EXPECT_GT((crossing_of_axes(rig) - (crossing + 4.0 * apart)).norm(), 20.0);
-  rig.camera.model.principal_point_px = {50.0 + 20.0, 40.0};
+  rig.reference().model.principal_point_px = {50.0 + 20.0, 40.0};
   EXPECT_NEAR(crossing_of_axes(rig).x() / crossing_of_axes(rig).z(), -0.1, 0.02);
 }
 

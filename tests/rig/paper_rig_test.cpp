@@ -41,7 +41,7 @@ TEST(PaperRig, TriangulationMatchesEquationsTwoToEight) {
     for (const double phase_deg : testing::linspace(29, -2400.0, 2388.0)) {
       const PaperPoint expected = paper_point(geometry, column, phase_deg, pitch);
       if (expected.x_mm <= 0.0) continue;
-      const Eigen::Vector2d ray = rig.camera.model.ray(Eigen::Vector2d(column, middle_row));
+      const Eigen::Vector2d ray = rig.reference().model.ray(Eigen::Vector2d(column, middle_row));
       const RayDepth found = intersect_fringe(ray, rad_from_deg(phase_deg), pattern, rig.projector);
       EXPECT_NEAR(found.depth_mm, expected.x_mm, 1e-9 * std::abs(expected.x_mm));
       EXPECT_NEAR(-found.depth_mm * ray.x(), expected.y_mm, 1e-9 * std::abs(expected.x_mm));

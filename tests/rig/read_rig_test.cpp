@@ -60,8 +60,8 @@ TEST(ReadRig, ReadsEveryTable) {
   frangia::Run run;
   run.on_warning = [&](const std::string& sentence) { warnings.push_back(sentence); };
   const Rig rig = read_rig(save(folder, kRig), run);
-  EXPECT_EQ(rig.camera.model.width_px, 1280);
-  EXPECT_EQ(rig.camera.white_level, 4095);
+  EXPECT_EQ(rig.reference().model.width_px, 1280);
+  EXPECT_EQ(rig.reference().white_level, 4095);
   EXPECT_TRUE(rig.projector.is_angular());
   EXPECT_DOUBLE_EQ(rig.laser_sheet->offset_mm, 162.9);
   EXPECT_NEAR(rig.turntable->axis.norm(), 1.0, 1e-15);
@@ -73,7 +73,7 @@ TEST(ReadRig, ReadsBackAWrittenRig) {
   Rig rig = make_paper_rig({});
   rig.turntable = Turntable{.point_mm = {1.0, 2.0, 480.0}, .point_sigma_mm = 0.02};
   rig.turntable->angle_sigma_rad = rad_from_deg(0.05);
-  rig.camera.noise = NoiseModel::from_camera(40.0, 11.0);
+  rig.reference().noise = NoiseModel::from_camera(40.0, 11.0);
   write_rig(folder.path() / "rig.toml", rig);
   const Rig back = read_rig(folder.path() / "rig.toml");
   EXPECT_TRUE(back.projector.rotation.isApprox(rig.projector.rotation, 1e-12));
@@ -82,8 +82,9 @@ TEST(ReadRig, ReadsBackAWrittenRig) {
   EXPECT_EQ(back.turntable->point_sigma_mm, 0.02);
   EXPECT_TRUE(std::isnan(back.turntable->axis_sigma_rad));
   EXPECT_NEAR(back.turntable->angle_sigma_rad, rad_from_deg(0.05), 1e-12);
-  EXPECT_NEAR(back.camera.noise->variance(100.0), rig.camera.noise->variance(100.0), 1e-9);
-  EXPECT_EQ(back.camera.model.distortion, rig.camera.model.distortion);
+  EXPECT_NEAR(
+      back.reference().noise->variance(100.0), rig.reference().noise->variance(100.0), 1e-9);
+  EXPECT_EQ(back.reference().model.distortion, rig.reference().model.distortion);
 }
 
 TEST(ReadRig, ReadsBackAWavefront) {
@@ -107,10 +108,10 @@ TEST(ReadRig, TakesTheLensModelsOfOpenCv) {
     if (count == 4 || count == 5 || count == 8 || count == 12 || count == 14) {
       const Rig rig = read_rig(path);
       const double last = count == 4 ? -3e-4 : 0.001 * count;
-      EXPECT_EQ(rig.camera.model.distortion.at(static_cast<std::size_t>(count) - 1), last);
+      EXPECT_EQ(rig.reference().model.distortion.at(static_cast<std::size_t>(count) - 1), last);
       write_rig(folder.path() / "back.toml", rig);
       EXPECT_EQ(read_rig(folder.path() / "back.toml").camera.model.distortion,
-                rig.camera.model.distortion);
+                rig.reference().model.distortion);
     } else {
       const std::string fault = testing::error_of([&] { static_cast<void>(read_rig(path)); });
       EXPECT_NE(fault.find("4, 5, 8, 12 or 14"), std::string::npos) << fault;
@@ -134,8 +135,8 @@ TEST(ReadRig, KeepsTheDiamondPixelsOfAProjector) {
 TEST(WriteRig, WritesTheShortestNumbersThatRestoreTheRigExactly) {
   const TemporaryFolder folder;
   Rig rig = make_paper_rig({});
-  rig.camera.model.principal_point_px = {490.45, 377.0};
-  rig.camera.model.focal_px = {1.0 / 3.0 * 1e4, 1800.1};
+  rig.reference().model.principal_point_px = {490.45, 377.0};
+  rig.reference().model.focal_px = {1.0 / 3.0 * 1e4, 1800.1};
   rig.projector.response = ResponseCurve{{0.0, 0.1, 1.0}};
   const auto path = folder.path() / "rig.toml";
   write_rig(path, rig);
@@ -144,8 +145,8 @@ TEST(WriteRig, WritesTheShortestNumbersThatRestoreTheRigExactly) {
   EXPECT_NE(text.find("principal_point_px = [490.45, 377.0]\n"), std::string::npos) << text;
   EXPECT_NE(text.find("light = [0.0, 0.1, 1.0]\n"), std::string::npos) << text;
   const Rig back = read_rig(path);
-  EXPECT_EQ(back.camera.model.principal_point_px, rig.camera.model.principal_point_px);
-  EXPECT_EQ(back.camera.model.focal_px, rig.camera.model.focal_px);
+  EXPECT_EQ(back.reference().model.principal_point_px, rig.reference().model.principal_point_px);
+  EXPECT_EQ(back.reference().model.focal_px, rig.reference().model.focal_px);
   EXPECT_EQ(back.projector.position_mm, rig.projector.position_mm);
   EXPECT_EQ(back.laser_sheet->offset_mm, rig.laser_sheet->offset_mm);
   EXPECT_EQ(back.projector.response->light, rig.projector.response->light);
@@ -280,18 +281,18 @@ read_e = 8.0
 TEST(ReadRig, ReadsAndWritesMoreCameras) {
   const TemporaryFolder folder;
   const Rig rig = read_rig(save(folder, kRig + kSecondCamera));
-  ASSERT_EQ(rig.more_cameras.size(), 1U);
-  const PosedCamera& second = rig.more_cameras.front();
+  ASSERT_EQ(rig.cameras.size(), 2U);
+  const PosedCamera& second = rig.cameras.at(1);
   EXPECT_EQ(second.camera.name, "left");
   EXPECT_EQ(second.camera.model.width_px, 640);
   EXPECT_EQ(second.camera.white_level, 255);
   EXPECT_TRUE(second.camera.noise);
   EXPECT_EQ(second.position_mm, Eigen::Vector3d(-200.0, 0.0, 30.0));
-  EXPECT_TRUE(rig.camera.name.empty());
+  EXPECT_TRUE(rig.reference().name.empty());
   write_rig(folder.path() / "again.toml", rig);
   const Rig again = read_rig(folder.path() / "again.toml");
-  ASSERT_EQ(again.more_cameras.size(), 1U);
-  const PosedCamera& read_again = again.more_cameras.front();
+  ASSERT_EQ(again.cameras.size(), 2U);
+  const PosedCamera& read_again = again.cameras.at(1);
   EXPECT_EQ(read_again.camera.name, "left");
   EXPECT_EQ(read_again.camera.model.focal_px, second.camera.model.focal_px);
   EXPECT_EQ(read_again.position_mm, second.position_mm);

@@ -101,10 +101,10 @@ TEST(ChangeParameters, MovesEachParameterAsTheCovarianceDefinesIt) {
   EXPECT_DOUBLE_EQ(after.focal_px.x(), 2010.0);
   EXPECT_DOUBLE_EQ(after.focal_px.y() / after.focal_px.x(), before.focal_px.y() / 2000.0);
   EXPECT_DOUBLE_EQ(after.principal_point_px.y(), 788.0);
-  EXPECT_NEAR(changed.camera.model.focal_px.y() - rig.camera.model.focal_px.y(),
-              0.01 * rig.camera.model.focal_px.x(),
+  EXPECT_NEAR(changed.reference().model.focal_px.y() - rig.reference().model.focal_px.y(),
+              0.01 * rig.reference().model.focal_px.x(),
               1e-9);
-  EXPECT_DOUBLE_EQ(changed.camera.model.distortion[2], 1e-3);
+  EXPECT_DOUBLE_EQ(changed.reference().model.distortion[2], 1e-3);
 }
 
 TEST(ChangeParameters, ChangesATermOfTheWavefront) {

@@ -11,11 +11,11 @@ TEST(RigOfCamera, ShowsTheSameRigInTheFrameOfAnotherCamera) {
   Rig rig = rig_preset("binocular");
   rig.laser_sheet = LaserSheet{{0.6, 0.0, 0.8}, 250.0};
   const Rig seen = rig_of_camera(rig, 1);
-  const Eigen::Isometry3d to_camera = camera_from_rig(rig, 1);
-  EXPECT_EQ(camera_count(rig), 2U);
-  EXPECT_EQ(camera_count(seen), 1U);
-  EXPECT_EQ(seen.camera.name, "left");
-  EXPECT_TRUE((to_camera * rig.more_cameras[0].position_mm).isZero(1e-9));
+  const Eigen::Isometry3d to_camera = rig.cameras[1].camera_from_rig();
+  EXPECT_EQ(rig.cameras.size(), 2U);
+  EXPECT_EQ(seen.cameras.size(), 1U);
+  EXPECT_EQ(seen.reference().name, "left");
+  EXPECT_TRUE((to_camera * rig.cameras[1].position_mm).isZero(1e-9));
   const Eigen::Vector3d point(12.0, -7.0, 480.0);
   EXPECT_TRUE(
       seen.projector.from_rig(to_camera * point).isApprox(rig.projector.from_rig(point), 1e-12));

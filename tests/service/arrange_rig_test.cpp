@@ -36,9 +36,9 @@ TEST(ArrangeRig, ScalesFocalLengthsAndDropsTheCalibration) {
   Rig before = rig_preset("digital");
   before.calibration = Calibration{};
   const Rig after = arrange_rig(before, {.camera_focal_px = 1000.0, .projector_focal_px = 900.0});
-  EXPECT_NEAR(after.camera.model.focal_px.x(), 1000.0, 1e-9);
-  EXPECT_NEAR(after.camera.model.focal_px.y() / after.camera.model.focal_px.x(),
-              before.camera.model.focal_px.y() / before.camera.model.focal_px.x(),
+  EXPECT_NEAR(after.reference().model.focal_px.x(), 1000.0, 1e-9);
+  EXPECT_NEAR(after.reference().model.focal_px.y() / after.reference().model.focal_px.x(),
+              before.reference().model.focal_px.y() / before.reference().model.focal_px.x(),
               1e-12);
   EXPECT_NEAR(std::get<PinholeModel>(after.projector.model).focal_px.x(), 900.0, 1e-9);
   EXPECT_FALSE(after.calibration);

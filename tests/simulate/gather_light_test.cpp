@@ -29,10 +29,10 @@ constexpr double kFar_mm = 5000.0;
 /// A camera and a projector at the same far place, which look along z: rays are almost parallel.
 Rig far_rig() {
   Rig rig;
-  rig.camera.model = {.width_px = 101,
-                      .height_px = 101,
-                      .focal_px = {5000.0, 5000.0},
-                      .principal_point_px = {50.0, 50.0}};
+  rig.reference().model = {.width_px = 101,
+                           .height_px = 101,
+                           .focal_px = {5000.0, 5000.0},
+                           .principal_point_px = {50.0, 50.0}};
   rig.projector.model = PinholeModel{.width_px = 1001,
                                      .height_px = 1001,
                                      .focal_px = {10000.0, 10000.0},
@@ -135,7 +135,7 @@ TEST(GatherLight, ReturnsTheAlbedoInsideAUniformlyLitSphere) {
   SimulateOptions options = exact_options();
   options.bounces = 1;
   options.albedo = 0.6;
-  rig.camera.model.focal_px = {50.0, 50.0};
+  rig.reference().model.focal_px = {50.0, 50.0};
   const Mesh part = on_turntable(sphere, rig);
   const auto scene = make_simulated_scene(part, rig, std::span(&kStraight, 1), options);
   // A camera inside the sphere.
@@ -211,10 +211,10 @@ TEST(GatherLight, AddsNoMoreLightThanTheAlbedoReflects) {
 
 TEST(GatherLight, GivesTheSameFramesForAnyNumberOfThreads) {
   Rig rig = rig_preset("angular");
-  rig.camera.model = {.width_px = 96,
-                      .height_px = 96,
-                      .focal_px = {190.0, 190.0},
-                      .principal_point_px = {47.5, 47.5}};
+  rig.reference().model = {.width_px = 96,
+                           .height_px = 96,
+                           .focal_px = {190.0, 190.0},
+                           .principal_point_px = {47.5, 47.5}};
   SimulateOptions options;
   options.bounces = 1;
   options.subsurface_mm = 0.5;

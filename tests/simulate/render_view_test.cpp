@@ -48,7 +48,7 @@ Decoded decode(const FrameStack& stack, int x, int y) {
 /// Where the pixel's ray meets the plate's front, x = 3 of the object frame.
 std::optional<Eigen::Vector3d> point_on_plate(const Rig& rig, double angle_rad, int x, int y) {
   const Eigen::Isometry3d pose = rig.rig_from_object(angle_rad);
-  const Eigen::Vector3d ray = rig.camera.model.ray(Eigen::Vector2d(x, y)).homogeneous();
+  const Eigen::Vector3d ray = rig.reference().model.ray(Eigen::Vector2d(x, y)).homogeneous();
   const Eigen::Vector3d normal = pose.linear() * Eigen::Vector3d::UnitX();
   const double depth = normal.dot(pose * Eigen::Vector3d(3.0, 0.0, 0.0)) / normal.dot(ray);
   const Eigen::Vector3d p = pose.inverse() * Eigen::Vector3d(depth * ray);
@@ -80,8 +80,8 @@ TEST(RenderView, HoldsThePhaseOfTheScanFormat) {
     int checked = 0;
     for (const FrameStack& stack : stacks) {
       if (stack.pattern.kind == PatternKind::Line) continue;
-      for (int y = 0; y < rig.camera.model.height_px; y += 5) {
-        for (int x = 0; x < rig.camera.model.width_px; x += 5) {
+      for (int y = 0; y < rig.reference().model.height_px; y += 5) {
+        for (int x = 0; x < rig.reference().model.width_px; x += 5) {
           const auto point = point_on_plate(rig, kFront.angle_rad, x, y);
           if (!point) continue;
           const Decoded pixel = decode(stack, x, y);
@@ -195,7 +195,7 @@ TEST(RenderView, NoiseIsThatOfTheCamera) {
         const int truth = counts_at(b.frames[i], x, y);
         if (truth < 200) continue;
         const double error = counts_at(a.frames[i], x, y) - truth;
-        chi2 += error * error / noisy.known_rig.camera.noise->variance(truth);
+        chi2 += error * error / noisy.known_rig.reference().noise->variance(truth);
         ++count;
       }
     }

@@ -15,10 +15,10 @@ TEST(RigPresets, SeeAndLightTheWholeOfAPartOfAHundredMillimetres) {
       for (const double y : {-30.0, 30.0}) {
         for (const double z : {0.0, 100.0}) {
           const Eigen::Vector3d seen = rig.rig_from_object(0.7) * Eigen::Vector3d(x, y, z);
-          const Eigen::Vector2d pixel = rig.camera.model.project(seen);
+          const Eigen::Vector2d pixel = rig.reference().model.project(seen);
           EXPECT_GT(pixel.minCoeff(), 0.0) << name;
-          EXPECT_LT(pixel.x(), rig.camera.model.width_px) << name;
-          EXPECT_LT(pixel.y(), rig.camera.model.height_px) << name;
+          EXPECT_LT(pixel.x(), rig.reference().model.width_px) << name;
+          EXPECT_LT(pixel.y(), rig.reference().model.height_px) << name;
           const Eigen::Vector3d lit = rig.projector.from_rig(seen);
           if (const auto* model = std::get_if<PinholeModel>(&rig.projector.model)) {
             EXPECT_GT(model->project(lit).minCoeff(), 0.0) << name;

@@ -44,8 +44,8 @@ TEST_F(SimulateScan, WritesAScanThatReadsBackWithTheTruthBeside) {
   const Scan scan = read_scan(folder_, run);
   EXPECT_TRUE(warnings.empty());
   EXPECT_EQ(scan.views.size(), 2U);
-  EXPECT_EQ(scan.rig.camera.white_level, 4095);
-  EXPECT_TRUE(scan.rig.camera.noise);
+  EXPECT_EQ(scan.rig.reference().white_level, 4095);
+  EXPECT_TRUE(scan.rig.reference().noise);
   const auto stacks = read_frames(scan, 1);
   ASSERT_EQ(stacks.size(), 2U);
   EXPECT_EQ(stacks[0].frames.size(), 4U);

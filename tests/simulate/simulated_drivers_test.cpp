@@ -22,7 +22,7 @@ using testing::error_of;
 
 Rig tiny_rig(const char* preset) {
   Rig rig = rig_preset(preset);
-  CameraModel& model = rig.camera.model;
+  CameraModel& model = rig.reference().model;
   model.focal_px *= 96.0 / model.width_px;
   model.principal_point_px *= 96.0 / model.width_px;
   model.height_px = model.height_px * 96 / model.width_px;
@@ -61,13 +61,13 @@ double mean_of(const Frame& frame) {
 }
 
 double picture(const RigDevices& devices, const FrameLabel& label = label_of(0, 0)) {
-  return mean_of(devices.camera->capture(label, soon()).frame);
+  return mean_of(devices.reference()->capture(label, soon()).frame);
 }
 
 TEST(SimulatedDrivers, ExposureGainAndBlackLevelActOnTheImage) {
   const RigDevices devices = open("angular", {{"camera", kCamera}});
   const auto mean_at = [&](double exposure_ms, double gain_db, double black) {
-    static_cast<void>(devices.camera->configure({exposure_ms, gain_db, black}, soon()));
+    static_cast<void>(devices.reference()->configure({exposure_ms, gain_db, black}, soon()));
     return picture(devices);
   };
   const double plain = mean_at(5.0, 0.0, 0.0);
@@ -82,7 +82,7 @@ TEST(SimulatedDrivers, PartIsTurnedOverInTheNextSetupUnderTheSameLight) {
   const auto shot = [&](const RigDevices& devices, int setup) {
     FrameLabel label = label_of(0, 0);
     label.setup = setup;
-    const Frame frame = devices.camera->capture(label, soon()).frame;
+    const Frame frame = devices.reference()->capture(label, soon()).frame;
     const auto pixels = std::get<Image<std::uint8_t>>(frame).pixels();
     return std::vector(pixels.begin(), pixels.end());
   };
@@ -101,7 +101,7 @@ TEST(SimulatedDrivers, FrameDependsOnItsLabelNotOnWhatWasTakenBefore) {
   const RigDevices devices = open("angular", {{"camera", kCamera}, {"fringes", kPiezo}});
   devices.shifter->drive(2.5, soon());
   const auto bytes = [&](int frame) {
-    const CapturedFrame taken = devices.camera->capture(label_of(0, frame), soon());
+    const CapturedFrame taken = devices.reference()->capture(label_of(0, frame), soon());
     const auto pixels = std::get<Image<std::uint8_t>>(taken.frame).pixels();
     return std::vector<std::uint8_t>(pixels.begin(), pixels.end());
   };
@@ -169,7 +169,7 @@ TEST(SimulatedDrivers, CameraFaultsHappenWhereTheScriptSays) {
              kCamera + "faults = [\"lost 1 fringe 2\", \"incomplete 1 fringe 3\", "
                        "\"saturated 2\", \"unplugged 3\"]\n"}});
   const auto take = [&](int view, int frame) {
-    return devices.camera->capture(label_of(view, frame), soon());
+    return devices.reference()->capture(label_of(view, frame), soon());
   };
   EXPECT_NE(error_of([&] { static_cast<void>(take(1, 2)); }).find("no frame came"),
             std::string::npos);
@@ -178,8 +178,9 @@ TEST(SimulatedDrivers, CameraFaultsHappenWhereTheScriptSays) {
   EXPECT_TRUE(take(1, 3).complete);
   EXPECT_GT(mean_of(take(2, 0).frame), 2.0 * mean_of(take(0, 0).frame));
   EXPECT_NE(error_of([&] { static_cast<void>(take(3, 0)); }).find("unplugged"), std::string::npos);
-  EXPECT_NE(error_of([&] { static_cast<void>(devices.camera->test(soon())); }).find("unplugged"),
-            std::string::npos);
+  EXPECT_NE(
+      error_of([&] { static_cast<void>(devices.reference()->test(soon())); }).find("unplugged"),
+      std::string::npos);
 }
 
 TEST(SimulatedDrivers, TableFaultsLeaveTheAngleUnknownUntilItIsHomed) {

@@ -53,10 +53,10 @@ TEST(SimulatedScene, TellsTheNoiseOfItsCamera) {
   SimulateOptions options;
   options.bits = 10;
   const SimulatedScene scene = plate_scene(options);
-  EXPECT_EQ(scene.known_rig.camera.white_level, 1023);
-  EXPECT_NEAR(scene.known_rig.camera.noise->slope_counts, 1023.0 / 20000.0, 1e-12);
+  EXPECT_EQ(scene.known_rig.reference().white_level, 1023);
+  EXPECT_NEAR(scene.known_rig.reference().noise->slope_counts, 1023.0 / 20000.0, 1e-12);
   options.noise = false;
-  EXPECT_FALSE(plate_scene(options).known_rig.camera.noise);
+  EXPECT_FALSE(plate_scene(options).known_rig.reference().noise);
 }
 
 TEST(SimulatedScene, StandsThePartOnATurntableTop) {

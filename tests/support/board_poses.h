@@ -21,7 +21,7 @@ inline const Board kBoard{
 inline Rig known_rig() {
   const Eigen::Vector2d unknown = Eigen::Vector2d::Constant(std::nan(""));
   Rig rig;
-  rig.camera.model = {
+  rig.reference().model = {
       .width_px = 1280, .height_px = 1024, .focal_px = unknown, .principal_point_px = unknown};
   rig.projector.model = PinholeModel{
       .width_px = 1280, .height_px = 800, .focal_px = unknown, .principal_point_px = unknown};

@@ -123,14 +123,14 @@ struct FaultyScan {
 
   [[nodiscard]] View take(const RayScene& part, std::size_t index) const {
     const TrueView& own = views[index];
-    const CameraModel& camera = stated.camera.model;
+    const CameraModel& camera = stated.reference().model;
     View view{{Image<float>(camera.width_px, camera.height_px, kMissing),
                Image<float>(camera.width_px, camera.height_px, kMissing)},
               stated.rig_from_object(stated_angles_rad[index])};
     const Eigen::Isometry3d rig_from = rig_from_part(index);
     const Eigen::Isometry3d part_from_rig = rig_from.inverse();
     const Eigen::Vector3d light = part_from_rig * own.rig.projector.position_mm;
-    const auto true_rays = rays_of(own.rig.camera.model);
+    const auto true_rays = rays_of(own.rig.reference().model);
     const auto rays = rays_of(camera);
     parallel_rows(camera.height_px, [&](int y) {
       std::mt19937 random(seed * 7919U + static_cast<std::uint32_t>(1000 * index) +
@@ -167,7 +167,7 @@ inline double surface_error_mm(const FaultyScan& scan,
                                const RayScene& part,
                                const ViewStore& store) {
   constexpr int kBlock = 12;  // pixels
-  const CameraModel& camera = scan.stated.camera.model;
+  const CameraModel& camera = scan.stated.reference().model;
   const auto rays = rays_of(camera);
   struct Sample {
     Eigen::Vector3d found, truth, normal;
@@ -179,7 +179,7 @@ inline double surface_error_mm(const FaultyScan& scan,
     const Image<float> depth = store.load_depth_mm(view);
     const Eigen::Isometry3d part_from_rig = scan.rig_from_part(view).inverse();
     const Eigen::Isometry3d object_from_rig = store.rig_from_object(view).inverse();
-    const auto true_rays = rays_of(scan.views[view].rig.camera.model);
+    const auto true_rays = rays_of(scan.views[view].rig.reference().model);
     const int columns = camera.width_px / kBlock + 1;
     for (int y = 0; y < camera.height_px; ++y) {
       for (int x = 0; x < camera.width_px; ++x) {

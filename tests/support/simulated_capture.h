@@ -28,8 +28,8 @@ class SimulatedCapture : public ::testing::Test {
   /// A preset's rig with its devices, the camera's pixels a `shrink`th of it.
   void use(const std::string& preset, int shrink) {
     plan_.rig = rig_preset(preset);
-    make_coarser(plan_.rig.camera.model, shrink);
-    plan_.rig.camera.noise = NoiseModel::from_camera(78.4, 8.0);
+    make_coarser(plan_.rig.reference().model, shrink);
+    plan_.rig.reference().noise = NoiseModel::from_camera(78.4, 8.0);
     plan_.patterns = default_patterns(plan_.rig);
     plan_.folder = folder_.path() / "scan";
     plan_.name = "scan";

@@ -21,8 +21,7 @@ inline void make_coarser(CameraModel& model, int divisor) {
 /// A rig of the presets with fewer pixels in its cameras, so that tests take little time.
 inline Rig small_rig(const std::string& preset, int divisor = 2) {
   Rig rig = rig_preset(preset);
-  make_coarser(rig.camera.model, divisor);
-  for (PosedCamera& posed : rig.more_cameras)
+  for (PosedCamera& posed : rig.cameras)
     make_coarser(posed.camera.model, divisor);
   return rig;
 }

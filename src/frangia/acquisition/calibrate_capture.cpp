@@ -18,7 +18,7 @@ class PoseObserver {
  public:
   PoseObserver(const Scan& plan, const CalibrateCaptureOptions& options, const Run& run)
       : plan_(plan), options_(options), run_(run) {
-    coverage_ = measure_pose_coverage(views_, *plan.board, plan.rig.camera.model);
+    coverage_ = measure_pose_coverage(views_, *plan.board, plan.rig.reference().model);
   }
 
   void add(std::size_t view) {
@@ -27,7 +27,7 @@ class PoseObserver {
         read_frames(plan_, view, run_), *plan_.board, plan_.rig, name, {}, run_);
     views_.push_back(pose.view);
     if (pose.view.points.empty()) without_board_.push_back(name);
-    coverage_ = measure_pose_coverage(views_, *plan_.board, plan_.rig.camera.model);
+    coverage_ = measure_pose_coverage(views_, *plan_.board, plan_.rig.reference().model);
     if (!options_.on_pose) return;
     const auto expected = static_cast<std::size_t>(plan_.board->columns) *
                           static_cast<std::size_t>(plan_.board->rows);

@@ -43,8 +43,7 @@ void amplify(Camera& camera, double gain) {
 Scan with_gain(Scan plan, double gain_db) {
   if (gain_db == 0.0) return plan;
   const double gain = std::pow(10.0, gain_db / 20.0);
-  amplify(plan.rig.camera, gain);
-  for (PosedCamera& posed : plan.rig.more_cameras)
+  for (PosedCamera& posed : plan.rig.cameras)
     amplify(posed.camera, gain);
   return plan;
 }
@@ -91,7 +90,7 @@ CaptureReport capture_scan(const Scan& plan,
   const SafeStateGuard safe(devices);
   check_devices(devices, plan, options);
   Scan real = with_gain(plan, options.camera.gain_db);
-  count_compression(devices.camera->info(), real, run);
+  count_compression(devices.reference()->info(), real, run);
   claim_folder(real, {describe(options), describe_devices(devices.settings)}, options.setup, run);
   return CaptureSession(std::move(real), devices, options, run).capture();
 }

@@ -18,13 +18,14 @@ std::vector<double> find_exposures(RigDevices& devices,
                                    const Run& run) {
   require(options.exposure != ExposureChoice::Given, "a given `exposure` is not searched for");
   const SafeStateGuard safe(devices);
-  require(devices.camera != nullptr, "the rig has no camera; add [devices.camera] to its rig.toml");
+  require(devices.reference() != nullptr,
+          "the rig has no camera; add [devices.camera] to its rig.toml");
   require(devices.display != nullptr || devices.shifter != nullptr,
           "the rig shows no fringes; add [devices.fringes] to its rig.toml");
   CaptureDevices session(devices, rig, options, run);
   if (table_rad && devices.turntable && devices.turntable->info().can_home)
     session.turn_to(*table_rad);
-  const CameraInfo& camera = devices.camera->info();
+  const CameraInfo& camera = devices.reference()->info();
   const ExposureRange range{
       options.camera.exposure_ms, camera.min_exposure_ms, camera.max_exposure_ms};
   const ExposureProbe probe = [&](double exposure_ms) {

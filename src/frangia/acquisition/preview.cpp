@@ -10,7 +10,8 @@ namespace frangia {
 
 void preview(RigDevices& devices, const Rig& rig, const PreviewEvents& events, const Run& run) {
   const SafeStateGuard safe(devices);
-  require(devices.camera != nullptr, "the rig has no camera; add [devices.camera] to its rig.toml");
+  require(devices.reference() != nullptr,
+          "the rig has no camera; add [devices.camera] to its rig.toml");
   require(devices.display != nullptr || devices.shifter != nullptr,
           "the rig shows no fringes; add [devices.fringes] to its rig.toml");
   const CaptureOptions options;
@@ -28,8 +29,8 @@ void preview(RigDevices& devices, const Rig& rig, const PreviewEvents& events, c
       const bool turns = fresh->table_rad != settings.table_rad;
       settings = std::move(*fresh);
       const double exposure_s = 1e-3 * settings.camera.exposure_ms;
-      effective = devices.camera->configure(settings.camera,
-                                            Deadline::in(options.timeout_s + exposure_s, run.stop));
+      effective = devices.reference()->configure(
+          settings.camera, Deadline::in(options.timeout_s + exposure_s, run.stop));
       if (turns) session.turn_to(settings.table_rad);
       pattern = 0;
       frame = 0;

@@ -30,7 +30,7 @@ FrameStack take_sweep(RigDevices& devices,
                       const SweepOptions& options,
                       const Run& run) {
   const ShifterInfo& info = devices.shifter->info();
-  FrameStack stack{pattern_of(info, options), {}, rig.camera.white_level};
+  FrameStack stack{pattern_of(info, options), {}, rig.reference().white_level};
   CaptureDevices session(devices, rig, options.capture, run);
   session.expose_for(options.capture.camera.exposure_ms);
   session.begin_set(stack.pattern, 1.0);
@@ -52,13 +52,14 @@ PiezoSweep sweep_piezo(RigDevices& devices,
                        const SweepOptions& options,
                        const Run& run) {
   require(
-      devices.camera && devices.shifter,
+      devices.reference() != nullptr && devices.shifter,
       "calibrating a piezo needs [devices.camera] and a phase shifter in [devices.fringes]; add "
       "them to rig.toml");
   require(options.steps >= 6, "`steps` must be at least 6");
   const SafeStateGuard safe(devices);
   const FrameStack stack = take_sweep(devices, rig, options, run);
-  const NoiseModel noise = rig.camera.noise ? *rig.camera.noise : estimate_noise({&stack, 1});
+  const NoiseModel noise =
+      rig.reference().noise ? *rig.reference().noise : estimate_noise({&stack, 1});
   const ShiftEstimate found = estimate_shifts(stack, noise);
   PiezoSweep sweep;
   sweep.residual_ratio =

@@ -118,10 +118,10 @@ void add_cameras(const ImportPlan& plan, Scan& scan) {
     posed.camera.model.focal_px = posed.camera.model.principal_point_px = unknown;
     posed.position_mm.setConstant(std::nan(""));
     posed.rotation.setConstant(std::nan(""));
-    scan.rig.more_cameras.push_back(std::move(posed));
+    scan.rig.cameras.push_back(std::move(posed));
   }
   // Two cameras need no more of the projector than its size.
-  scan.rig.projector.is_label = !scan.rig.more_cameras.empty();
+  scan.rig.projector.is_label = scan.rig.cameras.size() > 1;
 }
 
 /// The scan of a plan whose frames were written.
@@ -141,13 +141,13 @@ Scan scan_of(const ImportPlan& plan, const std::vector<WrittenFrame>& written, c
     const double angle = plan.options.angles_rad.empty() ? 0.0 : plan.options.angles_rad[view];
     scan.views.push_back({angle, view_folder(view)});
   }
-  scan.rig.camera.model.width_px = plan.image.width_px;
-  scan.rig.camera.model.height_px = plan.image.height_px;
+  scan.rig.reference().model.width_px = plan.image.width_px;
+  scan.rig.reference().model.height_px = plan.image.height_px;
   add_cameras(plan, scan);
   const int bits = frames.front().bits;
   if (bits == 32) scan.frames = float_storage(frames, plan.options, run);
   for (std::size_t i = 0; i < plan.cameras.size(); ++i) {
-    Camera& camera = i == 0 ? scan.rig.camera : scan.rig.more_cameras[i - 1].camera;
+    Camera& camera = scan.rig.cameras[i].camera;
     if (bits != 32) {
       set_white_level(plan, of_cameras[i], camera, run);
       continue;
@@ -176,11 +176,11 @@ void write_sizes_only(const fs::path& path, const ImportPlan& plan, const Rig& r
     writer.put("white_level", camera.white_level);
   };
   writer.begin_table("camera");
-  put(rig.camera);
-  for (const PosedCamera& posed : rig.more_cameras) {
+  put(rig.reference());
+  for (std::size_t i = 1; i < rig.cameras.size(); ++i) {
     writer.begin_table_of_list("more_cameras");
-    writer.put("name", posed.camera.name);
-    put(posed.camera);
+    writer.put("name", rig.cameras[i].camera.name);
+    put(rig.cameras[i].camera);
   }
   const auto* const model = std::get_if<PinholeModel>(&rig.projector.model);
   if (plan.rig_has_projector && model != nullptr) {

@@ -14,7 +14,6 @@
 #include "frangia/frames/turn_image.h"
 #include "frangia/rig/read_rig.h"
 #include "frangia/rig/rig_covariance.h"
-#include "frangia/rig/rig_of_camera.h"
 
 namespace frangia {
 namespace {
@@ -53,7 +52,7 @@ void find_rig(ImportPlan& plan, const Run& run) {
   model.height_px = size ? (*size)[1] : 1;
   const Eigen::Vector2d unknown = Eigen::Vector2d::Constant(std::nan(""));
   model.focal_px = model.principal_point_px = unknown;
-  plan.rig.camera.model.focal_px = plan.rig.camera.model.principal_point_px = unknown;
+  plan.rig.reference().model.focal_px = plan.rig.reference().model.principal_point_px = unknown;
   plan.rig.projector.position_mm.setConstant(std::nan(""));
   plan.rig.projector.rotation.setConstant(std::nan(""));
   plan.rig.projector.model = model;
@@ -116,7 +115,7 @@ void check_views(const ImportPlan& plan) {
   }
   if (plan.options.rig.empty()) return;
   for (std::size_t i = 0; i < plan.cameras.size(); ++i) {
-    const CameraModel& camera = model_of_camera(plan.rig, i);
+    const CameraModel& camera = plan.rig.cameras[i].camera.model;
     const ImageInfo& image = plan.cameras[i].image;
     if (camera.width_px == image.width_px && camera.height_px == image.height_px) continue;
     refuse_import(fmt::format("the images{} have {} x {} pixels, but {}.size_px in {} is {} x {}",
@@ -146,7 +145,7 @@ void orient_images(ImportPlan& plan, std::size_t index, const Run& run) {
   if (wanted == FrameOrientation::ByRig && plan.options.rig.empty())
     wanted = FrameOrientation::Stored;
   if (wanted == FrameOrientation::ByRig) {
-    const CameraModel& model = model_of_camera(plan.rig, index);
+    const CameraModel& model = plan.rig.cameras[index].camera.model;
     const bool stored = model.width_px == image.width_px && model.height_px == image.height_px;
     const bool shown = model.width_px == shown_width_px && model.height_px == shown_height_px;
     if (stored && shown) {

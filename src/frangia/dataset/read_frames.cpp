@@ -88,7 +88,7 @@ void check_size(const Camera& camera, const std::filesystem::path& path, int wid
 /// its pixel is missing.
 Frame read_float_frame(const Scan& scan, const std::filesystem::path& path) {
   const ImageFile file(path);
-  check_size(scan.rig.camera, path, file.info().width_px, file.info().height_px);
+  check_size(scan.rig.reference(), path, file.info().width_px, file.info().height_px);
   const RasterImage image = file.read();
   const auto* const values = std::get_if<Image<float>>(&image.samples);
   if (values == nullptr || image.channels != 1)
@@ -145,13 +145,13 @@ bool may_have_color(const Pattern& pattern) {
 /// 255, 16 bits the white level of the camera if that has more than 8 bits.
 void read_color_frame(const Scan& scan, const std::filesystem::path& path, FrameStack& stack) {
   const ImageFile file(path);
-  check_size(scan.rig.camera, path, file.info().width_px, file.info().height_px);
+  check_size(scan.rig.reference(), path, file.info().width_px, file.info().height_px);
   const RasterImage image = file.read();
   if (image.channels != 3) refuse(path, "is neither grey nor red, green and blue; convert it");
   if (const auto* const narrow = std::get_if<Image<std::uint8_t>>(&image.samples)) {
     set_color(*narrow, 255, stack);
   } else if (const auto* const wide = std::get_if<Image<std::uint16_t>>(&image.samples)) {
-    const int white = scan.rig.camera.white_level;
+    const int white = scan.rig.reference().white_level;
     set_color(*wide, white > 255 ? white : 65535, stack);
   } else {
     refuse(path, "is a floating-point image in colour; convert it to 8 or 16 bits");
@@ -197,7 +197,7 @@ void read_frame(const Scan& scan, const FrameFile& file) {
     read_color_frame(scan, path, *file.stack);
   } else {
     *file.frame = read_png(path, [&](int width_px, int height_px) {
-      check_size(scan.rig.camera, path, width_px, height_px);
+      check_size(scan.rig.reference(), path, width_px, height_px);
     });
   }
 }
@@ -223,7 +223,7 @@ void for_each_file(const std::vector<FrameFile>& files,
 std::vector<FrameStack> read_frames(const Scan& scan, std::size_t view, const Run& run) {
   const std::filesystem::path folder = path_below(scan.folder, scan.views.at(view).folder);
   if (!std::filesystem::is_directory(folder)) {
-    const std::string& camera = scan.rig.camera.name;
+    const std::string& camera = scan.rig.reference().name;
     if (!camera.empty()) {
       throw Error(ErrorKind::Input,
                   fmt::format("{}: there is no such folder, but rig.toml has the camera \"{}\" in "
@@ -242,7 +242,7 @@ std::vector<FrameStack> read_frames(const Scan& scan, std::size_t view, const Ru
     for (int exposure = 0; exposure < pattern.exposure_count(); ++exposure) {
       stacks.push_back({pattern,
                         std::vector<Frame>(static_cast<std::size_t>(pattern.frame_count())),
-                        scan.rig.camera.white_level,
+                        scan.rig.reference().white_level,
                         exposure,
                         scan.frames.compression_counts2});
     }
@@ -264,7 +264,7 @@ std::vector<FrameStack> read_frames(const Scan& scan, std::size_t view, const Ru
       files.begin(), files.end(), [](const FrameFile& file) { return file.stack->color.empty(); });
   for_each_file(files, [&](const FrameFile& file) {
     if (!file.stack->color.empty()) return;
-    check_counts(*file.frame, *first->frame, scan.rig.camera, scan.folder / file.relative);
+    check_counts(*file.frame, *first->frame, scan.rig.reference(), scan.folder / file.relative);
   });
   return stacks;
 }

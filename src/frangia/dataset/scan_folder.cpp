@@ -119,12 +119,12 @@ FrameStorage read_frame_storage(TomlReader reader, const Rig& rig, const Run& ru
     storage.zero = reader.number_or("zero", 0.0);
     storage.full_scale = reader.number("full_scale");
     if (!(storage.full_scale > storage.zero)) reader.fail("full_scale", "must be above zero");
-    if (rig.camera.white_level != kFloatWhiteLevel) {
+    if (rig.reference().white_level != kFloatWhiteLevel) {
       reader.fail("format",
                   fmt::format("is \"float\", for which camera.white_level in rig.toml must be {}, "
                               "not {}",
                               kFloatWhiteLevel,
-                              rig.camera.white_level));
+                              rig.reference().white_level));
     }
   }
   storage.compression_counts2 = reader.number_or("compression_counts2", 0.0);

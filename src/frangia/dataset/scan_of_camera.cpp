@@ -9,7 +9,7 @@ Scan scan_of_camera(const Scan& scan, std::size_t camera) {
   out.rig = rig_of_camera(scan.rig, camera);
   if (camera == 0) return out;
   for (ScanView& view : out.views)
-    view.folder /= out.rig.camera.name;
+    view.folder /= out.rig.reference().name;
   return out;
 }
 

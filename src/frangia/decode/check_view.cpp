@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <numeric>
+#include <optional>
 
 #include "frangia/range/check_orientation.h"
 #include "frangia/rig/has_geometry.h"
@@ -9,34 +11,37 @@
 namespace frangia {
 namespace {
 
-/// Whether one direction's phase is to be triangulated; adds the reason if it is not.
-bool check_direction(const AbsolutePhase& phase,
-                     const SequenceCheck* sequence,
-                     const Rig& rig,
-                     const Image<Eigen::Vector2f>& rays,
-                     ViewFit& out) {
-  std::string reason;
-  if (sequence != nullptr) {
-    out.decided = out.decided || sequence->decided;
+/// Whether one direction's phase fits.
+struct DirectionFit {
+  bool decided = false;
+  std::string reason{};  ///< what does not fit; empty if it fits
+};
+
+DirectionFit check_direction(const DecodedDirection& direction,
+                             const Rig& rig,
+                             const Image<Eigen::Vector2f>& rays) {
+  DirectionFit out;
+  std::string& reason = out.reason;
+  const std::optional<SequenceCheck>& sequence = direction.check;
+  if (sequence) {
+    out.decided = sequence->decided;
     if (!sequence->consistent) reason = describe(*sequence);
   }
   // Rows that are exchanged with columns look like missing frames of a code.
   const bool unexplained =
-      sequence != nullptr && !sequence->consistent && sequence->finding.empty() &&
+      sequence && !sequence->consistent && sequence->finding.empty() &&
       std::all_of(sequence->fits.begin(), sequence->fits.end(), [](const SequenceFault& fault) {
         return fault.kind == SequenceFaultKind::Missing;
       });
   if ((reason.empty() || unexplained) && has_geometry(rig)) {
-    const OrientationCheck orientation = check_orientation(phase, rig, rays);
+    const OrientationCheck orientation = check_orientation(direction.phase, rig, rays);
     out.decided = out.decided || orientation.decided;
     constexpr double kExchanged = 3.0;  // change across the direction of the rig over that along it
     if (reason.empty() || orientation.across > kExchanged) {
       if (!orientation.fits.empty()) reason = orientation.fits;
     }
   }
-  if (reason.empty()) return true;
-  out.reason += (out.reason.empty() ? "" : "; ") + reason;
-  return false;
+  return out;
 }
 
 }  // namespace
@@ -46,15 +51,17 @@ ViewFit check_view(const DecodedView& decoded,
                    const Image<Eigen::Vector2f>& rays,
                    bool accept_inconsistent) {
   ViewFit out;
-  const auto sequence = [&](std::size_t direction) {
-    return direction < decoded.checks.size() ? &decoded.checks[direction] : nullptr;
-  };
-  const bool first = check_direction(decoded.phase, sequence(0), rig, rays, out);
-  const bool second =
-      decoded.second_phase && check_direction(*decoded.second_phase, sequence(1), rig, rays, out);
-  out.accepted = accept_inconsistent && !first && !second;
-  out.uses_first = first || out.accepted;
-  out.uses_second = second || (out.accepted && decoded.second_phase);
+  for (std::size_t i = 0; i < decoded.directions.size(); ++i) {
+    const DirectionFit fit = check_direction(decoded.directions[i], rig, rays);
+    out.decided = out.decided || fit.decided;
+    if (fit.reason.empty()) out.used.push_back(i);
+    if (!fit.reason.empty()) out.reason += (out.reason.empty() ? "" : "; ") + fit.reason;
+  }
+  out.accepted = accept_inconsistent && out.used.empty();
+  if (out.accepted) {
+    out.used.resize(decoded.directions.size());
+    std::iota(out.used.begin(), out.used.end(), 0U);
+  }
   return out;
 }
 

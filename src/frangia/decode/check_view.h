@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
+#include <vector>
 
 #include <Eigen/Core>
 
@@ -12,18 +14,19 @@ namespace frangia {
 
 /// Whether the phases of a view fit scan.toml and the rig.
 struct ViewFit {
-  bool decided = false;     ///< at least one check has an answer
-  bool uses_first = true;   ///< `DecodedView::phase` is to be triangulated
-  bool uses_second = true;  ///< `DecodedView::second_phase` is to be triangulated
-  bool accepted = false;    ///< nothing fits, and `accept_inconsistent` triangulates it
-  std::string reason{};     ///< what does not fit, and what would, as a clause; empty if all fits
+  bool decided = false;             ///< at least one check has an answer
+  std::vector<std::size_t> used{};  ///< which of `DecodedView::directions` are triangulated
+  bool accepted = false;            ///< nothing fits, and `accept_inconsistent` triangulates it
+  std::string reason{};  ///< what does not fit, and what would, as a clause; empty if all fits
 
   /// Whether a phase of the view is to be triangulated.
-  [[nodiscard]] bool fits() const { return uses_first || uses_second; }
+  [[nodiscard]] bool fits() const { return !used.empty(); }
+  /// The direction whose pixels get the points; the first where none fits.
+  [[nodiscard]] std::size_t leading() const { return used.empty() ? 0 : used.front(); }
 };
 
-/// Decides which phases of a view are triangulated: those whose patterns agree with each other and
-/// whose phase rises where the rig makes it rise; all of them with `accept_inconsistent`.
+/// Decides which directions of a view are triangulated: those whose patterns agree with each other
+/// and whose phase rises where the rig makes it rise; all of them with `accept_inconsistent`.
 [[nodiscard]] ViewFit check_view(const DecodedView& decoded,
                                  const Rig& rig,
                                  const Image<Eigen::Vector2f>& rays,

@@ -1,8 +1,5 @@
 #include "frangia/decode/decode_view.h"
 
-#include <iterator>
-#include <utility>
-
 #include "frangia/decode/internal/decode_direction.h"
 #include "frangia/decode/select_stacks.h"
 
@@ -14,25 +11,30 @@ DecodeOptions options_of_view(const DecodeOptions& options, std::size_t view) {
   return out;
 }
 
+std::vector<FrameAssessment> assessments_of(const DecodedView& view) {
+  std::vector<FrameAssessment> all;
+  for (const DecodedDirection& direction : view.directions)
+    all.insert(all.begin(), direction.assessments.begin(), direction.assessments.end());
+  return all;
+}
+
+std::string misfit_of(const DecodedView& view) {
+  std::vector<SequenceCheck> checks;
+  for (const DecodedDirection& direction : view.directions)
+    if (direction.check) checks.push_back(*direction.check);
+  return describe(checks);
+}
+
 DecodedView decode_view(std::span<const FrameStack> stacks,
                         const DecodePlan& plan,
                         const Rig& rig,
                         const Image<Eigen::Vector2f>& rays,
                         const DecodeOptions& options,
                         const Run& run) {
-  const auto decode = [&](const DirectionPlan& direction) {
-    return decode_direction({stacks, direction, rig, rays, options, run});
-  };
-  DecodedView out = decode(plan.directions.front());
-  if (plan.directions.size() == 1) return out;
-  DecodedView second = decode(plan.directions.back());
-  out.second_phase = std::move(second.phase);
-  out.checks.insert(out.checks.end(), second.checks.begin(), second.checks.end());
-  std::move(second.frames.begin(), second.frames.end(), std::back_inserter(out.frames));
-  std::move(out.wrapped.begin(), out.wrapped.end(), std::back_inserter(second.wrapped));
-  out.wrapped = std::move(second.wrapped);
-  out.assessments.insert(
-      out.assessments.begin(), second.assessments.begin(), second.assessments.end());
+  DecodedView out;
+  out.directions.clear();
+  for (const DirectionPlan& direction : plan.directions)
+    out.directions.push_back(decode_direction({stacks, direction, rig, rays, options, run}));
   return out;
 }
 

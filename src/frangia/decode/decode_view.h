@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include <Eigen/Core>
@@ -22,35 +23,42 @@
 
 namespace frangia {
 
-/// The phase of one view and the intermediate results.
-struct DecodedView {
-  NoiseModel noise;  ///< noise of the camera: from rig.toml, the survey or the frames
-  Pattern coarsest;  ///< the coarsest fringe pattern
-  /// Those of `second_phase` first; each direction coarse to fine; empty unless `keep_maps`.
-  std::vector<WrappedPhase> wrapped;
+/// One direction of fringes of a view: its phase and the intermediate results.
+struct DecodedDirection {
+  NoiseModel noise;                          ///< of the camera: from rig.toml, survey or frames
+  Pattern coarsest;                          ///< the coarsest fringe pattern
+  std::vector<WrappedPhase> wrapped;         ///< coarse to fine; empty unless `keep_maps`
   std::vector<FrameAssessment> assessments;  ///< one per fringe pattern, in the same order
   std::optional<RelativePhase> relative;     ///< of a spatially unwrapped scan
   std::vector<ProfilePoint> profile;         ///< of the laser sheet, where the scan has one
   AbsolutePhase phase;                       ///< of the finest fringes
-  /// Of the finest horizontal fringes, where `phase` is that of vertical ones and both were
-  /// decoded.
-  std::optional<AbsolutePhase> second_phase;
-  /// Comparison of the patterns with each other: one per decoded direction, that of `phase` first.
-  std::vector<SequenceCheck> checks;
-  /// What explains the frames of the fringe patterns, coarse to fine, of the direction of `phase`
-  /// first; empty where frames are merged from several exposures.
+  std::optional<SequenceCheck> check;        ///< of the patterns with each other; none without maps
+  /// What explains the frames of the fringe patterns, coarse to fine; empty where frames are merged
+  /// from several exposures.
   std::vector<FrameVerdict> frames;
   std::vector<UnresolvedRegion> unresolved;  ///< regions without a fringe order
-  Image<Rgb> color;                          ///< of each pixel; empty unless `colors` asks for it
 };
+
+/// The directions of fringes of one view.
+struct DecodedView {
+  /// In the order of the plan: the one that later stages refer to first.
+  std::vector<DecodedDirection> directions = std::vector<DecodedDirection>(1);
+  Image<Rgb> color;  ///< of each pixel; empty unless `colors` asks for it
+};
+
+/// The assessments of all directions, each coarse to fine, those of the first direction last.
+[[nodiscard]] std::vector<FrameAssessment> assessments_of(const DecodedView& view);
+
+/// What the patterns of the directions do not fit, as `describe` says it; empty if all fits.
+[[nodiscard]] std::string misfit_of(const DecodedView& view);
 
 /// Computes the absolute phase of one view from its frames, as `plan` says.
 ///
-/// The patterns of each direction are compared with each other; `checks` holds the result, and the
+/// The patterns of each direction are compared with each other; `check` holds the result, and the
 /// caller decides whether a phase that does not fit is used.
 ///
 /// @shape    `stacks` as read_frames returns them, of the patterns of `plan`; `rays` as
-///           rays_of(rig.camera.model), or empty for a rig without geometry
+///           rays_of(rig.reference().model), or empty for a rig without geometry
 /// @units    rad, counts
 /// @missing  NaN in a phase; `status` gives the reason
 /// @errors   Error(Input) when a function of `options.own` returns images of another size, or when

@@ -10,7 +10,6 @@
 #include "frangia/range/difference_uncertainty.h"
 #include "frangia/range/match_by_phase.h"
 #include "frangia/range/recover_edge_pixels.h"
-#include "frangia/rig/rig_of_camera.h"
 
 namespace frangia {
 namespace {
@@ -22,11 +21,9 @@ RangeGrid empty_grid(const Image<Eigen::Vector2f>& rays) {
 
 /// The phases of a camera that are triangulated.
 std::vector<const AbsolutePhase*> used_phases(const DecodedCamera& camera) {
-  if (!camera.used) return {};
-  const DecodedView& decoded = camera.decoded;
-  if (!camera.fit.uses_first && decoded.second_phase) return {&*decoded.second_phase};
-  std::vector<const AbsolutePhase*> phases{&decoded.phase};
-  if (decoded.second_phase && camera.fit.uses_second) phases.push_back(&*decoded.second_phase);
+  std::vector<const AbsolutePhase*> phases;
+  for (const std::size_t i : camera.fit.used)
+    phases.push_back(&camera.decoded.directions[i].phase);
   return phases;
 }
 
@@ -42,7 +39,7 @@ CommonPhases common_phases(const Rig& rig, std::span<const DecodedCamera> all) {
     const auto phases = used_phases(all[i]);
     if (phases.empty()) continue;
     out.indices.push_back(i);
-    out.cameras.push_back({all[i].rig, all[i].rays, camera_from_rig(rig, i), phases});
+    out.cameras.push_back({all[i].rig, all[i].rays, rig.cameras[i].camera_from_rig(), phases});
   }
   for (CameraPhases& camera : out.cameras) {
     std::erase_if(camera.phases, [&](const AbsolutePhase* phase) {
@@ -58,30 +55,22 @@ CommonPhases common_phases(const Rig& rig, std::span<const DecodedCamera> all) {
   return compares ? out : CommonPhases{};
 }
 
-/// Triangulates a camera's own phases and removes its mixed pixels, from the phases too.
-void triangulate_camera(DecodedCamera& camera,
-                        DirectionChoice directions,
-                        const MixedPixelOptions& mixed_pixels,
-                        MeasuredCamera& out,
-                        DirectionDisagreement& disagreement) {
-  TriangulatedView triangulated =
-      triangulate_view(camera.decoded, camera.fit, camera.rig, camera.rays, directions);
-  // triangulate_view has moved the second phase to the place of the first, if only it is used.
-  camera.fit.uses_first = true;
-  out.range = std::move(triangulated.range);
-  disagreement = triangulated.disagreement;
-  const auto removed =
-      remove_mixed_pixels(out.range, camera.rays, camera.decoded.phase.status, mixed_pixels);
-  out.edge_pixels = recover_edge_pixels(
-      out.range, camera.rays, removed, {.max_incidence_deg = mixed_pixels.max_incidence_deg});
+/// Removes the mixed pixels of a camera and finds what they see of an edge.
+MeasuredCamera without_mixed_pixels(DecodedCamera& camera,
+                                    RangeGrid range,
+                                    const MixedPixelOptions& options) {
+  const auto removed = remove_mixed_pixels(range, camera.rays, camera.status(), options);
+  auto edge_pixels = recover_edge_pixels(
+      range, camera.rays, removed, {.max_incidence_deg = options.max_incidence_deg});
+  return {std::move(range), std::move(edge_pixels)};
 }
 
 /// Removes the phases of pixels without a point, so that other cameras do not use them.
 void remove_unused_phases(const RangeGrid& range, DecodedView& decoded) {
   for (std::size_t i = 0; i < range.depth_mm.pixels().size(); ++i) {
     if (!std::isnan(range.depth_mm.pixels()[i])) continue;
-    decoded.phase.phase_rad.pixels()[i] = kMissing;
-    if (decoded.second_phase) decoded.second_phase->phase_rad.pixels()[i] = kMissing;
+    for (DecodedDirection& direction : decoded.directions)
+      direction.phase.phase_rad.pixels()[i] = kMissing;
   }
 }
 
@@ -100,22 +89,22 @@ RangeGrid match_camera(std::span<const CameraPhases> cameras, std::size_t own, c
 }
 
 /// Replaces the grids of the cameras that are compared by the fused ones.
-CameraDisagreement fuse_grids(const Rig& rig,
-                              const CommonPhases& common,
-                              std::vector<MeasuredCamera>& cameras,
-                              const Run& run) {
+MeasuredView fuse_grids(const Rig& rig,
+                        const CommonPhases& common,
+                        MeasuredView view,
+                        const Run& run) {
   std::vector<RangeGrid> ranges;
   for (const std::size_t i : common.indices)
-    ranges.push_back(std::move(cameras[i].range));
+    ranges.push_back(std::move(view.cameras[i].range));
   const FuseCamerasOptions options{
       .calibration = between_cameras(rig,
                                      common.cameras.front().phases.front()->pattern,
                                      common.indices[0],
                                      common.indices[1])};
-  const CameraDisagreement disagreement = fuse_cameras(common.cameras, ranges, options, run);
+  view.between_cameras = fuse_cameras(common.cameras, ranges, options, run);
   for (std::size_t k = 0; k < ranges.size(); ++k)
-    cameras[common.indices[k]].range = std::move(ranges[k]);
-  return disagreement;
+    view.cameras[common.indices[k]].range = std::move(ranges[k]);
+  return view;
 }
 
 MeasuredView match_cameras(const Rig& rig,
@@ -129,19 +118,17 @@ MeasuredView match_cameras(const Rig& rig,
   if (common.cameras.empty()) return out;
   for (std::size_t k = 0; k < common.cameras.size(); ++k)
     out.cameras[common.indices[k]].range = match_camera(common.cameras, k, run);
-  out.between_cameras = fuse_grids(rig, common, out.cameras, run);
+  out = fuse_grids(rig, common, std::move(out), run);
   for (const std::size_t i : common.indices) {
     RangeGrid& range = out.cameras[i].range;
-    Image<PixelStatus>& status = cameras[i].decoded.phase.status;
+    Image<PixelStatus>& status = cameras[i].status();
     for (std::size_t pixel = 0; pixel < status.pixels().size(); ++pixel) {
       const bool measured = status.pixels()[pixel] == PixelStatus::Measured ||
                             status.pixels()[pixel] == PixelStatus::Filled;
       if (measured && std::isnan(range.depth_mm.pixels()[pixel]))
         status.pixels()[pixel] = PixelStatus::OutOfField;
     }
-    const auto removed = remove_mixed_pixels(range, cameras[i].rays, status, mixed_pixels);
-    out.cameras[i].edge_pixels = recover_edge_pixels(
-        range, cameras[i].rays, removed, {.max_incidence_deg = mixed_pixels.max_incidence_deg});
+    out.cameras[i] = without_mixed_pixels(cameras[i], std::move(range), mixed_pixels);
   }
   return out;
 }
@@ -157,17 +144,19 @@ MeasuredView fuse_view_cameras(const Rig& rig,
   MeasuredView out;
   for (std::size_t i = 0; i < cameras.size(); ++i) {
     out.cameras.push_back({empty_grid(cameras[i].rays), {}});
-    if (!cameras[i].used) continue;
-    DirectionDisagreement disagreement;
-    triangulate_camera(cameras[i], directions, mixed_pixels, out.cameras[i], disagreement);
-    if (i == 0) out.directions = disagreement;
+    DecodedCamera& camera = cameras[i];
+    if (!camera.fit.fits()) continue;
+    TriangulatedView triangulated =
+        triangulate_view(camera.decoded, camera.fit, camera.rig, camera.rays, directions);
+    out.cameras[i] = without_mixed_pixels(camera, std::move(triangulated.range), mixed_pixels);
+    if (i == 0) out.directions = triangulated.disagreement;
   }
   if (cameras.size() == 1) return out;
   for (std::size_t i = 0; i < cameras.size(); ++i)
     remove_unused_phases(out.cameras[i].range, cameras[i].decoded);
   const CommonPhases common = common_phases(rig, cameras);
-  if (!common.cameras.empty()) out.between_cameras = fuse_grids(rig, common, out.cameras, run);
-  return out;
+  if (common.cameras.empty()) return out;
+  return fuse_grids(rig, common, std::move(out), run);
 }
 
 }  // namespace frangia

@@ -23,7 +23,11 @@ struct DecodedCamera {
   const Image<Eigen::Vector2f>& rays;  ///< of its pixels
   DecodedView decoded;                 ///< its phases
   ViewFit fit{};                       ///< which of its phases are used
-  bool used = true;                    ///< at least one is
+
+  /// The status of its pixels.
+  [[nodiscard]] Image<PixelStatus>& status() {
+    return decoded.directions[fit.leading()].phase.status;
+  }
 };
 
 /// The points of a view in the frame of one camera.

@@ -16,7 +16,7 @@ struct DirectionPlan;
 
 // The sources of fringe orders. Each states a name, whether the phase that it gives is absolute,
 // and what it does, in a clause. A new one is a struct here, its case in `plan_decoding`, the
-// function that executes it in internal/decode_direction.cpp, and a row of tests/pipeline/
+// function that executes it in internal/decode_direction.cpp, and a row of tests/decode/
 // plan_decoding_test.cpp.
 
 /// `OwnStages::unwrap` or files with an absolute phase.

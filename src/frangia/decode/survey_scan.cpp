@@ -29,7 +29,8 @@ std::vector<Pattern> patterns_of(const Scan& scan) {
     if (finest == nullptr || pattern.fringes_per_unit() > finest->fringes_per_unit())
       finest = &pattern;
   }
-  if (shifted.empty() && finest != nullptr && !scan.rig.camera.noise) shifted.push_back(*finest);
+  if (shifted.empty() && finest != nullptr && !scan.rig.reference().noise)
+    shifted.push_back(*finest);
   return shifted;
 }
 
@@ -74,7 +75,7 @@ ScanSurvey survey_scan(const Scan& scan, const Run& run) {
       if (step.found) steps[stack.pattern.name].push_back(step);
     }
   }
-  if (!scan.rig.camera.noise) out.noise = noise.model();
+  if (!scan.rig.reference().noise) out.noise = noise.model();
   for (const auto& [pattern, found] : steps) {
     const double gain_error = pooled_gain_error(found);
     out.gain_error[pattern] = gain_error;

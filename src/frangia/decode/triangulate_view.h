@@ -17,13 +17,14 @@ struct TriangulatedView {
   DirectionDisagreement disagreement;  ///< without pixels for a view of one direction
 };
 
-/// Triangulates the directions of fringes that fit and combines them as `directions` says.
+/// Triangulates the directions of fringes that fit, of which there is one at least, and combines
+/// them as `directions` says.
 ///
-/// If only the second direction fits, it replaces `decoded.phase`.
-///
-/// @shape    `rays` as rays_of(rig.camera.model)
+/// @shape    `rays` as rays_of(rig.reference().model)
 /// @units    mm, rig frame
-/// @missing  as `triangulate` and `fuse_directions`; `decoded.phase.status` gives the reason
+/// @missing  as `triangulate` and `fuse_directions`; the status of the leading direction's phase
+/// gives
+///           the reason
 [[nodiscard]] TriangulatedView triangulate_view(DecodedView& decoded,
                                                 const ViewFit& fit,
                                                 const Rig& rig,

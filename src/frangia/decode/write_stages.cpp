@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ranges>
+#include <span>
 #include <system_error>
 #include <utility>
 
@@ -196,26 +198,30 @@ std::vector<StageFile> write_stages(const DecodedView& decoded,
                                     const std::filesystem::path& folder,
                                     const Run& run) {
   StageWriter out(folder, run);
-  for (const WrappedPhase& level : decoded.wrapped)
-    write_wrapped(level, out);
-  if (decoded.relative) write_relative(*decoded.relative, out);
-  out.picture("mask", status_picture(decoded.phase.status), mask_caption(decoded.phase.status));
-  if (decoded.wrapped.empty()) {
-    write_coordinate(decoded.phase, out);
-    if (decoded.second_phase) write_coordinate(*decoded.second_phase, out);
-  } else {
-    const auto fringes = fringe_orders(decoded.wrapped.back().phase_rad, decoded.phase.phase_rad);
+  const DecodedDirection& leading = decoded.directions.front();
+  for (const DecodedDirection& direction : decoded.directions | std::views::reverse) {
+    for (const WrappedPhase& level : direction.wrapped)
+      write_wrapped(level, out);
+  }
+  if (leading.relative) write_relative(*leading.relative, out);
+  out.picture("mask", status_picture(leading.phase.status), mask_caption(leading.phase.status));
+  for (const DecodedDirection& direction : decoded.directions)
+    if (direction.wrapped.empty()) write_coordinate(direction.phase, out);
+  if (!leading.wrapped.empty()) {
+    const auto fringes = fringe_orders(leading.wrapped.back().phase_rad, leading.phase.phase_rad);
     out.picture("fringes", label_picture(fringes), "fringes of the finest pattern, a colour each");
   }
-  out.map("absolute", decoded.phase.phase_rad, "final phase", "rad");
+  out.map("absolute", leading.phase.phase_rad, "final phase", "rad");
   out.map("absolute-sigma",
-          combined_sigma(decoded.phase),
+          combined_sigma(leading.phase),
           "combined standard uncertainty of the final phase",
           "rad");
-  if (decoded.second_phase) {
-    out.map("absolute-horizontal",
-            decoded.second_phase->phase_rad,
-            "final phase of the horizontal fringes",
+  for (const DecodedDirection& other : std::span(decoded.directions).subspan(1)) {
+    const char* name =
+        other.phase.pattern.direction == FringeDirection::Vertical ? "vertical" : "horizontal";
+    out.map(fmt::format("absolute-{}", name),
+            other.phase.phase_rad,
+            fmt::format("final phase of the {} fringes", name),
             "rad");
   }
   if (!range.depth_mm.empty()) {
@@ -232,9 +238,10 @@ std::vector<StageFile> write_maps(const DecodedView& decoded,
                                   const std::filesystem::path& folder,
                                   const Run& run) {
   StageWriter out(folder, run);
-  write_phase(decoded.phase, out);
-  if (decoded.second_phase) write_phase(*decoded.second_phase, out);
-  out.picture("mask", status_picture(decoded.phase.status), mask_caption(decoded.phase.status));
+  for (const DecodedDirection& direction : decoded.directions)
+    write_phase(direction.phase, out);
+  const Image<PixelStatus>& status = decoded.directions.front().phase.status;
+  out.picture("mask", status_picture(status), mask_caption(status));
   if (!range.depth_mm.empty()) {
     out.numbers("depth", range.depth_mm, "depth along the camera's axis, mm");
     out.numbers("depth-sigma", combine_parts(range), "standard uncertainty along the ray, mm");

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <exception>
-#include <optional>
 #include <string>
 #include <thread>
 #include <utility>
@@ -25,10 +24,14 @@ void assign_as(std::unique_ptr<Device> device, std::unique_ptr<T>& place) {
   place.reset(as);
 }
 
-void assign(std::unique_ptr<Device> device, DeviceKind kind, RigDevices& devices) {
+/// `camera`: which one of the rig it is, if it is one.
+void assign(std::unique_ptr<Device> device,
+            DeviceKind kind,
+            std::size_t camera,
+            RigDevices& devices) {
   switch (kind) {
     case DeviceKind::Camera:
-      return assign_as(std::move(device), devices.camera);
+      return assign_as(std::move(device), devices.cameras[camera]);
     case DeviceKind::PhaseShifter:
       return assign_as(std::move(device), devices.shifter);
     case DeviceKind::PatternDisplay:
@@ -77,14 +80,12 @@ void check_camera(const std::filesystem::path& file,
 }
 
 void check_sizes(const std::filesystem::path& file, const Rig& rig, const RigDevices& devices) {
-  if (devices.camera) check_camera(file, "camera", rig.camera, *devices.camera);
-  for (std::size_t i = 0; i < devices.more_cameras.size(); ++i) {
-    if (devices.more_cameras[i]) {
-      check_camera(file,
-                   fmt::format("more_cameras[{}]", i),
-                   rig.more_cameras[i].camera,
-                   *devices.more_cameras[i]);
-    }
+  for (std::size_t i = 0; i < rig.cameras.size(); ++i) {
+    if (!devices.cameras[i]) continue;
+    check_camera(file,
+                 i == 0 ? "camera" : fmt::format("more_cameras[{}]", i - 1),
+                 rig.cameras[i].camera,
+                 *devices.cameras[i]);
   }
   if (devices.display) {
     const DisplayInfo& info = devices.display->info();
@@ -109,20 +110,19 @@ std::vector<Device*> devices_of(const RigDevices& rig) {
                                rig.laser_sheet.get(),
                                rig.display.get(),
                                rig.turntable.get(),
-                               rig.shifter.get(),
-                               rig.camera.get()};
-  for (const auto& camera : rig.more_cameras)
+                               rig.shifter.get()};
+  for (const auto& camera : rig.cameras)
     devices.push_back(camera.get());
   return devices;
 }
 
-/// The place of the camera in `more_cameras` that a table of devices names; none for other tables.
-std::optional<std::size_t> further_camera(const DeviceSettings& settings, const Rig& rig) {
+/// Which camera of the rig a table of devices is of; 0 for tables of other devices.
+std::size_t camera_of(const DeviceSettings& settings, const Rig& rig) {
   const std::string& table = settings.device();
-  if (!table.starts_with(kFurtherCamera)) return std::nullopt;
+  if (!table.starts_with(kFurtherCamera)) return 0;
   const std::string name = table.substr(kFurtherCamera.size());
-  for (std::size_t i = 0; i < rig.more_cameras.size(); ++i) {
-    if (rig.more_cameras[i].camera.name == name) return i;
+  for (std::size_t i = 1; i < rig.cameras.size(); ++i) {
+    if (rig.cameras[i].camera.name == name) return i;
   }
   settings.fail("driver",
                 fmt::format("is of a camera \"{}\" that [[more_cameras]] does not have; add it, or "
@@ -187,22 +187,17 @@ RigDevices open_devices(const std::filesystem::path& rig_file,
                         const Run& run,
                         Guardian* guardian) {
   RigDevices devices;
-  devices.more_cameras.resize(rig.more_cameras.size());
+  devices.cameras.resize(rig.cameras.size());
   for (DeviceSettings& settings : read_device_settings(rig_file)) {
     const Driver& driver = driver_for(settings, drivers);
-    const std::optional<std::size_t> further = further_camera(settings, rig);
+    const std::size_t camera = camera_of(settings, rig);
     std::unique_ptr<Device> device =
-        further ? driver.open(settings, rig_of_camera(rig, 1 + *further), deadline)
-                : driver.open(settings, rig, deadline);
+        driver.open(settings, camera == 0 ? rig : rig_of_camera(rig, camera), deadline);
     settings.warn_of_unused_keys(run);
     warn_of(*device, run);
     if (const auto how = device->safe_off(); how && guardian != nullptr)
       devices.watches.push_back(guardian->watch(*how));
-    if (further) {
-      assign_as(std::move(device), devices.more_cameras[*further]);
-    } else {
-      assign(std::move(device), driver.kind, devices);
-    }
+    assign(std::move(device), driver.kind, camera, devices);
     devices.settings.push_back(settings);
   }
   check_sizes(rig_file, rig, devices);

@@ -36,9 +36,9 @@ struct RigDevices {
 
   std::vector<Guardian::Watch> watches;  ///< released after the devices are closed
 
-  std::unique_ptr<CameraDevice> camera;  ///< required for any capture
-  /// Those of `Rig::more_cameras`, in their order: tables [devices.camera-NAME].
-  std::vector<std::unique_ptr<CameraDevice>> more_cameras;
+  /// Those of `Rig::cameras`, in their order: tables [devices.camera] and [devices.camera-NAME].
+  std::vector<std::unique_ptr<CameraDevice>> cameras =
+      std::vector<std::unique_ptr<CameraDevice>>(1);
   std::unique_ptr<PhaseShifter> shifter;          ///< the fringes of an interferometer ...
   std::unique_ptr<PatternDisplay> display;        ///< ... or those of a digital projector
   std::unique_ptr<LaserSheetSource> laser_sheet;  ///< source of the laser sheet, `line`
@@ -46,6 +46,8 @@ struct RigDevices {
   std::unique_ptr<TurntableDevice> turntable;     ///< null: the object stays where it is
   std::vector<DeviceSettings> settings;           ///< as read from rig.toml
 
+  /// The device of the reference camera, which any capture needs.
+  [[nodiscard]] CameraDevice* reference() const { return cameras.front().get(); }
   /// All devices of the rig, light first.
   [[nodiscard]] std::vector<Device*> all() const;
   /// Switches off all light and stops all motion, in parallel; see `Device::make_safe`.
@@ -55,7 +57,7 @@ struct RigDevices {
 };
 
 /// Opens the devices in the `[devices.NAME]` tables of a rig.toml. The camera NAME of
-/// `more_cameras` has the table `[devices.camera-NAME]`; its driver is given `rig_of_camera`. A
+/// the rig has the table `[devices.camera-NAME]`; its driver is given `rig_of_camera`. A
 /// `guardian` watches each one from then on; it must outlive the devices.
 ///
 /// @errors   Error(Input) that names the file and the key: an unknown driver, an invalid table or

@@ -230,19 +230,19 @@ void set_second_camera(const ForeignCalibration& calibration,
   }
   PosedCamera posed;
   posed.camera.name = options.second_camera;
-  posed.camera.white_level = rig.camera.white_level;
+  posed.camera.white_level = rig.reference().white_level;
   posed.camera.model =
       imported_model_of(calibration.projector, options.camera_size_px, "camera", run);
   const ImportedPose pose = imported_pose(calibration, options, run);
   posed.position_mm = pose.position_mm;
   posed.rotation = pose.rotation;
-  warn_without_common_point(rig.camera.model,
+  warn_without_common_point(rig.reference().model,
                             posed.camera.model,
                             posed.rotation,
                             posed.position_mm,
                             "second camera",
                             run);
-  rig.more_cameras = {posed};
+  rig.cameras = {rig.cameras.front(), posed};
   if (options.base) return;
   if (!options.projector_size_px) {
     fail_import(
@@ -271,7 +271,8 @@ Rig rig_from_calibration(const ForeignCalibration& calibration,
         "`base` to a rig.toml");
   }
   if (calibration.camera.matrix)
-    rig.camera.model = imported_model_of(calibration.camera, options.camera_size_px, "camera", run);
+    rig.reference().model =
+        imported_model_of(calibration.camera, options.camera_size_px, "camera", run);
   // What was known of the base's uncertainty is not true of the imported values.
   rig.calibration.reset();
   if (!options.second_camera.empty()) {
@@ -293,7 +294,7 @@ Rig rig_from_calibration(const ForeignCalibration& calibration,
     rig.projector.position_mm = pose.position_mm;
     if (const auto* model = std::get_if<PinholeModel>(&rig.projector.model)) {
       warn_without_common_point(
-          rig.camera.model, *model, pose.rotation, pose.position_mm, "projector", run);
+          rig.reference().model, *model, pose.rotation, pose.position_mm, "projector", run);
     }
   } else if (!options.base) {
     fail_missing(

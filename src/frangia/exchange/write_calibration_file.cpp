@@ -76,7 +76,7 @@ std::string opencv_file(const Rig& rig,
   const OpenCvNames names = names_of(layout);
   if (layout != CalibrationLayout::OpenCv) {
     const char* program = layout == CalibrationLayout::SlStudio ? "SLStudio" : "scan3d-capture";
-    require_coefficients(rig.camera.model, 5, program);
+    require_coefficients(rig.reference().model, 5, program);
     require_coefficients(projector, 5, program);
   }
   const Eigen::Vector3d translation = -(rig.projector.rotation * rig.projector.position_mm);
@@ -84,7 +84,7 @@ std::string opencv_file(const Rig& rig,
   const auto distortion = [&](const CameraModel& model) -> Eigen::MatrixXd {
     return column ? Eigen::MatrixXd(distortion_row(model).transpose()) : distortion_row(model);
   };
-  const CameraModel& camera = rig.camera.model;
+  const CameraModel& camera = rig.reference().model;
   const std::vector<std::pair<std::string, Eigen::MatrixXd>> matrices{
       {names.camera_matrix, camera_matrix_of(camera, 0.0)},
       {names.camera_distortion, distortion(camera)},
@@ -123,7 +123,7 @@ ordered_json matlab_camera(const CameraModel& model) {
 std::string matlab_file(const Rig& rig, const PinholeModel& projector) {
   const Eigen::Vector3d translation = -(rig.projector.rotation * rig.projector.position_mm);
   const ordered_json document{
-      {"CameraParameters1", matlab_camera(rig.camera.model)},
+      {"CameraParameters1", matlab_camera(rig.reference().model)},
       {"CameraParameters2", matlab_camera(projector)},
       {"RotationOfCamera2", rows_of(rig.projector.rotation.transpose())},
       {"TranslationOfCamera2", {translation.x(), translation.y(), translation.z()}}};
@@ -155,7 +155,7 @@ std::string colmap_file(const Rig& rig, const PinholeModel& projector) {
   return "# Camera list with one line of data per camera:\n"
          "#   CAMERA_ID, MODEL, WIDTH, HEIGHT, PARAMS[]\n"
          "# 1: camera, 2: projector\n" +
-         colmap_line(1, rig.camera.model) + colmap_line(2, projector);
+         colmap_line(1, rig.reference().model) + colmap_line(2, projector);
 }
 
 }  // namespace

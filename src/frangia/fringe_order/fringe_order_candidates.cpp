@@ -51,7 +51,7 @@ void compare_with(const Image<float>& depth_mm,
   for (const Eigen::Vector3f& point : candidate.points_mm) {
     const Eigen::Vector3d seen = rig_from_object * point.cast<double>();
     if (!(seen.z() > 0.0)) continue;
-    const Eigen::Vector2d pixel = comparison.rig.camera.model.project(seen);
+    const Eigen::Vector2d pixel = comparison.rig.reference().model.project(seen);
     const auto x = static_cast<int>(std::lround(pixel.x()));
     const auto y = static_cast<int>(std::lround(pixel.y()));
     if (x < 0 || y < 0 || x >= depth_mm.width() || y >= depth_mm.height()) continue;

@@ -7,7 +7,6 @@
 
 #include "frangia/core/interruptible_chunks.h"
 #include "frangia/geometry/sample_surface.h"
-#include "frangia/rig/rig_of_camera.h"
 
 namespace frangia {
 namespace {
@@ -75,7 +74,7 @@ bool is_measurable(const RayScene& scene,
   const double min_cos = std::cos(max_angle_rad);
   const Eigen::Vector3d start = point_mm + kRayOffset_mm * normal;
   const bool is_label = view.rig.projector.is_label;
-  const std::size_t cameras = camera_count(view.rig);
+  const std::size_t cameras = view.rig.cameras.size();
   const auto is_faced = [&](const Eigen::Vector3d& eye) {
     return (eye - point_mm).normalized().dot(normal) >= min_cos && !scene.occluded(start, eye);
   };
@@ -88,8 +87,8 @@ bool is_measurable(const RayScene& scene,
           return false;
         std::size_t wanted = is_label ? 2 : 1;
         for (std::size_t camera = 0; camera < cameras && wanted > 0; ++camera) {
-          const Eigen::Isometry3d to_camera = camera_from_rig(view.rig, camera);
-          if (in_image(model_of_camera(view.rig, camera), to_camera * seen) &&
+          const Eigen::Isometry3d to_camera = view.rig.cameras[camera].camera_from_rig();
+          if (in_image(view.rig.cameras[camera].camera.model, to_camera * seen) &&
               is_faced(object_from_rig * to_camera.inverse().translation()))
             --wanted;
         }

@@ -9,7 +9,6 @@
 #include "frangia/core/parallel.h"
 #include "frangia/range/internal/changed_rigs.h"
 #include "frangia/range/internal/node_values.h"
-#include "frangia/rig/rig_of_camera.h"
 #include "frangia/uncertainty/combined_sigma.h"
 
 namespace frangia {
@@ -21,8 +20,8 @@ CalibrationUncertainty::CalibrationUncertainty(const Rig& rig,
   const ChangedRigs rigs(rig, pattern, camera);
   if (rigs.changes() == 0) return;
   const RigidMotions rigid = fit_rigid(volume_mm, rigs);
-  const Eigen::Isometry3d rig_from_camera = camera_from_rig(rig, camera).inverse();
-  const CameraModel& model = model_of_camera(rig, camera);
+  const Eigen::Isometry3d rig_from_camera = rig.cameras[camera].camera_from_rig().inverse();
+  const CameraModel& model = rig.cameras[camera].camera.model;
   low_.setConstant(std::numeric_limits<double>::infinity());
   Eigen::Array3d high = -low_;
   for (const Eigen::Vector3d& in_rig : volume_mm) {

@@ -12,7 +12,8 @@ namespace frangia {
 
 /// What one of several cameras measured in a view.
 ///
-/// @shape    `rays` as rays_of(rig.camera.model); `phases` one or two, those of the same directions
+/// @shape    `rays` as rays_of(rig.reference().model); `phases` one or two, those of the same
+/// directions
 ///           of fringes in the same order for all cameras of a view
 struct CameraPhases {
   const Rig& rig;                              ///< `rig_of_camera` of this camera

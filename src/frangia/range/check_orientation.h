@@ -27,7 +27,7 @@ struct OrientationCheck {
 /// Compares the gradient of a phase, absolute or wrapped, with that of a plane at the distance
 /// where the axes of camera and projector cross.
 ///
-/// @shape    `rays` as rays_of(rig.camera.model)
+/// @shape    `rays` as rays_of(rig.reference().model)
 /// @missing  not decided for few pixels, or where less than 80 % of them agree
 [[nodiscard]] OrientationCheck check_orientation(const AbsolutePhase& phase,
                                                  const Rig& rig,

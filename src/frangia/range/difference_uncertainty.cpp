@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "frangia/range/internal/changed_rigs.h"
-#include "frangia/rig/rig_of_camera.h"
 
 namespace frangia {
 namespace {
@@ -60,7 +59,7 @@ DifferenceUncertainty between_cameras(const Rig& rig,
                                       std::size_t own,
                                       std::size_t other) {
   if (!has_covariance(rig)) return of_two_points(rig);
-  const Eigen::Isometry3d rig_from_own = camera_from_rig(rig, own).inverse();
+  const Eigen::Isometry3d rig_from_own = rig.cameras[own].camera_from_rig().inverse();
   if (rig.projector.is_label) {
     const auto rays = std::make_shared<const ChangedRays>(rig);
     return [rays, rig_from_own, own, other](const Eigen::Vector3d& point_mm) {

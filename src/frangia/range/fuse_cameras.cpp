@@ -252,7 +252,7 @@ class CameraFusion {
         densities.push_back(px_per_px(own, x, y, other, seen));
         shared += densities.back() * densities.back();
         if (is_label_) {
-          const CameraModel& model = cameras_[other].rig.camera.model;
+          const CameraModel& model = cameras_[other].rig.reference().model;
           mm_per_mm =
               model.focal_px.mean() / (seen.point.z() * std::max(seen.px_per_mm.norm(), 1e-12));
         }

@@ -42,7 +42,7 @@ struct FuseDirectionsOptions {
 /// pixels, and where chi squared says that it exceeds noise by far, the rest, too.
 ///
 /// @shape    both grids w x h; `first` and its `status` become those of the result; `rays` as
-///           rays_of(rig.camera.model)
+///           rays_of(rig.reference().model)
 /// @units    mm, rig frame
 /// @missing  `phase_rad` is that of `first`; NaN where only `second` has a point
 /// @errors   Error(Input) when the grids differ in size

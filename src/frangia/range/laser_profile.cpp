@@ -172,7 +172,7 @@ std::vector<ProfilePoint> laser_profile(const FrameStack& line,
       found.pixel = scan_rows ? Eigen::Vector2d(peak.center_px, across)
                               : Eigen::Vector2d(across, peak.center_px);
       found.sigma_px = peak.sigma_px;
-      const Eigen::Vector2d ray = rig.camera.model.ray(found.pixel);
+      const Eigen::Vector2d ray = rig.reference().model.ray(found.pixel);
       const Eigen::Vector3d direction(ray.x(), ray.y(), 1.0);
       const double depth = plane.offset_mm / plane.normal.dot(direction);
       if (!(depth > 0.0) || std::isinf(depth)) continue;

@@ -120,7 +120,7 @@ class Matcher {
       if (std::isnan(found)) return;
       const Eigen::Vector3d seen = second_from_first_ * (found * ray);
       const double misfit_rad = std::abs(
-          samplers_.back().at(second_.rig.camera.model.project(seen)).phase_rad - across_rad);
+          samplers_.back().at(second_.rig.reference().model.project(seen)).phase_rad - across_rad);
       if (!(misfit_rad < best)) return;
       best = misfit_rad;
       depth = found;

@@ -11,7 +11,7 @@ namespace frangia {
 namespace {
 
 Eigen::Array3d grid_place(const Rig& rig, const Eigen::Vector3d& point_mm) {
-  const Eigen::Vector2d pixel = rig.camera.model.project(point_mm);
+  const Eigen::Vector2d pixel = rig.reference().model.project(point_mm);
   return {pixel.x(), pixel.y(), point_mm.z()};
 }
 
@@ -45,7 +45,7 @@ RigChangeField::RigChangeField(const Rig& rig,
                                                               index / kNodes[0] % kNodes[1],
                                                               index / (kNodes[0] * kNodes[1]));
       const Eigen::Vector3d point =
-          at.z() * Eigen::Vector3d(rig.camera.model.ray({at.x(), at.y()}).homogeneous());
+          at.z() * Eigen::Vector3d(rig.reference().model.ray({at.x(), at.y()}).homogeneous());
       const Displacements rest = rigs.displacements_of(point) - rigid.design(point) * rigid.motions;
       nodes.col(index) = rest.reshaped();
     }

@@ -11,7 +11,7 @@ namespace frangia {
 
 /// Triangulates each pixel from its camera ray and its absolute phase.
 ///
-/// @shape    w x h in and out; `rays` from `rays_of(rig.camera.model)`
+/// @shape    w x h in and out; `rays` from `rays_of(rig.reference().model)`
 /// @units    mm, rig frame; sigma and systematic part along the viewing ray
 /// @missing  without `phase.systematic_rad` the result has no systematic part;
 ///           a pixel without a phase has no point; a pixel whose phase the projector does not show

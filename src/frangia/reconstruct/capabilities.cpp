@@ -23,7 +23,7 @@ IndirectLightUse indirect_light_of(const Rig& rig,
         "in all cameras, which leaves the points where they are");
     return IndirectLightUse::Ignored;
   }
-  if (!rig.more_cameras.empty()) {
+  if (rig.cameras.size() > 1) {
     left_out.emplace_back(
         "points are not corrected for indirect light, because several cameras determine them; "
         "sigma counts all of the predicted error");
@@ -47,7 +47,7 @@ Capabilities capabilities_of(const Rig& rig,
   out.registers_views = options.register_views && rig.turntable.has_value();
   out.removes_turntable_top = !options.keep_turntable_top && rig.turntable.has_value();
   if (options.indirect_light) out.indirect_light = indirect_light_of(rig, plan, out.left_out);
-  out.corrects_before_registration = out.registers_views && rig.more_cameras.empty() &&
+  out.corrects_before_registration = out.registers_views && rig.cameras.size() == 1 &&
                                      out.indirect_light != IndirectLightUse::Ignored;
   return out;
 }

@@ -29,7 +29,6 @@
 #include "frangia/reconstruct/internal/tie_cameras.h"
 #include "frangia/reconstruct/internal/turntable_part.h"
 #include "frangia/reconstruct/refine_scan_rig.h"
-#include "frangia/rig/rig_of_camera.h"
 
 namespace frangia {
 namespace {
@@ -71,7 +70,7 @@ std::string untrusted_reason_of(const Reconstruction& result) {
 /// disagree about; points of several cameras are not those of one drift.
 TurntableStations stations_of(const Rig& rig, const MeasuredViews& measured) {
   TurntableStations given{*rig.turntable, measured.stations};
-  if (!rig.more_cameras.empty() || rig.projector.is_label) return given;
+  if (rig.cameras.size() > 1 || rig.projector.is_label) return given;
   given.rig = &rig;
   given.pattern = &measured.coarsest;
   return given;
@@ -87,7 +86,7 @@ EarlyIndirectLight register_setup(MeasuredSetup& setup,
                                   const Run& run) {
   MeasuredViews& measured = setup.measured;
   const Scan& scan = decoding.scan;
-  const CameraModel& camera = scan.rig.camera.model;
+  const CameraModel& camera = scan.rig.reference().model;
   EarlyIndirectLight indirect_light;
   if (measured.points == 0) return indirect_light;
   clip_to_volume(measured, scan.rig, options, run);
@@ -97,7 +96,7 @@ EarlyIndirectLight register_setup(MeasuredSetup& setup,
     if (can.corrects_before_registration)
       indirect_light = correct_before_registration(measured, decoding, options.fusion, run);
     setup.registration = register_views(
-        measured.views, camera, stations_of(scan.rig, measured), options.registration, run);
+        measured.reference(), camera, stations_of(scan.rig, measured), options.registration, run);
     clear_outliers_of_cameras(setup);
   }
   return indirect_light;
@@ -174,7 +173,7 @@ Mesh fuse_registered(RegisteredViews& registered,
   MeasuredSetup& joined = registered.joined;
   const MeasuredViews& all = joined.measured;
   FusionOptions fusion = options.fusion;
-  fusion.add_systematic = calibration_part(all.views, scan.rig, all.coarsest, decoding.rays);
+  fusion.add_systematic = calibration_part(all.reference(), scan.rig, all.coarsest, decoding.rays);
   const std::vector<CameraViews> cameras = views_of_cameras(all, scan.rig);
   Mesh fused = fuse_views(cameras, fusion, run);
   if (can.indirect_light != IndirectLightUse::Ignored && registered.indirect_light.found) {
@@ -187,7 +186,7 @@ Mesh fuse_registered(RegisteredViews& registered,
   const ViewMotions motions = motions_of_views(joined, scan.rig, options, run);
   const bool turntable_counts = add_turntable_part(fused, cameras, motions, run);
   if (options.keep_raw) {
-    out.raw = collect_points_of_cameras(all, scan.rig, run, fusion.add_systematic);
+    out.raw = collect_points_of_cameras(cameras, run, fusion.add_systematic);
     if (turntable_counts) add_turntable_part(out.raw, cameras, motions, run);
   }
   color_vertices(fused, cameras, run);
@@ -217,25 +216,24 @@ Reconstruction reconstruct(const Scan& scan, const ReconstructOptions& options, 
   check_geometry(scan, plan, run);
   const Capabilities can = capabilities_of(scan.rig, plan, options);
   report(can, run);
-  const auto rays = rays_of(scan.rig.camera.model);
+  const auto rays = rays_of(scan.rig.reference().model);
   const ScanDecoding decoding{scan, rays, options.decode, plan};
   Reconstruction out;
-  out.cameras = camera_count(scan.rig);
+  out.cameras = scan.rig.cameras.size();
 
   // Frames -> phase -> range, view by view. Phase noise: phase/wrap_phase.
   DecodeOptions decode = options.decode;
   decode.colors = options.colors;
   MeasuredViews measured = measure_views(scan, rays, decode, options.mixed_pixels, run);
   release_cached_pixels();
-  out.views = measured.views.size();
+  out.views = measured.stations.size();
   out.view_summaries = std::move(measured.summaries);
   out.agreements = agreements_of(measured, scan.rig);
 
   // Fringe orders from the other views, and registration, setup by setup.
   run.stage("views");
   if (!measured.response.empty()) run.note(measured.response);
-  const std::vector<int> setup_numbers = measured.setups;
-  std::vector<MeasuredSetup> setups = split_setups(std::move(measured), setup_numbers);
+  std::vector<MeasuredSetup> setups = split_setups(std::move(measured));
   FringeOrderCorrectionOptions correction = options.fringe_order_correction;
   correction.mixed_pixels = options.mixed_pixels;
   std::set<std::string> outliers;

@@ -1,7 +1,6 @@
 #include "frangia/reconstruct/refine_scan_rig.h"
 
 #include <algorithm>
-#include <list>
 #include <string>
 #include <utility>
 #include <vector>
@@ -19,20 +18,18 @@
 namespace frangia {
 namespace {
 
-bool shows_fringes(const Scan& scan, FringeDirection direction) {
-  return std::any_of(scan.patterns.begin(), scan.patterns.end(), [&](const Pattern& pattern) {
-    return pattern.kind == PatternKind::Fringe && pattern.direction == direction;
-  });
-}
-
 /// The directions whose surfaces are compared.
-std::vector<DirectionChoice> directions_of(const Scan& scan, DirectionChoice wanted) {
+std::vector<DirectionChoice> directions_of(const std::vector<Pattern>& patterns,
+                                           DirectionChoice wanted) {
   if (wanted == DirectionChoice::Vertical || wanted == DirectionChoice::Horizontal) return {wanted};
+  const auto shown = [&](FringeDirection direction) {
+    return std::any_of(patterns.begin(), patterns.end(), [&](const Pattern& pattern) {
+      return pattern.kind == PatternKind::Fringe && pattern.direction == direction;
+    });
+  };
   std::vector<DirectionChoice> directions;
-  if (shows_fringes(scan, FringeDirection::Vertical))
-    directions.push_back(DirectionChoice::Vertical);
-  if (shows_fringes(scan, FringeDirection::Horizontal))
-    directions.push_back(DirectionChoice::Horizontal);
+  if (shown(FringeDirection::Vertical)) directions.push_back(DirectionChoice::Vertical);
+  if (shown(FringeDirection::Horizontal)) directions.push_back(DirectionChoice::Horizontal);
   return directions;
 }
 
@@ -43,17 +40,16 @@ struct MeasuredSurface {
   std::vector<std::size_t> stations;
 };
 
-/// Adds the views of each setup, and their stations in the order of the scan.
-void measure_direction(std::list<MeasuredSurface>& surfaces,
-                       const Scan& scan,
-                       const Image<Eigen::Vector2f>& rays,
-                       const ReconstructOptions& options,
-                       const Run& run) {
+/// The views of each setup, and their stations in the order of the scan.
+std::vector<MeasuredSurface> measure_direction(const Scan& scan,
+                                               const Image<Eigen::Vector2f>& rays,
+                                               const ReconstructOptions& options,
+                                               const Run& run) {
+  std::vector<MeasuredSurface> surfaces;
   MeasuredViews measured = measure_views(scan, rays, options.decode, options.mixed_pixels, run);
-  const std::vector<int> setup_numbers = measured.setups;
   FringeOrderCorrectionOptions correction = options.fringe_order_correction;
   correction.mixed_pixels = options.mixed_pixels;
-  for (MeasuredSetup& setup : split_setups(std::move(measured), setup_numbers)) {
+  for (MeasuredSetup& setup : split_setups(std::move(measured))) {
     MeasuredViews& own = setup.measured;
     resolve_fringe_orders(own, scan.rig, rays, options.resolve_by_views, correction, run);
     if (own.points == 0) continue;
@@ -68,18 +64,18 @@ void measure_direction(std::list<MeasuredSurface>& surfaces,
       surface.stations.push_back(static_cast<std::size_t>(
           std::find_if(scan.views.begin(), scan.views.end(), same) - scan.views.begin()));
     }
-    surface.views = std::move(own.views);
+    surface.views = std::move(own.reference());
   }
+  return surfaces;
 }
 
 /// Warns when a further camera does not measure what the refined rig measures.
 void compare_cameras(const Scan& scan, const Rig& refined, const Run& run) {
-  if (refined.more_cameras.empty()) return;
+  if (refined.cameras.size() == 1) return;
 #ifdef FRANGIA_WITH_CALIBRATION
   Scan own = scan;
   own.rig = refined;
-  RigCheck check;
-  check_cameras_of(own, {}, run, check);
+  const RigCheck check = check_cameras_of(own, {}, run);
   for (const RigCheckItem& item : check.items) {
     if (item.passed()) continue;
     run.warn(fmt::format(
@@ -108,13 +104,14 @@ RigRefinement refine_scan_rig(const Scan& scan, const ReconstructOptions& option
                     "reconstruct without refining the rig");
   }
   Scan reference = scan;  // the drift is found from the reference camera alone
-  reference.rig.more_cameras.clear();
-  const auto rays = rays_of(scan.rig.camera.model);
-  std::list<MeasuredSurface> measured;
-  for (const DirectionChoice direction : directions_of(scan, options.decode.directions)) {
+  reference.rig.cameras.resize(1);
+  const auto rays = rays_of(scan.rig.reference().model);
+  std::vector<MeasuredSurface> measured;
+  for (const DirectionChoice direction : directions_of(scan.patterns, options.decode.directions)) {
     ReconstructOptions one = options;
     one.decode.directions = direction;
-    measure_direction(measured, reference, rays, one, run);
+    for (MeasuredSurface& surface : measure_direction(reference, rays, one, run))
+      measured.push_back(std::move(surface));
     release_cached_pixels();
   }
   std::vector<Station> stations;

@@ -47,9 +47,9 @@ std::vector<FreeParameter> free_parameters(const Rig& rig, double distance_mm) {
   add("projector.focal_px", kShare * projector->focal_px.x());
   add("projector.principal_x_px", kShare * projector->focal_px.x());
   add("projector.principal_y_px", kShare * projector->focal_px.y());
-  add("camera.focal_px", kShare * rig.camera.model.focal_px.x());
-  add("camera.principal_x_px", kShare * rig.camera.model.focal_px.x());
-  add("camera.principal_y_px", kShare * rig.camera.model.focal_px.y());
+  add("camera.focal_px", kShare * rig.reference().model.focal_px.x());
+  add("camera.principal_x_px", kShare * rig.reference().model.focal_px.x());
+  add("camera.principal_y_px", kShare * rig.reference().model.focal_px.y());
   return out;
 }
 
@@ -61,7 +61,7 @@ Eigen::VectorXd differences_by(const Rig& rig,
   Eigen::VectorXd out(static_cast<Eigen::Index>(samples.size()));
   for (std::size_t i = 0; i < samples.size(); ++i) {
     const DepthPair& pair = samples[i];
-    const Eigen::Vector2d ray = rig.camera.model.ray({pair.x, pair.y});
+    const Eigen::Vector2d ray = rig.reference().model.ray({pair.x, pair.y});
     const auto depth = [&](float phase_rad, const Pattern& pattern) {
       return intersect_fringe(ray, static_cast<double>(phase_rad), pattern, rig.projector).depth_mm;
     };

@@ -116,7 +116,7 @@ RigRefinement refine_rig(const Rig& rig,
   std::vector<DriftView> views = drift_views(surfaces, rig, rig, false, run);
   const SurfelScale scale = scale_of(views);
   const DriftModel model(rig, options, scale.distance_mm);
-  const FastCameraModel camera(rig.camera.model);
+  const FastCameraModel camera(rig.reference().model);
   const Eigen::VectorXd none = Eigen::VectorXd::Zero(model.count());
   constexpr double kGateSigmas = 6.0;  // of one surfel: over four of a pair's
   DriftBundle bundle{.views = std::move(views),
@@ -167,7 +167,7 @@ RigRefinement refine_rig(const Rig& rig,
     const bool converged = round > 0 && (bundle.state.w - bundle.linearized_at).norm() < kConverged;
     refined = model.rig_at(bundle.state.w);
     bundle.views = drift_views(surfaces, rig, refined, true, run);
-    bundle.camera = FastCameraModel(refined.camera.model);
+    bundle.camera = FastCameraModel(refined.reference().model);
     linearize_at_state();
     if (converged) break;
   }
@@ -204,7 +204,7 @@ RigRefinement refine_rig(const Rig& rig,
                         options.as_good_as_given * static_cast<double>(median(after.distances_mm));
   if (!result.kept_rig) {
     bundle.views = std::move(refined_views);
-    bundle.camera = FastCameraModel(refined.camera.model);
+    bundle.camera = FastCameraModel(refined.reference().model);
     bundle.state = found;
     bundle.linearized_at = found.w;
   }

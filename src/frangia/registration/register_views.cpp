@@ -152,8 +152,8 @@ void correct_drift(Registration& work,
         view, retriangulate(work.views.load(view), *given.pattern, *given.rig, rigs[view]));
   }
   const std::size_t surfels = surfels_per_view(2500, work.views.size());
-  work.bundle =
-      make_bundle(work.views, given.rig->camera.model, work.bundle.given, work.options, work.run);
+  work.bundle = make_bundle(
+      work.views, given.rig->reference().model, work.bundle.given, work.options, work.run);
   work.surfels = pick_all_surfels(work.bundle.maps, surfels);
   work.optimize_again();
 }

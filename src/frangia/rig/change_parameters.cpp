@@ -69,11 +69,12 @@ struct ChangedDevice {
 /// The devices of a rig by the beginnings of the names of their parameters.
 std::map<std::string, ChangedDevice, std::less<>> devices_of(Rig& rig) {
   std::map<std::string, ChangedDevice, std::less<>> devices;
-  devices[std::string(kCameraPrefix)] = {&rig.camera.model};
   devices[std::string(kProjectorPrefix)] = {std::get_if<PinholeModel>(&rig.projector.model),
                                             &rig.projector.rotation,
                                             &rig.projector.position_mm};
-  for (PosedCamera& posed : rig.more_cameras) {
+  devices[std::string(kCameraPrefix)] = {&rig.reference().model};
+  for (std::size_t i = 1; i < rig.cameras.size(); ++i) {
+    PosedCamera& posed = rig.cameras[i];
     devices[camera_prefix(posed.camera.name)] = {
         &posed.camera.model, &posed.rotation, &posed.position_mm};
   }

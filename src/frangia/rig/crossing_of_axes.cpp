@@ -19,7 +19,7 @@ Eigen::Vector3d crossing_of_axes(const Rig& rig) {
   const auto* pinhole = std::get_if<PinholeModel>(&rig.projector.model);
   const Eigen::Vector3d forward =
       pinhole != nullptr ? middle_ray(*pinhole) : Eigen::Vector3d(Eigen::Vector3d::UnitZ());
-  const Eigen::Vector3d camera = middle_ray(rig.camera.model);
+  const Eigen::Vector3d camera = middle_ray(rig.reference().model);
   const Eigen::Vector3d light = rig.projector.rotation.transpose() * forward;
   Eigen::Matrix<double, 3, 2> directions;
   directions << camera, -light;

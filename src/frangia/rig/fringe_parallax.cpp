@@ -13,7 +13,7 @@ double fringe_parallax_px(const Rig& rig, FringeDirection direction) {
   if (pinhole == nullptr || rig.projector.is_label || !(baseline_mm > 0.0)) return 0.0;
   constexpr double kFartherShare = 0.01;
   constexpr double kUsualDistance = 3.0;  // baselines, for axes that do not meet before the camera
-  const CameraModel& camera = rig.camera.model;
+  const CameraModel& camera = rig.reference().model;
   const Eigen::Vector3d ray =
       camera.ray({0.5 * (camera.width_px - 1), 0.5 * (camera.height_px - 1)}).homogeneous();
   double depth_mm = crossing_of_axes(rig).z();

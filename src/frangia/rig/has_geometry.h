@@ -12,7 +12,7 @@ namespace frangia {
            model.focal_px.minCoeff() > 0.0;
   };
   const auto* pinhole = std::get_if<PinholeModel>(&rig.projector.model);
-  return knows_lens(rig.camera.model) && rig.projector.position_mm.allFinite() &&
+  return knows_lens(rig.reference().model) && rig.projector.position_mm.allFinite() &&
          rig.projector.rotation.allFinite() && (pinhole == nullptr || knows_lens(*pinhole));
 }
 

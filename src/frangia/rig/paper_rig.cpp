@@ -16,7 +16,7 @@ Rig make_paper_rig(const PaperGeometry& g) {
   require(g.theta0_rad > 0.0 && g.x0_mm > g.xp_mm,
           "make_paper_rig: theta0 must be above 0 and the projector in front of O");
   Rig rig;
-  CameraModel& model = rig.camera.model;
+  CameraModel& model = rig.reference().model;
   model.width_px = g.columns;
   model.height_px = g.rows;
   model.focal_px.setConstant(g.focal_mm / g.pixel_mm);

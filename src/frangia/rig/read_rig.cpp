@@ -144,9 +144,11 @@ std::string read_camera_name(TomlReader& reader) {
   return name;
 }
 
-/// The cameras beside the reference camera, of distinct names.
-std::vector<PosedCamera> read_more_cameras(TomlReader& reader, RigContent content, const Run& run) {
-  std::vector<PosedCamera> cameras;
+/// The reference camera, and those beside it, of distinct names.
+std::vector<PosedCamera> read_cameras(TomlReader& reader, RigContent content, const Run& run) {
+  TomlReader reference = reader.table("camera");
+  std::vector<PosedCamera> cameras{{read_camera(reference, content, run)}};
+  reference.warn_of_unused_keys(run);
   std::set<std::string> names;
   for (TomlReader& table : reader.tables("more_cameras")) {
     PosedCamera posed;
@@ -308,14 +310,11 @@ Rig read_rig(const std::filesystem::path& path, const Run& run, RigContent conte
     reader.ignore(known);
   if (content == RigContent::Complete) refuse_uncalibrated(reader, table, path);
   Rig rig;
-  TomlReader camera = reader.table("camera");
-  rig.camera = read_camera(camera, content, run);
-  camera.warn_of_unused_keys(run);
-  rig.more_cameras = read_more_cameras(reader, content, run);
+  rig.cameras = read_cameras(reader, content, run);
   const bool no_projector = content == RigContent::PhaseOnly && !reader.has("projector");
   rig.projector =
       no_projector ? unknown_projector() : read_projector(reader.table("projector"), content, run);
-  if (rig.projector.is_label && rig.more_cameras.empty() && content == RigContent::Complete) {
+  if (rig.projector.is_label && rig.cameras.size() == 1 && content == RigContent::Complete) {
     reader.fail("projector.model",
                 "is \"label\", which needs two cameras: add [[more_cameras]], or calibrate the "
                 "projector");

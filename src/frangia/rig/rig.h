@@ -22,9 +22,9 @@ struct Camera {
   std::string name{};               ///< folder of its frames; empty for the reference camera
 };
 
-/// A camera beside the reference camera, and its pose.
+/// A camera of a rig and its pose.
 struct PosedCamera {
-  Camera camera;                                           ///< has a name
+  Camera camera;                                           ///< projection, noise and name
   Eigen::Vector3d position_mm = Eigen::Vector3d::Zero();   ///< in the rig frame
   Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();  ///< camera_from_rig
 
@@ -56,15 +56,19 @@ struct Turntable {
   [[nodiscard]] Eigen::Isometry3d rig_from_object(double angle_rad) const;
 };
 
-/// The calibrated scanner. The rig frame is the camera frame: x right, y down, z forward, in mm.
+/// The calibrated scanner. The rig frame is that of the reference camera: x right, y down, z
+/// forward, in mm.
 struct Rig {
-  Camera camera;                          ///< at the origin of the rig frame
+  /// The reference camera first, at the identity: its frame is that of the rig. The others have
+  /// distinct names.
+  std::vector<PosedCamera> cameras = std::vector<PosedCamera>(1);
   Projector projector;                    ///< interferometer or digital projector
   std::optional<LaserSheet> laser_sheet;  ///< gives fringe orders; none: the rig has no such source
   std::optional<Turntable> turntable;     ///< none: the object stays where it is
   std::optional<Calibration> calibration = std::nullopt;  ///< none: its origin is not known
-  std::vector<PosedCamera> more_cameras{};                ///< beside `camera`, with distinct names
 
+  [[nodiscard]] const Camera& reference() const { return cameras.front().camera; }  ///< camera 0
+  [[nodiscard]] Camera& reference() { return cameras.front().camera; }              ///< camera 0
   /// Returns `Turntable::rig_from_object`, or the identity for a rig without a turntable.
   [[nodiscard]] Eigen::Isometry3d rig_from_object(double angle_rad) const;
 };

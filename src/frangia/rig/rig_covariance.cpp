@@ -80,9 +80,9 @@ std::vector<std::string> rig_parameter_names(const Rig& rig) {
         names.push_back(Wavefront::parameter_name(term));
     }
   }
-  for (const PosedCamera& posed : rig.more_cameras) {
-    add(camera_prefix(posed.camera.name), kIntrinsicNames);
-    add(camera_prefix(posed.camera.name), kPoseNames);
+  for (std::size_t i = 1; i < rig.cameras.size(); ++i) {
+    add(camera_prefix(rig.cameras[i].camera.name), kIntrinsicNames);
+    add(camera_prefix(rig.cameras[i].camera.name), kPoseNames);
   }
   return names;
 }

@@ -126,8 +126,9 @@ TomlWriter composed_rig(const Rig& rig) {
   writer.put("format", std::string("frangia-rig"));
   writer.put("version", 1);
   writer.begin_table("camera");
-  put_camera(writer, rig.camera, "camera");
-  for (const PosedCamera& posed : rig.more_cameras) {
+  put_camera(writer, rig.reference(), "camera");
+  for (std::size_t i = 1; i < rig.cameras.size(); ++i) {
+    const PosedCamera& posed = rig.cameras[i];
     writer.begin_table_of_list("more_cameras");
     writer.put("name", posed.camera.name);
     put_pose(writer, posed.position_mm, posed.rotation);

@@ -32,7 +32,7 @@ Eigen::Matrix3d aimed(const Projector& before,
 Rig arrange_rig(Rig rig, const RigArrangement& wanted) {
   const Rig before = rig;
   if (wanted.camera_focal_px)
-    set_focal(rig.camera.model,
+    set_focal(rig.reference().model,
               positive(wanted.camera_focal_px, "camera_focal_px must be above 0"));
   if (wanted.projector_focal_px) {
     auto* pinhole = std::get_if<PinholeModel>(&rig.projector.model);

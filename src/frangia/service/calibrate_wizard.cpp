@@ -96,10 +96,10 @@ bool CalibrationWizard::wait_for_answer(RigDevices& devices,
   constexpr std::chrono::milliseconds kPause{200};
   for (int attempt = 0;; ++attempt) {
     run.check();
-    CapturedFrame seen = devices.camera->capture(
+    CapturedFrame seen = devices.reference()->capture(
         {.view = static_cast<int>(number) - 1, .pattern = "white", .attempt = attempt},
         Deadline::in(kTimeout_s, run.stop));
-    if (seen.complete) show(std::move(seen.frame), devices.camera->info().white_level, board);
+    if (seen.complete) show(std::move(seen.frame), devices.reference()->info().white_level, board);
     std::unique_lock lock(mutex_);
     answered_.wait_for(lock, kPause, [&] { return answer_ != Answer::None; });
     if (answer_ != Answer::None) return std::exchange(answer_, Answer::None) == Answer::Capture;
@@ -171,8 +171,8 @@ void CalibrationWizard::solve(const Board& board, const Run& run) {
   verdict.spread_mm = solution.spread_mm;
   verdict.distance_mm = solution.distance_mm;
   verdict.baseline_mm = solution.projector_from_camera.translation().norm();
-  verdict.camera_rms_px = solution.camera_residuals.rms_px;
-  verdict.projector_rms_px = solution.projector_residuals.rms_px;
+  verdict.camera_rms_px = solution.reference().residuals.rms_px;
+  verdict.projector_rms_px = solution.reference().projector_residuals.rms_px;
   verdict.poses = result.views.size();
   change([&](WizardState& state) { state.verdict = verdict; });
 }

@@ -70,9 +70,9 @@ std::optional<Rig> known_rig(const ProjectFolder& project, RigContent content) {
 }
 
 Rig with_sizes(Rig rig, const Sizes& sizes) {
-  rig.camera.model.width_px = sizes.camera.width_px;
-  rig.camera.model.height_px = sizes.camera.height_px;
-  rig.camera.white_level = sizes.camera.white_level;
+  rig.reference().model.width_px = sizes.camera.width_px;
+  rig.reference().model.height_px = sizes.camera.height_px;
+  rig.reference().white_level = sizes.camera.white_level;
   auto* projector = std::get_if<PinholeModel>(&rig.projector.model);
   if (projector != nullptr && sizes.display) {
     projector->width_px = sizes.display->width_px;
@@ -97,7 +97,7 @@ Rig start_rig(const std::filesystem::path& file,
   if (known && !known->projector.is_angular()) return with_sizes(*known, sizes);
   Rig rig;
   PinholeModel projector;
-  for (CameraModel* model : {&rig.camera.model, &projector})
+  for (CameraModel* model : {&rig.reference().model, &projector})
     model->focal_px = model->principal_point_px = Eigen::Vector2d::Constant(kMissing);
   rig.projector.model = projector;
   rig.projector.position_mm.setConstant(kMissing);
@@ -106,7 +106,7 @@ Rig start_rig(const std::filesystem::path& file,
 }
 
 void check_sizes(const std::filesystem::path& file, const Rig& rig, const Sizes& sizes) {
-  const CameraModel& camera = rig.camera.model;
+  const CameraModel& camera = rig.reference().model;
   if (camera.width_px != sizes.camera.width_px || camera.height_px != sizes.camera.height_px) {
     throw Error(ErrorKind::Input,
                 fmt::format("{}: this rig is calibrated for a camera of {} x {} pixels, but the "

@@ -110,7 +110,8 @@ struct Layer {
 Layer picture_of(const LiveSnapshot& snapshot, LiveLayer layer) {
   if (layer == LiveLayer::Camera || !snapshot.decode) return {camera_picture(snapshot)};
   const LiveDecode& decode = *snapshot.decode;
-  const Image<PixelStatus>& status = decode.view.phase.status;
+  const DecodedDirection& leading = decode.view.directions.front();
+  const Image<PixelStatus>& status = leading.phase.status;
   if (layer == LiveLayer::Status) {
     return {reduced(status.width(), status.height(), [&](int x, int y) {
       return static_cast<std::uint8_t>(status(x, y));
@@ -124,8 +125,8 @@ Layer picture_of(const LiveSnapshot& snapshot, LiveLayer layer) {
                     [&](int x, int y) { return byte_of(depth(x, y), limits[0], limits[1]); }),
             limits};
   }
-  if (decode.view.wrapped.empty()) return {};
-  const WrappedPhase& finest = decode.view.wrapped.back();
+  if (leading.wrapped.empty()) return {};
+  const WrappedPhase& finest = leading.wrapped.back();
   const auto half_turn = static_cast<float>(kPi);
   const std::array<float, 2> limits =
       layer == LiveLayer::Phase ? std::array{-half_turn, half_turn}
@@ -147,7 +148,7 @@ void add_points(const LiveDecode& decode, const Rig& rig, ArrayPacker& packer) {
   for (int y = 0; y < depth.height(); ++y) {
     for (int x = 0; x < depth.width(); ++x) {
       if (std::isnan(depth(x, y)) || number++ % step != 0) continue;
-      const Eigen::Vector2d ray = rig.camera.model.ray(Eigen::Vector2d(x, y));
+      const Eigen::Vector2d ray = rig.reference().model.ray(Eigen::Vector2d(x, y));
       const Eigen::Vector3f point =
           (object_from_rig * (Eigen::Vector3d(ray.x(), ray.y(), 1.0) * depth(x, y))).cast<float>();
       positions.insert(positions.end(), {point.x(), point.y(), point.z()});
@@ -191,9 +192,9 @@ std::string encode_live(const LiveSnapshot& snapshot, LiveLayer layer, const Rig
   values["frames_per_s"] = snapshot.frames_per_s;
   values["decodes_per_s"] = snapshot.decodes_per_s;
   values["decode_ms"] = decode != nullptr ? decode->decode_ms : 0.0;
-  values["contrast"] = decode != nullptr && !decode->view.assessments.empty()
-                           ? decode->view.assessments.back().contrast
-                           : 0.0;
+  const std::vector<FrameAssessment> assessments =
+      decode != nullptr ? assessments_of(decode->view) : std::vector<FrameAssessment>();
+  values["contrast"] = assessments.empty() ? 0.0 : assessments.back().contrast;
   values["saturated"] = light.saturated;
   values["dark"] = light.dark;
   values["points"] = decode != nullptr ? decode->points : 0;

@@ -35,7 +35,7 @@ Pattern uniform_light(LivePattern wanted) {
 
 std::string finding_of(const DecodedView& view, const ViewFit& fit) {
   if (!fit.fits()) return fit.reason;
-  for (const FrameAssessment& assessment : view.assessments) {
+  for (const FrameAssessment& assessment : assessments_of(view)) {
     const auto found = findings(assessment);
     if (!found.empty() && needs_attention(assessment)) return found.front();
   }
@@ -82,8 +82,9 @@ LiveDecode decode_live(std::span<const FrameStack> stacks,
   LiveDecode decode;
   decode.angle_rad = settings.table_rad;
   decode.view = decode_view(stacks, rig, rays, options);
-  if (decode.view.wrapped.empty())
-    decode.view.wrapped.push_back(finest_map(stacks, decode.view.noise, options));
+  DecodedDirection& leading = decode.view.directions.front();
+  if (leading.wrapped.empty())
+    leading.wrapped.push_back(finest_map(stacks, leading.noise, options));
   const ViewFit fit = check_view(decode.view, rig, rays, false);
   decode.finding = finding_of(decode.view, fit);
   if (fit.fits()) {
@@ -100,7 +101,7 @@ LiveDecode decode_live(std::span<const FrameStack> stacks,
 LivePreview::LivePreview(Rig rig, LiveSettings settings, std::function<void()> on_change)
     : rig_(std::move(rig)),
       calibrated_(has_geometry(rig_)),
-      rays_(calibrated_ ? rays_of(rig_.camera.model) : Image<Eigen::Vector2f>()),
+      rays_(calibrated_ ? rays_of(rig_.reference().model) : Image<Eigen::Vector2f>()),
       on_change_(std::move(on_change)),
       settings_(std::move(settings)) {}
 
@@ -183,7 +184,8 @@ void LivePreview::run(RigDevices& devices, const Run& run) {
     watched_ = Clock::now();
     changed_ = true;
   }
-  const int white_level = devices.camera ? devices.camera->info().white_level : 0;
+  const int white_level =
+      devices.reference() != nullptr ? devices.reference()->info().white_level : 0;
   PreviewEvents events;
   events.next_settings = [this] {
     {

@@ -116,7 +116,7 @@ class LivePreview {
 
 /// Decodes the frames of all patterns of a view and triangulates it.
 ///
-/// @shape    `stacks` as decode_view wants them; `rays` as rays_of(rig.camera.model)
+/// @shape    `stacks` as decode_view wants them; `rays` as rays_of(rig.reference().model)
 /// @errors   as decode_view
 [[nodiscard]] LiveDecode decode_live(std::span<const FrameStack> stacks,
                                      const Rig& rig,

@@ -24,7 +24,7 @@ void write_simulated_rig(const std::filesystem::path& path, const std::string& p
   constexpr int kWidth = 640;  // of 960: each view is rendered and decoded in half the time
   constexpr int kHeight = 512;
   Rig rig = rig_preset("digital");
-  CameraModel& model = rig.camera.model;
+  CameraModel& model = rig.reference().model;
   const double scale = static_cast<double>(kWidth) / model.width_px;
   model.width_px = kWidth;
   model.height_px = kHeight;
@@ -32,7 +32,7 @@ void write_simulated_rig(const std::filesystem::path& path, const std::string& p
   model.principal_point_px = (model.principal_point_px.array() + 0.5) * scale - 0.5;
   const SimulateOptions camera;
   constexpr double kWhite = 255.0;
-  rig.camera.noise = NoiseModel::from_camera(camera.full_well_e / kWhite, camera.read_e);
+  rig.reference().noise = NoiseModel::from_camera(camera.full_well_e / kWhite, camera.read_e);
   AtomicFile truth(true_rig_beside(path));
   truth.stream() << rig_text(rig);
   truth.commit();

@@ -23,11 +23,11 @@ Eigen::Vector3d tilted_axis(const Eigen::Vector3d& forward) {
 
 Rig digital() {
   Rig rig;
-  rig.camera.model = {.width_px = 960,
-                      .height_px = 768,
-                      .focal_px = {1800.0, 1800.0},
-                      .principal_point_px = {490.45, 377.35},
-                      .distortion = {-0.09, 0.05, 4e-4, -3e-4, 0.0}};
+  rig.reference().model = {.width_px = 960,
+                           .height_px = 768,
+                           .focal_px = {1800.0, 1800.0},
+                           .principal_point_px = {490.45, 377.35},
+                           .distortion = {-0.09, 0.05, 4e-4, -3e-4, 0.0}};
   rig.projector.model = PinholeModel{.width_px = 1280,
                                      .height_px = 800,
                                      .focal_px = {1900.0, 1900.0},
@@ -56,7 +56,7 @@ Rig binocular() {
   const Eigen::Vector3d z = (target - posed.position_mm).normalized();
   const Eigen::Vector3d x = Eigen::Vector3d::UnitY().cross(z).normalized();
   posed.rotation << x.transpose(), z.cross(x).transpose(), z.transpose();
-  rig.more_cameras.push_back(posed);
+  rig.cameras.push_back(posed);
   return rig;
 }
 
@@ -73,10 +73,10 @@ Rig paper_rig(double focal_px) {
   constexpr double kProjectorDistance_mm = 1000.0;
   const double theta0 = rad_from_deg(20.0);
   Rig rig;
-  rig.camera.model = {.width_px = 512,
-                      .height_px = 512,
-                      .focal_px = {focal_px, focal_px},
-                      .principal_point_px = {255.5, 255.5}};
+  rig.reference().model = {.width_px = 512,
+                           .height_px = 512,
+                           .focal_px = {focal_px, focal_px},
+                           .principal_point_px = {255.5, 255.5}};
   rig.projector.model = AngularModel{rad_from_deg(-12.0), rad_from_deg(12.0)};
   rig.projector.position_mm = {kProjectorDistance_mm * std::sin(theta0),
                                0.0,

@@ -27,7 +27,7 @@ constexpr std::uint64_t kScreenStream = 31;
 constexpr std::uint64_t kStartStream = 32;
 
 double field_of(const Rig& rig) {
-  const CameraModel& camera = rig.camera.model;
+  const CameraModel& camera = rig.reference().model;
   return crossing_of_axes(rig).z() *
          std::min(camera.width_px / camera.focal_px.x(), camera.height_px / camera.focal_px.y());
 }
@@ -157,9 +157,9 @@ Rig roughly_known(const Rig& rig, const ArtifactPlan& plan, std::uint64_t seed) 
 /// The rig of which the camera's size is known.
 Rig camera_unknown(const Rig& rig) {
   Rig known = rig;
-  known.camera.model.focal_px = known.camera.model.principal_point_px =
+  known.reference().model.focal_px = known.reference().model.principal_point_px =
       Eigen::Vector2d::Constant(std::nan(""));
-  known.camera.model.distortion = {};
+  known.reference().model.distortion = {};
   return known;
 }
 

@@ -45,9 +45,8 @@ bool is_visible(const Board& board,
   for (const double x : {-half.x(), half.x()}) {
     for (const double y : {-half.y(), half.y()}) {
       const Eigen::Vector3d corner = rig_from_board * Eigen::Vector3d(x, y, 0.0);
-      if (!is_inside(rig.camera.model, corner)) return false;
       if (!is_inside(projector, rig.projector.from_rig(corner))) return false;
-      for (const PosedCamera& posed : rig.more_cameras)
+      for (const PosedCamera& posed : rig.cameras)
         if (!is_inside(posed.camera.model, posed.camera_from_rig() * corner)) return false;
     }
   }
@@ -57,8 +56,8 @@ bool is_visible(const Board& board,
   const auto faces = [&](const Eigen::Vector3d& viewer) {
     return normal.dot((viewer - center).normalized()) > kLeastCosine;
   };
-  return faces(Eigen::Vector3d::Zero()) && faces(rig.projector.position_mm) &&
-         std::all_of(rig.more_cameras.begin(), rig.more_cameras.end(), [&](const auto& posed) {
+  return faces(rig.projector.position_mm) &&
+         std::all_of(rig.cameras.begin(), rig.cameras.end(), [&](const PosedCamera& posed) {
            return faces(posed.position_mm);
          });
 }
@@ -153,14 +152,14 @@ Eigen::Isometry3d choose_standing_pose(const CalibrationPlan& plan,
 Rig sizes_of(const Rig& rig) {
   const Eigen::Vector2d unknown = Eigen::Vector2d::Constant(std::nan(""));
   Rig known = rig;
-  auto& projector = std::get<PinholeModel>(known.projector.model);
-  for (CameraModel* model : {&known.camera.model, &projector}) {
-    model->focal_px = model->principal_point_px = unknown;
-    model->distortion = {};
-  }
-  for (PosedCamera& posed : known.more_cameras) {
-    posed.camera.model.focal_px = posed.camera.model.principal_point_px = unknown;
-    posed.camera.model.distortion = {};
+  const auto forget = [&](CameraModel& model) {
+    model.focal_px = model.principal_point_px = unknown;
+    model.distortion = {};
+  };
+  forget(std::get<PinholeModel>(known.projector.model));
+  for (PosedCamera& posed : known.cameras) {
+    forget(posed.camera.model);
+    if (&posed == &known.cameras.front()) continue;
     posed.position_mm.setConstant(std::nan(""));
     posed.rotation.setConstant(std::nan(""));
   }
@@ -179,7 +178,7 @@ BoardPoses plan_board_poses(const CalibrationPlan& given, std::uint64_t seed) {
   require(projector != nullptr,
           "the rig's projector is angular, but a board calibrates a digital projector only");
   const Eigen::Vector3d crossing = crossing_of_axes(plan.rig);
-  const CameraModel& camera = plan.rig.camera.model;
+  const CameraModel& camera = plan.rig.reference().model;
   const double field_mm = crossing.z() * std::min(camera.width_px / camera.focal_px.x(),
                                                   camera.height_px / camera.focal_px.y());
   if (plan.board.square_mm == 0.0) {

@@ -17,7 +17,6 @@
 #include "frangia/files/ply.h"
 #include "frangia/frames/png.h"
 #include "frangia/geometry/transform_mesh.h"
-#include "frangia/rig/rig_of_camera.h"
 #include "frangia/simulate/internal/render_view.h"
 #include "frangia/simulate/internal/simulated_scene.h"
 #include "frangia/simulate/internal/surface_color.h"
@@ -121,7 +120,7 @@ std::vector<SimulatedSetup> make_setups(const Mesh& part,
     const Mesh posed_part =
         part_pose == plan.part_poses.end() ? part : transform_mesh(part, part_pose->second);
     setups.push_back({std::move(stations), {}});
-    for (std::size_t camera = 0; camera < camera_count(plan.rig); ++camera) {
+    for (std::size_t camera = 0; camera < plan.rig.cameras.size(); ++camera) {
       setups.back().scenes.push_back(make_simulated_scene(
           posed_part,
           plan.rig,
@@ -142,7 +141,7 @@ void render_setup(const SimulatedSetup& setup, const Scan& plan, const Run& run)
       const Run view_run = part_of(run, view.index * cameras + camera, plan.views.size() * cameras);
       const SimulatedScene& scene = setup.scenes[camera];
       const std::filesystem::path folder =
-          plan.folder / plan.views[view.index].folder / scene.known_rig.camera.name;
+          plan.folder / plan.views[view.index].folder / scene.known_rig.reference().name;
       const auto stacks = render_view(scene, plan.patterns, view, view_run);
       std::filesystem::remove_all(folder);  // with the folders of the further cameras
       make_folder(folder);

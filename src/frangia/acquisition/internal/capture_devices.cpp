@@ -122,15 +122,14 @@ void CaptureDevices::expose_for(double exposure_ms) {
   CameraSettings settings = options_.camera;
   settings.exposure_ms = exposure_ms;
   exposure_ms_ = 0.0;
-  devices_.camera->configure(settings, deadline(options_.timeout_s));
-  for (const auto& camera : devices_.more_cameras)
+  for (const auto& camera : devices_.cameras)
     camera->configure(settings, deadline(options_.timeout_s));
   exposure_ms_ = exposure_ms;
 }
 
 CompleteFrame CaptureDevices::capture(const FrameLabel& label, std::size_t number) {
   const Stopwatch watch(seconds_);
-  CameraDevice& camera = number == 0 ? *devices_.camera : *devices_.more_cameras.at(number - 1);
+  CameraDevice& camera = *devices_.cameras.at(number);
   FrameLabel own = label;
   own.setup = options_.setup;
   std::string cause;
@@ -139,8 +138,7 @@ CompleteFrame CaptureDevices::capture(const FrameLabel& label, std::size_t numbe
     const Deadline until = deadline(options_.timeout_s + 1e-3 * exposure_ms_);
     CapturedFrame captured = camera.capture(own, until);
     if (captured.complete) {
-      check_frame(
-          camera, captured.frame, number == 0 ? rig_.camera : rig_.more_cameras[number - 1].camera);
+      check_frame(camera, captured.frame, rig_.cameras[number].camera);
       return {std::move(captured.frame), attempts};
     }
     cause = captured.incomplete_cause;

@@ -119,10 +119,10 @@ void check_angles(const TurntableDevice& table, const std::vector<ScanView>& vie
 }  // namespace
 
 void check_devices(const RigDevices& devices, const Scan& plan, const CaptureOptions& options) {
-  require(devices.camera != nullptr, "the rig has no [devices.camera]; add it to rig.toml");
-  for (std::size_t i = 0; i < plan.rig.more_cameras.size(); ++i) {
-    const std::string& name = plan.rig.more_cameras[i].camera.name;
-    if (i < devices.more_cameras.size() && devices.more_cameras[i] != nullptr) continue;
+  require(devices.reference() != nullptr, "the rig has no [devices.camera]; add it to rig.toml");
+  for (std::size_t i = 1; i < plan.rig.cameras.size(); ++i) {
+    const std::string& name = plan.rig.cameras[i].camera.name;
+    if (i < devices.cameras.size() && devices.cameras[i] != nullptr) continue;
     throw Error(ErrorKind::Input,
                 fmt::format("the rig has no [devices.camera-{0}], which takes the frames of its "
                             "camera \"{0}\"; add it to rig.toml",
@@ -131,12 +131,12 @@ void check_devices(const RigDevices& devices, const Scan& plan, const CaptureOpt
   for (const Pattern& pattern : plan.patterns) {
     check_pattern(devices, plan.rig, pattern);
     for (const double exposure_ms : pattern.exposures_ms)
-      check_exposure(*devices.camera, exposure_ms);
+      check_exposure(*devices.reference(), exposure_ms);
   }
   const auto has_exposures = [](const Pattern& pattern) { return !pattern.exposures_ms.empty(); };
   if (options.exposure == ExposureChoice::Given &&
       std::none_of(plan.patterns.begin(), plan.patterns.end(), has_exposures))
-    check_exposure(*devices.camera, options.camera.exposure_ms);
+    check_exposure(*devices.reference(), options.camera.exposure_ms);
   if (devices.turntable) return check_angles(*devices.turntable, plan.views);
   require(plan.views.size() < 2 || options.before_view != nullptr,
           "the rig has no [devices.turntable], which several views need; add it to rig.toml, or "

@@ -24,7 +24,7 @@ Image<PixelStatus> probe_exposure(std::span<const Pattern> patterns,
                                   int view,
                                   CaptureDevices& devices,
                                   double exposure_ms) {
-  FrameStack stack{finest_fringes(patterns), {}, rig.camera.white_level};
+  FrameStack stack{finest_fringes(patterns), {}, rig.reference().white_level};
   stack.pattern.exposures_ms.clear();
   devices.begin_set(stack.pattern, 1.0);
   devices.expose_for(exposure_ms);
@@ -32,7 +32,7 @@ Image<PixelStatus> probe_exposure(std::span<const Pattern> patterns,
     devices.show(stack.pattern, frame);
     stack.frames.push_back(devices.capture({view, stack.pattern.name, frame, 0, 0}).frame);
   }
-  return pixel_status_of(stack, rig.camera.noise);
+  return pixel_status_of(stack, rig.reference().noise);
 }
 
 }  // namespace frangia

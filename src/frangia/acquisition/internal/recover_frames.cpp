@@ -47,8 +47,7 @@ std::size_t recover_set(const Scan& plan,
                         const Pattern& pattern,
                         std::size_t camera,
                         CaptureManifest& manifest) {
-  const CameraModel& model =
-      camera == 0 ? plan.rig.camera.model : plan.rig.more_cameras[camera - 1].camera.model;
+  const CameraModel& model = plan.rig.cameras[camera].camera.model;
   const int attempt = manifest.attempt_of(files.set_of(view, pattern));
   std::size_t count = 0;
   for (int frame = 0; frame < pattern.frame_count(); ++frame) {

@@ -39,7 +39,7 @@ void SetCapture::capture_trial_set(std::size_t view, const Pattern& pattern) {
   const bool due = parts_.options.control_steps && parts_.devices.has_phase_shifter() &&
                    pattern.kind == PatternKind::Fringe && !parts_.manifest.has_sets();
   if (!due) return;
-  FrameStack stack{pattern, {}, parts_.plan.rig.camera.white_level};
+  FrameStack stack{pattern, {}, parts_.plan.rig.reference().white_level};
   stack.pattern.exposures_ms.clear();
   parts_.devices.begin_set(pattern, 1.0);
   parts_.devices.expose_for(exposure_of(pattern, 0));
@@ -48,7 +48,7 @@ void SetCapture::capture_trial_set(std::size_t view, const Pattern& pattern) {
     stack.frames.push_back(
         parts_.devices.capture({static_cast<int>(view), pattern.name, frame, 0, 0}).frame);
   }
-  const SetAssessment assessment = assess_set({&stack, 1}, parts_.plan.rig.camera.noise, true);
+  const SetAssessment assessment = assess_set({&stack, 1}, parts_.plan.rig.reference().noise, true);
   ManifestSet outcome;
   if (assessment.step_found) outcome.scale = 1.0 / (1.0 + assessment.gain_error);
   parts_.store.put("trial", outcome);
@@ -65,7 +65,7 @@ bool SetCapture::shows_motion(std::size_t view,
   ManifestSet outcome{.attempt = attempt, .scale = parts_.manifest.scale()};
   if (pattern.kind == PatternKind::Fringe) {
     const SetAssessment assessment = assess_set(stacks_of(pattern, frames),
-                                                parts_.plan.rig.camera.noise,
+                                                parts_.plan.rig.reference().noise,
                                                 parts_.devices.has_phase_shifter());
     outcome.moved = assessment.moved && attempt + 1 < parts_.options.set_attempts;
     if (parts_.options.control_steps && assessment.step_found && !assessment.moved) {
@@ -83,7 +83,7 @@ std::vector<FrameStack> SetCapture::stacks_of(const Pattern& pattern,
   std::vector<FrameStack> stacks;
   stacks.reserve(static_cast<std::size_t>(pattern.exposure_count()));
   for (int exposure = 0; exposure < pattern.exposure_count(); ++exposure)
-    stacks.push_back({pattern, {}, parts_.plan.rig.camera.white_level, exposure});
+    stacks.push_back({pattern, {}, parts_.plan.rig.reference().white_level, exposure});
   for (std::size_t i = 0; i < frames.size(); ++i)
     stacks[i % stacks.size()].frames.push_back(*frames[i]);
   return stacks;

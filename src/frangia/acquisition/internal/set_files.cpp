@@ -8,7 +8,6 @@
 #include "frangia/core/make_folder.h"
 #include "frangia/core/open_below.h"
 #include "frangia/core/sync_to_disk.h"
-#include "frangia/rig/rig_of_camera.h"
 
 namespace frangia {
 
@@ -18,11 +17,11 @@ std::string SetFiles::set_of(std::size_t view, const Pattern& pattern) const {
 
 std::filesystem::path SetFiles::folder_of(std::size_t view, std::size_t camera) const {
   const std::filesystem::path& folder = plan_.views[view].folder;
-  return camera == 0 ? folder : folder / plan_.rig.more_cameras[camera - 1].camera.name;
+  return camera == 0 ? folder : folder / plan_.rig.cameras[camera].camera.name;
 }
 
 std::size_t SetFiles::cameras() const {
-  return camera_count(plan_.rig);
+  return plan_.rig.cameras.size();
 }
 
 std::string SetFiles::file_of(

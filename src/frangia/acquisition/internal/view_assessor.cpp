@@ -35,7 +35,7 @@ ViewAssessor::ViewAssessor(const Scan& plan,
                            const std::function<void(const ViewAssessment&)>& on_view,
                            const Run& run)
     : plan_(plan), on_view_(on_view), run_(run) {
-  if (has_geometry(plan.rig)) rays_ = rays_of(plan.rig.camera.model);
+  if (has_geometry(plan.rig)) rays_ = rays_of(plan.rig.reference().model);
 }
 
 void ViewAssessor::begin(std::size_t view, std::vector<std::shared_ptr<const Frame>> frames) {
@@ -61,7 +61,7 @@ std::string ViewAssessor::decode(std::size_t view,
   std::size_t next = 0;
   for (const Pattern& pattern : plan_.patterns) {
     for (int exposure = 0; exposure < pattern.exposure_count(); ++exposure) {
-      FrameStack stack{pattern, {}, plan_.rig.camera.white_level, exposure};
+      FrameStack stack{pattern, {}, plan_.rig.reference().white_level, exposure};
       for (int frame = 0; frame < pattern.frame_count(); ++frame)
         stack.frames.push_back(*frames.at(next++));
       stacks.push_back(std::move(stack));
@@ -71,22 +71,26 @@ std::string ViewAssessor::decode(std::size_t view,
   found.view = view;
   try {
     const DecodedView decoded = decode_view(stacks, plan_.rig, rays_);
-    const auto phase = decoded.phase.phase_rad.pixels();
+    const DecodedDirection& leading = decoded.directions.front();
+    const auto phase = leading.phase.phase_rad.pixels();
     found.points = static_cast<std::size_t>(
         std::count_if(phase.begin(), phase.end(), [](float value) { return !std::isnan(value); }));
-    for (const UnresolvedRegion& region : decoded.unresolved)
+    for (const UnresolvedRegion& region : leading.unresolved)
       found.points += region.pixel.size();
     found.decoded = &decoded;
-    if (decoded.assessments.empty()) {  // Gray code alone has no fringes to assess
+    const std::vector<FrameAssessment> assessments = assessments_of(decoded);
+    if (assessments.empty()) {  // Gray code alone has no fringes to assess
       found.verdict = found.points == 0 ? kNothingMeasured : kGood;
       found.good = found.points != 0;
       if (on_view_) on_view_(found);
       return fmt::format("{}: {} points", found.verdict, found.points);
     }
-    const FrameAssessment& finest = decoded.assessments.back();
+    const FrameAssessment& finest = assessments.back();
     found.verdict = word_for(finest, found.points);
-    for (const FrameVerdict& verdict : decoded.frames)
-      if (!verdict.finding.empty()) found.verdict = verdict.finding + "; capture the view again";
+    for (const DecodedDirection& direction : decoded.directions) {
+      for (const FrameVerdict& verdict : direction.frames)
+        if (!verdict.finding.empty()) found.verdict = verdict.finding + "; capture the view again";
+    }
     found.good = found.verdict == kGood;
     found.contrast = finest.contrast;
     found.saturated_fraction = finest.saturated_fraction;

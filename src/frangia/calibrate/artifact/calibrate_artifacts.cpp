@@ -40,7 +40,7 @@ CameraSolution camera_from_screens(std::span<const Scan> scans,
     std::vector<ScreenView> more = measure_screen(scan, options, run);
     std::move(more.begin(), more.end(), std::back_inserter(views));
   }
-  const CameraModel& model = first->rig.camera.model;
+  const CameraModel& model = first->rig.reference().model;
   CameraSolution solution = solve_camera(std::get<Screen>(*first->artifact),
                                          views,
                                          model.width_px,
@@ -59,7 +59,7 @@ CameraSolution camera_from_screens(std::span<const Scan> scans,
 }
 
 void take_camera(const CameraSolution& solution, Rig& rig) {
-  rig.camera.model = solution.camera;
+  rig.reference().model = solution.camera;
   Calibration calibration;
   calibration.covariance = {solution.parameters, solution.covariance};
   rig.calibration = calibration;
@@ -67,10 +67,11 @@ void take_camera(const CameraSolution& solution, Rig& rig) {
 
 void check_start(const Rig& rig) {
   const bool complete = rig.projector.position_mm.allFinite() &&
-                        rig.projector.rotation.allFinite() && rig.camera.model.focal_px.allFinite();
+                        rig.projector.rotation.allFinite() &&
+                        rig.reference().model.focal_px.allFinite();
   if (complete) return;
   throw Error(ErrorKind::Input,
-              rig.camera.model.focal_px.allFinite()
+              rig.reference().model.focal_px.allFinite()
                   ? "rig.toml does not state where the projector is; add projector.position_mm and "
                     "projector.rotation, within a few degrees and 10 %"
                   : "rig.toml does not state the intrinsics of the camera; add them, or calibrate "
@@ -202,7 +203,7 @@ void calibrate_by_plates(std::span<const Scan> scans,
   run.stage("plate");
   for (const Scan& scan : scans) {
     if (is_kind<Plate>(scan))
-      result.captures.push_back(measure_plate(scan, result.rig, options, run, result.left_out));
+      result.captures.push_back(measure_plate(scan, result.rig, options, run));
   }
   if (result.captures.empty()) return;
   run.stage("adjustment");
@@ -222,12 +223,11 @@ void calibrate_by_balls(std::span<const Scan> scans,
   const Rig& start = result.rig;
   Rig rig = result.table ? result.table->rig : start;
   rig.calibration = start.calibration;
-  rig.camera = start.camera;
+  rig.reference() = start.reference();
   if (!start.projector.is_angular()) rig.projector = start.projector;
   const std::size_t plates = result.captures.size();
   for (const Scan& scan : scans) {
-    if (is_kind<Balls>(scan))
-      result.captures.push_back(measure_balls(scan, rig, options, run, result.left_out));
+    if (is_kind<Balls>(scan)) result.captures.push_back(measure_balls(scan, rig, options, run));
   }
   if (plates > 0 && !options.solve.baseline_mm && start.projector.is_angular()) {
     const ArtifactCapture& balls = result.captures[plates];
@@ -288,6 +288,9 @@ ArtifactCalibration calibrate_artifacts(std::span<const Scan> scans,
     take_camera(*result.camera, result.rig);
   }
   if (table != nullptr) calibrate_table(scans, options, run, result);
+  for (const ArtifactCapture& capture : result.captures) {
+    result.left_out.insert(result.left_out.end(), capture.left_out.begin(), capture.left_out.end());
+  }
   describe(scans, result);
   if (table != nullptr) set_point_sigma(result.captures, result.rig);
   if (!result.left_out.empty()) {

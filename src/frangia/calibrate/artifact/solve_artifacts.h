@@ -36,6 +36,7 @@ struct ArtifactCapture {
   /// Approximate surfaces in the rig frame at table angle 0: normal and distance of the plate, or
   /// the center of each ball and 0.
   std::vector<Eigen::Vector4d> surfaces;
+  std::vector<std::string> left_out{};  ///< folders of the views without it
 };
 
 /// What is known beforehand, and limits of the adjustment.

@@ -38,7 +38,7 @@ struct BoardPicture {
 struct BoardView {
   std::string name;                ///< of the view's folder, for messages
   std::vector<BoardPoint> points;  ///< those that the reference camera found
-  /// Those that each further camera found, in the order of `Rig::more_cameras`; none where it does
+  /// Those that each further camera found, in their order in the rig; none where it does
   /// not see the board.
   std::vector<std::vector<BoardPoint>> more{};
 };

@@ -39,15 +39,17 @@ void add_projector_pixels(std::span<const FrameStack> stacks,
   decode.order_jumps.max_share = 0.0;  // a board is flat: jumps show frames that do not fit
   decode.fill.max_px = 0;              // a point is fitted to measured pixels only
   // The rays serve the decoding of scans without absolute phase only.
-  const DecodedView decoded = decode_view(stacks_of(stacks, direction), known, {}, decode, run);
-  const double px_per_rad = decoded.phase.pattern.period_px / kTwoPi;
+  const DecodedDirection decoded =
+      decode_view(stacks_of(stacks, direction), known, {}, decode, run).directions.front();
+  const AbsolutePhase& absolute = decoded.phase;
+  const double px_per_rad = absolute.pattern.period_px / kTwoPi;
   const int axis = direction == FringeDirection::Vertical ? 0 : 1;
   // Pixels of a Gray code share the borders of their stripes: what the code counts as systematic is
   // an error of the point.
-  const bool is_code = decoded.checks.empty() && !decoded.phase.systematic_rad.empty();
+  const bool is_code = !decoded.check && !absolute.systematic_rad.empty();
   const auto shared_of = [&](const BoardPoint& point) {
     if (!is_code) return 0.0;
-    const Image<float>& shared = decoded.phase.systematic_rad;
+    const Image<float>& shared = absolute.systematic_rad;
     const int x =
         std::clamp(static_cast<int>(std::lround(point.camera_px.x())), 0, shared.width() - 1);
     const int y =
@@ -55,8 +57,8 @@ void add_projector_pixels(std::span<const FrameStack> stacks,
     return std::isnan(shared(x, y)) ? 0.0 : static_cast<double>(shared(x, y));
   };
   for (BoardPoint& point : points) {
-    const PhaseAt phase = fit_phase_at(
-        decoded.phase.phase_rad, decoded.phase.sigma_rad, point.camera_px, options.fit);
+    const PhaseAt phase =
+        fit_phase_at(absolute.phase_rad, absolute.sigma_rad, point.camera_px, options.fit);
     point.projector_px[axis] = px_per_rad * phase.phase_rad;
     point.projector_sigma_px[axis] = px_per_rad * std::hypot(phase.sigma_rad, shared_of(point));
     point.projector_by_camera.row(axis) = px_per_rad * phase.gradient_rad_per_px.transpose();
@@ -180,7 +182,7 @@ PoseCapture calibrate_measure_pose(std::span<const FrameStack> stacks,
   }
   pose.image = measure_image_sharpness(image);
   if (options.keep_picture) pose.picture = picture_of(image);
-  measure_light(stacks, image, known.camera.white_level, pose);
+  measure_light(stacks, image, known.reference().white_level, pose);
   if (pose.view.points.empty()) {
     if (board.kind == BoardKind::Checkerboard) pose.counted = count_corners(image);
     return pose;

@@ -41,7 +41,7 @@ void add_direction(std::span<const FrameStack> all,
   Image<Eigen::Vector2f> rays;
   if (!absolute && options.use_laser_line && display.laser_sheet) {
     stacks.assign(all.begin(), all.end());
-    rays = rays_of(display.camera.model);
+    rays = rays_of(display.reference().model);
   } else if (!absolute) {
     throw Error(ErrorKind::Input,
                 fmt::format("the {} fringes have no absolute phase, which calibration needs; add "
@@ -51,16 +51,17 @@ void add_direction(std::span<const FrameStack> all,
   DecodeOptions decode = options.decode;
   decode.keep_maps = false;
   decode.fill.max_px = 0;
-  const DecodedView decoded = decode_view(stacks, display, rays, decode, run);
-  const double scale = light_per_rad(decoded.phase.pattern);
+  const AbsolutePhase decoded =
+      decode_view(stacks, display, rays, decode, run).directions.front().phase;
+  const double scale = light_per_rad(decoded.pattern);
   parallel_chunks(sites.size(), 64, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       LightSite& site = sites[i];
       const auto x = static_cast<int>(site.camera_px.x());
       const auto y = static_cast<int>(site.camera_px.y());
-      if (std::isnan(decoded.phase.phase_rad(x, y))) continue;
-      const PhaseAt phase = fit_phase_at(
-          decoded.phase.phase_rad, decoded.phase.sigma_rad, site.camera_px, options.fit);
+      if (std::isnan(decoded.phase_rad(x, y))) continue;
+      const PhaseAt phase =
+          fit_phase_at(decoded.phase_rad, decoded.sigma_rad, site.camera_px, options.fit);
       site.light[axis] = scale * phase.phase_rad;
       site.sigma[axis] = scale * phase.sigma_rad;
       site.by_camera.row(axis) = scale * phase.gradient_rad_per_px.transpose();
@@ -76,8 +77,8 @@ std::vector<LightSite> measure_light(std::span<const FrameStack> stacks,
                                      const Run& run) {
   std::vector<LightSite> sites;
   const int half = options.step_px / 2;
-  for (int y = half; y < display.camera.model.height_px; y += options.step_px) {
-    for (int x = half; x < display.camera.model.width_px; x += options.step_px) {
+  for (int y = half; y < display.reference().model.height_px; y += options.step_px) {
+    for (int x = half; x < display.reference().model.width_px; x += options.step_px) {
       sites.emplace_back();
       sites.back().camera_px = Eigen::Vector2d(x, y);
     }

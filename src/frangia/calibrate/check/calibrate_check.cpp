@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <utility>
 #include <variant>
 
 #include <fmt/format.h>
@@ -10,7 +11,6 @@
 #include "frangia/calibrate/check/check_kinds.h"
 #include "frangia/core/error.h"
 #include "frangia/dataset/scan_of_camera.h"
-#include "frangia/rig/rig_of_camera.h"
 
 namespace frangia {
 namespace {
@@ -32,6 +32,15 @@ bool RigCheckItem::passed() const {
 bool RigCheck::passed() const {
   return !items.empty() &&
          std::all_of(items.begin(), items.end(), std::mem_fn(&RigCheckItem::passed));
+}
+
+RigCheck joined(RigCheck check, const RigCheck& other) {
+  check.views = std::max(check.views, other.views);
+  check.left_out.insert(check.left_out.end(), other.left_out.begin(), other.left_out.end());
+  check.distance_mm = std::max(check.distance_mm, other.distance_mm);
+  check.calibration_sigma_mm = std::max(check.calibration_sigma_mm, other.calibration_sigma_mm);
+  check.items.insert(check.items.end(), other.items.begin(), other.items.end());
+  return check;
 }
 
 RigCheck calibrate_check(const Scan& scan,
@@ -57,18 +66,14 @@ RigCheck calibrate_check(const Scan& scan,
   }
   Scan checked = scan;
   checked.rig = rig;
-  for (std::size_t camera = 0; camera < camera_count(rig); ++camera) {
+  for (std::size_t camera = 0; camera < rig.cameras.size(); ++camera) {
     const Scan own = scan_of_camera(checked, camera);
-    if (!scan.artifact) {
-      check_part_of(own, options, {rig, camera}, run, check);
-    } else if (std::holds_alternative<Plate>(*scan.artifact)) {
-      check_plate_of(own, options, {rig, camera}, run, check);
-    } else {
-      check_balls_of(own, options, {rig, camera}, run, check);
-    }
+    const auto check_of = !scan.artifact                                  ? check_part_of
+                          : std::holds_alternative<Plate>(*scan.artifact) ? check_plate_of
+                                                                          : check_balls_of;
+    check = joined(std::move(check), check_of(own, options, {rig, camera}, run));
   }
-  check_cameras_of(checked, options, run, check);
-  return check;
+  return joined(std::move(check), check_cameras_of(checked, options, run));
 }
 
 }  // namespace frangia

@@ -12,35 +12,34 @@ struct CheckedCamera {
   std::size_t camera = 0;  ///< 0: the reference camera
 };
 
-/// Adds the figures of balls of known sizes on the turntable to a check. `scan` and its rig are
-/// those of one camera, see `scan_of_camera`.
-void check_balls_of(const Scan& scan,
-                    const CheckRigOptions& options,
-                    const CheckedCamera& camera,
-                    const Run& run,
-                    RigCheck& check);
+/// The figures of balls of known sizes on the turntable. `scan` and its rig are those of one
+/// camera, see `scan_of_camera`.
+[[nodiscard]] RigCheck check_balls_of(const Scan& scan,
+                                      const CheckRigOptions& options,
+                                      const CheckedCamera& camera,
+                                      const Run& run);
 
 /// Likewise of a plate: its flatness, and how far the views disagree.
-void check_plate_of(const Scan& scan,
-                    const CheckRigOptions& options,
-                    const CheckedCamera& camera,
-                    const Run& run,
-                    RigCheck& check);
+[[nodiscard]] RigCheck check_plate_of(const Scan& scan,
+                                      const CheckRigOptions& options,
+                                      const CheckedCamera& camera,
+                                      const Run& run);
 
 /// Likewise of any part: how far the views disagree.
-void check_part_of(const Scan& scan,
-                   const CheckRigOptions& options,
-                   const CheckedCamera& camera,
-                   const Run& run,
-                   RigCheck& check);
+[[nodiscard]] RigCheck check_part_of(const Scan& scan,
+                                     const CheckRigOptions& options,
+                                     const CheckedCamera& camera,
+                                     const Run& run);
 
-/// Adds how far the surfaces of each further camera disagree with those of the reference camera in
+/// How far the surfaces of each further camera disagree with those of the reference camera in
 /// the same views, whatever they show. `scan` and its rig are those of all cameras.
 ///
 /// @errors   Error(Numeric) when two cameras share too few points
-void check_cameras_of(const Scan& scan,
-                      const CheckRigOptions& options,
-                      const Run& run,
-                      RigCheck& check);
+[[nodiscard]] RigCheck check_cameras_of(const Scan& scan,
+                                        const CheckRigOptions& options,
+                                        const Run& run);
+
+/// Both checks together.
+[[nodiscard]] RigCheck joined(RigCheck check, const RigCheck& other);
 
 }  // namespace frangia

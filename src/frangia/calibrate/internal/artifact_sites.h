@@ -20,14 +20,13 @@ namespace frangia {
                                                      const Run& run);
 
 /// Finds a plate in all views of a scan, by the phase alone, and its approximate surface by the
-/// rig. Views without it are appended to `left_out`.
+/// rig.
 ///
 /// @errors   Error(Input) when no view shows a plane
 [[nodiscard]] ArtifactCapture measure_plate(const Scan& scan,
                                             const Rig& rig,
                                             const CalibrateArtifactsOptions& options,
-                                            const Run& run,
-                                            std::vector<std::string>& left_out);
+                                            const Run& run);
 
 /// Finds balls in all views of a scan by a rig that is right but for its scale.
 ///
@@ -35,8 +34,7 @@ namespace frangia {
 [[nodiscard]] ArtifactCapture measure_balls(const Scan& scan,
                                             const Rig& rig,
                                             const CalibrateArtifactsOptions& options,
-                                            const Run& run,
-                                            std::vector<std::string>& left_out);
+                                            const Run& run);
 
 /// The points of sites as the rig triangulates them.
 ///

@@ -37,8 +37,8 @@ void warn_of_poses(const std::vector<BoardView>& views,
   }
 }
 
-std::string in_quotes(const std::string& camera) {
-  return "camera \"" + camera + "\"";
+std::string in_words(const SolvedCamera& camera) {
+  return camera.name.empty() ? "the camera" : "camera \"" + camera.name + "\"";
 }
 
 std::string worst_view(const std::vector<BoardView>& views,
@@ -123,13 +123,12 @@ void warn_of_outliers(const std::vector<BoardView>& views,
                       const RigSolution& solution,
                       const CalibrateRigOptions& options,
                       const Run& run) {
-  warn_of_poses(views, solution.camera_by_view, "the camera", options, run);
-  warn_of_poses(views, solution.projector_by_view, "the projector", options, run);
-  for (const FurtherCameraSolution& further : solution.more_cameras) {
-    const std::string device = in_quotes(further.name);
-    warn_of_poses(views, further.by_view, device, options, run);
-    warn_of_poses(
-        views, further.projector_by_view, "the projector, seen by " + device + ",", options, run);
+  for (const SolvedCamera& camera : solution.cameras) {
+    const std::string device = in_words(camera);
+    const std::string projector =
+        camera.name.empty() ? "the projector" : "the projector, seen by " + device + ",";
+    warn_of_poses(views, camera.by_view, device, options, run);
+    warn_of_poses(views, camera.projector_by_view, projector, options, run);
   }
 }
 
@@ -146,15 +145,14 @@ void warn_of_scale(const Scan& scan,
                                                  max_error,
                                                  run))
     return;
-  for (std::size_t i = 0; i < solution.more_cameras.size(); ++i) {
-    const bool stated =
-        compare_distance(in_quotes(solution.more_cameras[i].name).c_str(),
-                         fmt::format("more_cameras[{}].position_mm", i).c_str(),
-                         scan.rig.more_cameras[i].position_mm,
-                         solution.more_cameras[i].camera_from_rig.translation().norm(),
-                         *scan.board,
-                         max_error,
-                         run);
+  for (std::size_t i = 1; i < solution.cameras.size(); ++i) {
+    const bool stated = compare_distance(in_words(solution.cameras[i]).c_str(),
+                                         fmt::format("more_cameras[{}].position_mm", i - 1).c_str(),
+                                         scan.rig.cameras[i].position_mm,
+                                         solution.cameras[i].camera_from_rig.translation().norm(),
+                                         *scan.board,
+                                         max_error,
+                                         run);
     if (stated) return;
   }
 }
@@ -169,14 +167,10 @@ void check_solution(const RigSolution& solution,
                     "are tilted by 20 to 40 degrees, each another way",
                     fmt::join(solution.undetermined, ", ")));
   }
-  check_camera("the camera", solution.camera_residuals, solution.camera_by_view, views, max_rms_px);
-  check_fringes(
-      "the camera", solution.projector_residuals, solution.projector_by_view, views, max_rms_px);
-  for (const FurtherCameraSolution& further : solution.more_cameras) {
-    const std::string device = in_quotes(further.name);
-    check_camera(device, further.residuals, further.by_view, views, max_rms_px);
-    check_fringes(
-        device, further.projector_residuals, further.projector_by_view, views, max_rms_px);
+  for (const SolvedCamera& camera : solution.cameras) {
+    const std::string device = in_words(camera);
+    check_camera(device, camera.residuals, camera.by_view, views, max_rms_px);
+    check_fringes(device, camera.projector_residuals, camera.projector_by_view, views, max_rms_px);
   }
 }
 

@@ -1,6 +1,7 @@
 #include "frangia/calibrate/internal/point_sigma.h"
 
 #include <cmath>
+#include <cstddef>
 #include <vector>
 
 #include <Eigen/QR>
@@ -34,17 +35,16 @@ Eigen::VectorXd coordinates_of(const RigLayout& layout,
                                const RigParameters& parameters,
                                const Eigen::Vector3d& point,
                                int measured) {
-  Eigen::VectorXd out(layout.has_projector ? 3 : 2 + 2 * static_cast<Eigen::Index>(layout.more));
-  out.head<2>() = project_point(parameters.camera.data(), point);
+  Eigen::VectorXd out(layout.has_projector ? 3 : 2 * static_cast<Eigen::Index>(layout.cameras));
+  out.head<2>() = project_point(parameters.cameras.front().intrinsics.data(), point);
   if (layout.has_projector) {
     out[2] = lit_pixel(parameters, point)[measured];
     return out;
   }
-  Eigen::Index row = 2;
-  for (const RigParameters::FurtherCamera& camera : parameters.more) {
-    out.segment<2>(row) =
+  for (std::size_t i = 1; i < parameters.cameras.size(); ++i) {
+    const RigParameters::PosedIntrinsics& camera = parameters.cameras[i];
+    out.segment<2>(2 * static_cast<Eigen::Index>(i)) =
         project_point(camera.intrinsics.data(), moved_by(camera.from_reference, point));
-    row += 2;
   }
   return out;
 }
@@ -130,11 +130,10 @@ ShapeResponse shape_response(const Board& board,
   return result;
 }
 
-void add_point_sigma(const ShapeResponse& shape, RigSolution& solution) {
+double point_sigma_mm(const ShapeResponse& shape, const Eigen::MatrixXd& covariance) {
   const Eigen::MatrixXd& response = shape.by_parameter;
-  const double sum = (response * solution.covariance).cwiseProduct(response).sum();
-  solution.point_sigma_mm = std::sqrt(3.0 * sum / static_cast<double>(response.rows()));
-  solution.distance_mm = shape.distance_mm;
+  const double sum = (response * covariance).cwiseProduct(response).sum();
+  return std::sqrt(3.0 * sum / static_cast<double>(response.rows()));
 }
 
 }  // namespace frangia

@@ -26,7 +26,7 @@ struct ShapeResponse {
                                            const RigParameters& parameters,
                                            const RigSolution& solution);
 
-/// Adds `point_sigma_mm` and `distance_mm`.
-void add_point_sigma(const ShapeResponse& shape, RigSolution& solution);
+/// `RigSolution::point_sigma_mm` by the covariance of the parameters.
+[[nodiscard]] double point_sigma_mm(const ShapeResponse& shape, const Eigen::MatrixXd& covariance);
 
 }  // namespace frangia

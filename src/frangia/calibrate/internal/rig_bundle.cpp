@@ -41,7 +41,7 @@ RigCost cost_of_observation(const RigObservation& seen,
                             RigParameters& parameters) {
   double* pose = parameters.camera_from_board[seen.view].data();
   double* shape = parameters.board.data();
-  double* reference = parameters.camera.data();
+  double* reference = parameters.cameras.front().intrinsics.data();
   double* projector = parameters.projector.data();
   double* projector_pose = parameters.projector_from_camera.data();
   const CameraResidual by_camera{seen.site, seen.circle_radius_mm, seen.pixel, weight};
@@ -54,9 +54,8 @@ RigCost cost_of_observation(const RigObservation& seen,
     return {cost_function(by_projector, 2, std::array{kI, kI, kPose, kShape, kPose}),
             {reference, projector, projector_pose, shape, pose}};
   }
-  RigParameters::FurtherCamera& further = parameters.more[seen.camera - 1];
-  double* camera = further.intrinsics.data();
-  double* camera_pose = further.from_reference.data();
+  double* camera = parameters.cameras[seen.camera].intrinsics.data();
+  double* camera_pose = parameters.cameras[seen.camera].from_reference.data();
   if (!seen.by_projector)
     return {cost_function(by_camera, 2, std::array{kI, kPose, kShape, kPose}),
             {camera, camera_pose, shape, pose}};
@@ -93,15 +92,18 @@ Eigen::Vector2d independent_residual_of(const RigObservation& observation,
   const double* pose = parameters.camera_from_board[observation.view].data();
   const double* shape = parameters.board.data();
   const Eigen::Vector2d one = Eigen::Vector2d::Ones();
-  const bool further = observation.camera > 0;
-  const double* camera = further ? parameters.more[observation.camera - 1].intrinsics.data()
-                                 : parameters.camera.data();
-  const double* from_reference =
-      further ? parameters.more[observation.camera - 1].from_reference.data() : nullptr;
+  const RigParameters::PosedIntrinsics& seen = parameters.cameras[observation.camera];
+  const double* camera = seen.intrinsics.data();
+  const double* from_reference = observation.camera > 0 ? seen.from_reference.data() : nullptr;
   if (observation.is_label) {
     LabelResidual{
         observation.site, observation.pixel, one, observation.reference, observation.reading}(
-        parameters.camera.data(), camera, from_reference, shape, pose, residual.data());
+        parameters.cameras.front().intrinsics.data(),
+        camera,
+        from_reference,
+        shape,
+        pose,
+        residual.data());
   } else if (observation.by_projector) {
     ProjectorResidual{observation.site, observation.pixel, one, observation.reading}.evaluate(
         camera,

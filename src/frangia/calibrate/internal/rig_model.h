@@ -21,15 +21,15 @@ struct RigParameters {
   using Pose = std::array<double, 6>;        ///< rotation vector, rad; translation, mm
   using Shape = std::array<double, 14>;      ///< aspect, shear, 12 heights in mm
 
-  struct FurtherCamera {
+  struct PosedIntrinsics {
     Intrinsics intrinsics{};
-    Pose from_reference{};
+    Pose from_reference{};  ///< the identity for the reference camera, and not estimated
   };
 
-  Intrinsics camera{};
+  /// The reference camera first.
+  std::vector<PosedIntrinsics> cameras = std::vector<PosedIntrinsics>(1);
   Intrinsics projector{};
   Pose projector_from_camera{};
-  std::vector<FurtherCamera> more;      ///< cameras beside the reference camera
   std::vector<Pose> camera_from_board;  ///< of the reference camera
   Shape board{};
 };
@@ -44,11 +44,12 @@ struct RigParameters {
   return isometry;
 }
 
-/// The order of the parameters of all devices and of the board: camera, projector, its pose, then
-/// intrinsics and pose of each further camera, then the board. The poses of the board follow.
+/// The order of the parameters of all devices and of the board: reference camera, projector, its
+/// pose, then intrinsics and pose of each further camera, then the board. The poses of the board
+/// follow.
 struct RigLayout {
   bool has_projector = true;  ///< false where the projector only labels points
-  std::size_t more = 0;       ///< cameras beside the reference camera
+  std::size_t cameras = 1;    ///< with the reference camera
 
   // NOLINTNEXTLINE(readability-convert-member-functions-to-static) of a layout, like the others
   [[nodiscard]] std::size_t projector() const { return kIntrinsics; }
@@ -56,23 +57,24 @@ struct RigLayout {
   [[nodiscard]] std::size_t projector_pose() const { return 2UL * kIntrinsics; }
   [[nodiscard]] std::size_t camera(std::size_t i) const {
     constexpr std::size_t kPosed = kIntrinsics + kPose;
-    return kIntrinsics + (has_projector ? kPosed : 0UL) + i * kPosed;
+    return i == 0 ? 0 : kIntrinsics + (i - (has_projector ? 0UL : 1UL)) * kPosed;
   }
-  [[nodiscard]] std::size_t board() const { return camera(more); }
+  [[nodiscard]] std::size_t board() const { return camera(cameras); }
   [[nodiscard]] std::size_t count() const { return board() + kShape; }
 };
 
 /// The blocks of the parameters in the order of their layout, without the poses of the board.
 [[nodiscard]] inline std::vector<std::pair<double*, int>> blocks_of(const RigLayout& layout,
                                                                     RigParameters& parameters) {
-  std::vector<std::pair<double*, int>> blocks{{parameters.camera.data(), kIntrinsics}};
+  std::vector<std::pair<double*, int>> blocks{
+      {parameters.cameras.front().intrinsics.data(), kIntrinsics}};
   if (layout.has_projector) {
     blocks.emplace_back(parameters.projector.data(), kIntrinsics);
     blocks.emplace_back(parameters.projector_from_camera.data(), kPose);
   }
-  for (RigParameters::FurtherCamera& camera : parameters.more) {
-    blocks.emplace_back(camera.intrinsics.data(), kIntrinsics);
-    blocks.emplace_back(camera.from_reference.data(), kPose);
+  for (std::size_t i = 1; i < parameters.cameras.size(); ++i) {
+    blocks.emplace_back(parameters.cameras[i].intrinsics.data(), kIntrinsics);
+    blocks.emplace_back(parameters.cameras[i].from_reference.data(), kPose);
   }
   blocks.emplace_back(parameters.board.data(), kShape);
   return blocks;
@@ -87,7 +89,7 @@ struct RigFreedom {
       free_device(layout.projector());
       free_pose(layout.projector_pose());
     }
-    for (std::size_t i = 0; i < layout.more; ++i) {
+    for (std::size_t i = 1; i < layout.cameras; ++i) {
       free_device(layout.camera(i));
       free_pose(layout.camera(i) + kIntrinsics);
     }

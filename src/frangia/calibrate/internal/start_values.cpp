@@ -199,8 +199,8 @@ RigParameters start_by_opencv(const Board& board,
     require_enough_points(view, by_camera.back());
   }
   RigParameters parameters;
-  const cv::Mat camera = better_matrix(by_camera, known.camera.model);
-  parameters.camera = intrinsics_of(camera);
+  const cv::Mat camera = better_matrix(by_camera, known.reference().model);
+  parameters.cameras.front().intrinsics = intrinsics_of(camera);
   for (const SeenPoints& seen : by_camera)
     parameters.camera_from_board.push_back(pose_of(seen, camera));
   if (!known.projector.is_label) {
@@ -210,14 +210,15 @@ RigParameters start_by_opencv(const Board& board,
                  parameters.projector,
                  parameters.projector_from_camera);
   }
-  for (std::size_t i = 0; i < known.more_cameras.size(); ++i) {
+  for (std::size_t i = 1; i < known.cameras.size(); ++i) {
     std::vector<SeenPoints> seen;
     for (const BoardView& view : views) {
-      seen.push_back(i < view.more.size() ? seen_points(board, view.more[i], false) : SeenPoints{});
+      seen.push_back(i <= view.more.size() ? seen_points(board, points_of(view, i), false)
+                                           : SeenPoints{});
     }
-    const Camera& further = known.more_cameras[i].camera;
+    const Camera& further = known.cameras[i].camera;
     require_enough_views(seen, further.name);
-    RigParameters::FurtherCamera& start = parameters.more.emplace_back();
+    RigParameters::PosedIntrinsics& start = parameters.cameras.emplace_back();
     start_device(
         seen, further.model, parameters.camera_from_board, start.intrinsics, start.from_reference);
   }

@@ -81,7 +81,7 @@ void add_screen(const ArtifactCalibration& result, std::string& html) {
 
 /// Distances of all views of an artifact over the camera image.
 std::string distance_figure(const ArtifactCalibration& result, std::size_t capture) {
-  const CameraModel& model = result.rig.camera.model;
+  const CameraModel& model = result.rig.reference().model;
   std::vector<ArtifactDistance> all;
   for (std::size_t view = 0; view < result.captures[capture].views.size(); ++view) {
     const std::vector<ArtifactDistance> some = artifact_distances(result, capture, view);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -76,12 +77,17 @@ void add_summary(const RigCalibration& result, const Board& board, std::string& 
   html +=
       "<table><tr><th></th><th>RMS, px</th><th>largest, px</th><th>points</th><th>focal length, px"
       "</th><th>principal point x</th><th>y, px</th><th>k1</th></tr>\n";
-  add_device("camera", "camera", solution.camera, solution.camera_residuals, solution, html);
+  const SolvedCamera& reference = solution.reference();
+  add_device("camera", "camera", reference.model, reference.residuals, solution, html);
   if (solution.has_projector) {
-    add_device(
-        "projector", "projector", solution.projector, solution.projector_residuals, solution, html);
+    add_device("projector",
+               "projector",
+               solution.projector,
+               reference.projector_residuals,
+               solution,
+               html);
   }
-  for (const FurtherCameraSolution& camera : solution.more_cameras) {
+  for (const SolvedCamera& camera : std::span(solution.cameras).subspan(1)) {
     add_device(html_escaped("camera \"" + camera.name + "\""),
                "camera-" + camera.name,
                camera.model,
@@ -91,7 +97,7 @@ void add_summary(const RigCalibration& result, const Board& board, std::string& 
   }
   html += "</table>\n";
   if (solution.has_projector) html += place_of("The projector", solution.projector_from_camera);
-  for (const FurtherCameraSolution& camera : solution.more_cameras)
+  for (const SolvedCamera& camera : std::span(solution.cameras).subspan(1))
     html += place_of(html_escaped("Camera \"" + camera.name + "\""), camera.camera_from_rig);
   html += fmt::format(
       "<p>Estimated beyond one focal length, principal point and k1: {}.<br>Held, because the "
@@ -109,13 +115,13 @@ struct PoseColumn {
 };
 
 std::vector<PoseColumn> pose_columns(const RigSolution& solution) {
-  std::vector<PoseColumn> columns{
-      {"camera", &solution.camera_by_view, solution.camera_residuals.rms_px}};
+  const SolvedCamera& reference = solution.reference();
+  std::vector<PoseColumn> columns{{"camera", &reference.by_view, reference.residuals.rms_px}};
   if (solution.has_projector) {
     columns.push_back(
-        {"projector", &solution.projector_by_view, solution.projector_residuals.rms_px});
+        {"projector", &reference.projector_by_view, reference.projector_residuals.rms_px});
   }
-  for (const FurtherCameraSolution& camera : solution.more_cameras)
+  for (const SolvedCamera& camera : std::span(solution.cameras).subspan(1))
     columns.push_back({html_escaped(camera.name), &camera.by_view, camera.residuals.rms_px});
   return columns;
 }
@@ -167,7 +173,7 @@ double coverage_of(const RigCalibration& result, const CameraModel& model) {
 /// Outlines of the boards in the camera image.
 void add_coverage(const RigCalibration& result, const Board& board, std::string& html) {
   const RigSolution& solution = result.solution;
-  const CameraModel& model = solution.camera;
+  const CameraModel& model = solution.reference().model;
   html += fmt::format(
       "<figure><svg viewBox=\"0 0 {} {}\" width=\"520\" stroke-width=\"{:.1f}\" "
       "fill-opacity=\"0.12\">\n",
@@ -200,7 +206,7 @@ void add_coverage(const RigCalibration& result, const Board& board, std::string&
 /// Pictures of the boards with their points.
 void add_boards(const RigCalibration& result, std::string& html) {
   html += "<h2>Boards as found</h2><div class=\"row\">\n";
-  const double large_px = 3.0 * std::max(result.solution.camera_residuals.rms_px, 1e-6);
+  const double large_px = 3.0 * std::max(result.solution.reference().residuals.rms_px, 1e-6);
   for (std::size_t view = 0; view < result.views.size(); ++view) {
     if (view >= result.pictures.size() || result.pictures[view].pixels.width() == 0) continue;
     const BoardPicture& picture = result.pictures[view];
@@ -215,7 +221,7 @@ void add_boards(const RigCalibration& result, std::string& html) {
     for (std::size_t i = 0; i < result.views[view].points.size(); ++i) {
       const Eigen::Vector2d pixel =
           (result.views[view].points[i].camera_px.array() + 0.5) / picture.px_per_px;
-      const double error_px = result.solution.camera_residuals_px[view][i].norm();
+      const double error_px = result.solution.reference().residuals_px[view][i].norm();
       html +=
           fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"3\" fill=\"none\" stroke=\"{}\"/>\n",
                       pixel.x(),

@@ -10,23 +10,15 @@ namespace {
 
 /// Of a camera, 0 being the reference camera, or of the projector as the reference camera reads it.
 ResidualMap map_of(const RigCalibration& result, std::size_t camera, bool by_projector) {
-  const RigSolution& solution = result.solution;
-  const FurtherCameraSolution* further = camera > 0 ? &solution.more_cameras[camera - 1] : nullptr;
-  const CameraModel& model = further != nullptr ? further->model
-                             : by_projector     ? solution.projector
-                                                : solution.camera;
-  const auto& residuals = further != nullptr ? further->residuals_px
-                          : by_projector     ? solution.projector_residuals_px
-                                             : solution.camera_residuals_px;
+  const SolvedCamera& solved = result.solution.cameras[camera];
+  const CameraModel& model = by_projector ? result.solution.projector : solved.model;
+  const auto& residuals = by_projector ? solved.projector_residuals_px : solved.residuals_px;
   ResidualMap map{
       .title = by_projector ? "Projector" : "Camera",
       .width = model.width_px,
       .height = model.height_px,
-      .rms = by_projector ? solution.projector_residuals.rms_px : solution.camera_residuals.rms_px};
-  if (further != nullptr) {
-    map.title = "camera \"" + further->name + "\"";
-    map.rms = further->residuals.rms_px;
-  }
+      .rms = by_projector ? solved.projector_residuals.rms_px : solved.residuals.rms_px};
+  if (camera > 0) map.title = "camera \"" + solved.name + "\"";
   for (std::size_t view = 0; view < result.views.size(); ++view) {
     const std::vector<BoardPoint>& points = points_of(result.views[view], camera);
     for (std::size_t i = 0; i < points.size(); ++i) {
@@ -43,7 +35,7 @@ ResidualMap map_of(const RigCalibration& result, std::size_t camera, bool by_pro
 std::vector<ResidualMap> residual_maps(const RigCalibration& result) {
   std::vector<ResidualMap> maps{map_of(result, 0, false)};
   if (result.solution.has_projector) maps.push_back(map_of(result, 0, true));
-  for (std::size_t camera = 1; camera <= result.solution.more_cameras.size(); ++camera)
+  for (std::size_t camera = 1; camera < result.solution.cameras.size(); ++camera)
     maps.push_back(map_of(result, camera, false));
   return maps;
 }
@@ -56,17 +48,16 @@ std::vector<PoseResiduals> pose_residuals(const RigCalibration& result,
     for (const std::size_t i : outlier_views(by_view, options))
       poses[i].is_outlier = true;
   };
-  mark(solution.camera_by_view);
-  mark(solution.projector_by_view);
-  for (const FurtherCameraSolution& further : solution.more_cameras) {
-    mark(further.by_view);
-    mark(further.projector_by_view);
+  for (const SolvedCamera& camera : solution.cameras) {
+    mark(camera.by_view);
+    mark(camera.projector_by_view);
   }
   for (std::size_t i = 0; i < poses.size(); ++i) {
     const Eigen::Isometry3d& pose = solution.camera_from_board[i];
     poses[i].name = result.views[i].name;
-    poses[i].camera_rms_px = solution.camera_by_view[i].rms_px;
-    if (solution.has_projector) poses[i].projector_rms_px = solution.projector_by_view[i].rms_px;
+    poses[i].camera_rms_px = solution.reference().by_view[i].rms_px;
+    if (solution.has_projector)
+      poses[i].projector_rms_px = solution.reference().projector_by_view[i].rms_px;
     poses[i].distance_mm = pose.translation().norm();
     poses[i].tilt_rad =
         std::acos(std::min(1.0, std::abs(pose.linear().col(2).dot(Eigen::Vector3d::UnitZ()))));

@@ -88,7 +88,7 @@ void check_scan(const Scan& scan) {
                     "projector, model = \"pinhole\"",
                     (scan.folder / "rig.toml").string()));
   }
-  if (scan.rig.projector.is_label && scan.rig.more_cameras.empty()) {
+  if (scan.rig.projector.is_label && scan.rig.cameras.size() == 1) {
     fail_calibration(
         fmt::format("{}: projector.model is \"label\", which needs two cameras: add "
                     "[[more_cameras]], or set model = \"pinhole\" to calibrate the projector",
@@ -106,17 +106,17 @@ std::string today() {
 
 Rig calibrated(const Rig& known, const Board& board, const RigSolution& solution) {
   Rig rig = known;
-  rig.camera.model = solution.camera;
   if (solution.has_projector) {
     rig.projector.model = solution.projector;
     rig.projector.rotation = solution.projector_from_camera.linear();
     rig.projector.position_mm =
         -(rig.projector.rotation.transpose() * solution.projector_from_camera.translation());
   }
-  for (std::size_t i = 0; i < solution.more_cameras.size(); ++i) {
-    const FurtherCameraSolution& found = solution.more_cameras[i];
-    PosedCamera& posed = rig.more_cameras[i];
+  for (std::size_t i = 0; i < solution.cameras.size(); ++i) {
+    const SolvedCamera& found = solution.cameras[i];
+    PosedCamera& posed = rig.cameras[i];
     posed.camera.model = found.model;
+    if (i == 0) continue;
     posed.rotation = found.camera_from_rig.linear();
     posed.position_mm = -(posed.rotation.transpose() * found.camera_from_rig.translation());
   }
@@ -124,10 +124,9 @@ Rig calibrated(const Rig& known, const Board& board, const RigSolution& solution
   calibration.date = today();
   calibration.board = name_of(board.kind);
   calibration.poses = static_cast<int>(solution.camera_from_board.size());
-  calibration.camera_rms_px = solution.camera_residuals.rms_px;
-  calibration.projector_rms_px = solution.has_projector
-                                     ? solution.projector_residuals.rms_px
-                                     : solution.more_cameras.front().projector_residuals.rms_px;
+  calibration.camera_rms_px = solution.reference().residuals.rms_px;
+  const SolvedCamera& reads = solution.cameras[solution.has_projector ? 0 : 1];
+  calibration.projector_rms_px = reads.projector_residuals.rms_px;
   calibration.point_sigma_mm = solution.point_sigma_mm;
   calibration.distance_mm = solution.distance_mm;
   for (std::size_t i = 0; i < solution.parameters.size(); ++i) {
@@ -161,8 +160,7 @@ std::string calibration_grade(double sigma_mm, double distance_mm) {
 RigCalibration calibrate_rig(const Scan& scan, const CalibrateRigOptions& options, const Run& run) {
   check_scan(scan);
   run.stage("board");
-  RigCalibration result;
-  collect_board_views(scan, options, result, run);
+  RigCalibration result = collect_board_views(scan, options, run);
   run.stage("adjustment");
   result.solution = solve_rig(*scan.board, result.views, scan.rig, options.solve, run);
   check_solution(result.solution, result.views, options.max_rms_px);

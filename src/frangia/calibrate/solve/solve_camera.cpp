@@ -145,11 +145,11 @@ RigParameters start_of_screen(const Screen& screen,
                       shifts,
                       cv::CALIB_ZERO_TANGENT_DIST | cv::CALIB_FIX_K2 | cv::CALIB_FIX_K3);
   RigParameters start;
-  start.camera = {matrix.at<double>(0, 0),
-                  1.0,
-                  matrix.at<double>(0, 2),
-                  matrix.at<double>(1, 2),
-                  distortion.at<double>(0)};
+  start.cameras.front().intrinsics = {matrix.at<double>(0, 0),
+                                      1.0,
+                                      matrix.at<double>(0, 2),
+                                      matrix.at<double>(1, 2),
+                                      distortion.at<double>(0)};
   for (std::size_t i = 0; i < turns.size(); ++i) {
     RigParameters::Pose pose{};
     for (int k = 0; k < 3; ++k) {
@@ -264,7 +264,7 @@ CameraSolution solve_camera(const Screen& screen,
   }
   for (const ModelTerm& term : terms)
     if (!is_free(term, fit.freedom)) out.held.push_back(term.name);
-  const RigParameters::Intrinsics& found = fit.parameters.camera;
+  const RigParameters::Intrinsics& found = fit.parameters.cameras.front().intrinsics;
   out.camera.width_px = width_px;
   out.camera.height_px = height_px;
   out.camera.focal_px = {found[0], found[0] * found[1]};
@@ -273,12 +273,11 @@ CameraSolution solve_camera(const Screen& screen,
   for (const RigParameters::Pose& pose : fit.parameters.camera_from_board)
     out.camera_from_screen.push_back(isometry_of(pose));
   summarize_screen(observations, fit, out);
-  RigSolution all;
-  std::vector<std::string> names = rig_parameter_names(Rig{});
-  names.resize(kIntrinsics);
-  add_covariance(observations, fit.freedom, fit.noise, fit.parameters, names, all);
-  out.parameters = all.parameters;
-  out.covariance = all.covariance;
+  out.parameters = rig_parameter_names(Rig{});
+  out.parameters.resize(kIntrinsics);
+  out.covariance =
+      covariance_of(observations, fit.freedom, fit.noise, fit.parameters, out.parameters)
+          .covariance;
   if (!out.covariance.allFinite()) {
     throw Error(ErrorKind::Input,
                 "the poses of the screen do not determine the camera; capture more poses that fill "

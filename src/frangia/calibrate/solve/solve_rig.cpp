@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -74,10 +75,10 @@ double change_of(const RigNoise& now, const RigNoise& before) {
 }
 
 /// Adjusts from the parameters of `fit`, with the weights refined to the residuals.
-void adjust(std::span<const RigObservation> observations,
-            const RigSolveOptions& options,
-            Fit& fit,
-            const Run& run) {
+Fit adjusted(std::span<const RigObservation> observations,
+             const RigSolveOptions& options,
+             Fit fit,
+             const Run& run) {
   constexpr int kRounds = 3;         // the weights converge within these
   constexpr double kSettled = 0.01;  // change of the weights that the result does not feel
   for (int i = 0; i < kRounds; ++i) {
@@ -95,22 +96,7 @@ void adjust(std::span<const RigObservation> observations,
       fit.noise = noise_of(observations, fit);
     if (change_of(fit.noise, before) < kSettled) break;
   }
-}
-
-/// Adds terms one at a time, the most supported first, as long as one is supported.
-std::vector<std::string> select_terms(std::span<const RigObservation> observations,
-                                      std::span<const ModelTerm> terms,
-                                      const RigSolveOptions& options,
-                                      Fit& fit,
-                                      const Run& run) {
-  std::vector<std::string> chosen;
-  while (const auto term = best_term(
-             observations, terms, fit.freedom, fit.noise, fit.parameters, options.min_gain)) {
-    set_free(terms[*term], fit.freedom);
-    adjust(observations, options, fit, run);
-    chosen.push_back(terms[*term].name);
-  }
-  return chosen;
+  return fit;
 }
 
 /// Names of the parameters of all devices, in the order of the layout.
@@ -125,7 +111,7 @@ void check_views(std::span<const BoardView> views, const Rig& known) {
   constexpr std::size_t kFewestViews = 3;
   require(!known.projector.is_angular(),
           "projector.model is \"angular\", but a board calibrates a digital projector only");
-  require(!known.projector.is_label || !known.more_cameras.empty(),
+  require(!known.projector.is_label || known.cameras.size() > 1,
           "projector.model is \"label\", which needs two cameras: add [[more_cameras]], or set "
           "model = \"pinhole\" to calibrate the projector");
   if (views.size() >= kFewestViews) return;
@@ -152,27 +138,40 @@ RigSolution solve_rig(const Board& board,
   require(projected, "no point of the board has a phase in both fringe directions; capture both");
 
   std::vector<std::string> cameras;
-  for (const PosedCamera& posed : known.more_cameras)
-    cameras.push_back(posed.camera.name);
-  const RigLayout layout{has_projector, cameras.size()};
-  Fit fit{start_values(board, views, known), RigFreedom(layout), RigNoise(1 + cameras.size())};
-  adjust(observations, options, fit, run);
-  RigSolution out;
+  for (std::size_t i = 1; i < known.cameras.size(); ++i)
+    cameras.push_back(known.cameras[i].camera.name);
+  const RigLayout layout{has_projector, known.cameras.size()};
+  Fit fit{start_values(board, views, known), RigFreedom(layout), RigNoise(layout.cameras)};
+  fit = adjusted(observations, options, std::move(fit), run);
+  // Terms are added one at a time, the most supported first, as long as one is supported.
   const std::vector<ModelTerm> terms = optional_terms(layout, cameras, options.release_board);
-  out.terms = select_terms(observations, terms, options, fit, run);
+  std::vector<std::string> chosen;
+  while (const auto term = best_term(
+             observations, terms, fit.freedom, fit.noise, fit.parameters, options.min_gain)) {
+    set_free(terms[*term], fit.freedom);
+    fit = adjusted(observations, options, std::move(fit), run);
+    chosen.push_back(terms[*term].name);
+  }
+  RigSolution out = solution_of(known, fit.parameters);
+  out.terms = std::move(chosen);
   for (const ModelTerm& term : terms)
     if (!is_free(term, fit.freedom)) out.held.push_back(term.name);
-  add_devices(known, fit.parameters, out);
-  add_residuals(observations, views, fit.parameters, fit.noise, out);
+  out.cameras =
+      with_residuals(std::move(out.cameras), observations, views, fit.parameters, fit.noise);
   out.iterations = fit.iterations;
-  add_covariance(
-      observations, fit.freedom, fit.noise, fit.parameters, device_parameters(known), out);
-  if (out.undetermined.empty()) {
-    const ShapeResponse shape = shape_response(board, layout, fit.parameters, out);
-    add_point_sigma(shape, out);
-    add_leave_one_out(
-        observations, fit.freedom, fit.noise, fit.parameters, shape.by_parameter, out);
-  }
+  out.parameters = device_parameters(known);
+  SolvedCovariance solved =
+      covariance_of(observations, fit.freedom, fit.noise, fit.parameters, out.parameters);
+  out.covariance = std::move(solved.covariance);
+  out.undetermined = std::move(solved.undetermined);
+  if (!out.undetermined.empty()) return out;
+  const ShapeResponse shape = shape_response(board, layout, fit.parameters, out);
+  out.point_sigma_mm = point_sigma_mm(shape, out.covariance);
+  out.distance_mm = shape.distance_mm;
+  LeaveOneOut change =
+      leave_one_out(observations, fit.freedom, fit.noise, fit.parameters, shape.by_parameter);
+  out.leave_one_out_mm = std::move(change.by_view_mm);
+  out.spread_mm = change.spread_mm;
   return out;
 }
 

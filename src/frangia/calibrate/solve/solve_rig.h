@@ -40,10 +40,10 @@ struct RigSolveOptions {
   bool release_board = true;  ///< estimate the board's deviation from its nominal shape, too
 };
 
-/// How a camera beside the reference camera was calibrated.
-struct FurtherCameraSolution {
-  std::string name;                                                   ///< as in rig.toml
-  CameraModel model;                                                  ///< intrinsics
+/// How a camera was calibrated.
+struct SolvedCamera {
+  std::string name;   ///< as in rig.toml; empty for the reference camera
+  CameraModel model;  ///< intrinsics
   Eigen::Isometry3d camera_from_rig = Eigen::Isometry3d::Identity();  ///< relative pose, mm
   ResidualSummary residuals;                                          ///< of all its pixels
   /// Of the projector pixels that it reads or, with a label, of their differences from those that
@@ -51,27 +51,21 @@ struct FurtherCameraSolution {
   ResidualSummary projector_residuals;
   std::vector<ResidualSummary> by_view;            ///< one a view
   std::vector<ResidualSummary> projector_by_view;  ///< one a view
-  /// Observed minus predicted, point by point in the order of `BoardView::more`.
+  /// Observed minus predicted, point by point in the order of the views; NaN where there is no
+  /// observation.
   std::vector<std::vector<Eigen::Vector2d>> residuals_px;
+  /// Likewise, of the projector pixels; of the reference camera alone.
+  std::vector<std::vector<Eigen::Vector2d>> projector_residuals_px{};
 };
 
 /// The calibrated part of a rig, with its uncertainty.
 struct RigSolution {
-  CameraModel camera;         ///< intrinsics of the reference camera
+  std::vector<SolvedCamera> cameras = std::vector<SolvedCamera>(1);  ///< as in the rig
   bool has_projector = true;  ///< false where the projector only labels points
   PinholeModel projector;     ///< intrinsics of the projector
   Eigen::Isometry3d projector_from_camera = Eigen::Isometry3d::Identity();  ///< relative pose, mm
   std::vector<Eigen::Isometry3d> camera_from_board;                         ///< one a view
-  BoardShape board;                                 ///< estimated shape of the board
-  ResidualSummary camera_residuals;                 ///< of all camera pixels
-  ResidualSummary projector_residuals;              ///< of all projector pixels
-  std::vector<ResidualSummary> camera_by_view;      ///< one a view
-  std::vector<ResidualSummary> projector_by_view;   ///< one a view
-  std::vector<FurtherCameraSolution> more_cameras;  ///< in the order of the rig's
-  /// Residuals, observed minus predicted, point by point in the order of the views; NaN where there
-  /// is no observation.
-  std::vector<std::vector<Eigen::Vector2d>> camera_residuals_px;
-  std::vector<std::vector<Eigen::Vector2d>> projector_residuals_px;  ///< likewise, of the projector
+  BoardShape board;                     ///< estimated shape of the board
   std::vector<std::string> terms;       ///< model terms that the data supports, in words
   std::vector<std::string> held;        ///< optional terms that the data does not support
   std::vector<std::string> parameters;  ///< names of the rows of `covariance`: "camera.focal_px"
@@ -91,6 +85,8 @@ struct RigSolution {
   /// corners and phases being independent, as `point_sigma_mm` does.
   double spread_mm = 0.0;
   int iterations = 0;  ///< of the solver, all rounds together
+
+  [[nodiscard]] const SolvedCamera& reference() const { return cameras.front(); }  ///< camera 0
 };
 
 /// Estimates all cameras, the projector and their relative poses from views of a board in one

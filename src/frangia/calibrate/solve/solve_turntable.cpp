@@ -35,7 +35,7 @@ void for_each_pixel(const TableProblem& problem,
   for (const BoardPoint& point : problem.views[view].points) {
     const Eigen::Vector3d place =
         rig_from_board * problem.places[static_cast<std::size_t>(point.index)];
-    visit(point.camera_px, problem.rig.camera.model.project(place), false);
+    visit(point.camera_px, problem.rig.reference().model.project(place), false);
     if (point.projector_px.allFinite()) {
       visit(point.projector_px,
             problem.projector.project(problem.rig.projector.from_rig(place)),
@@ -107,7 +107,7 @@ Eigen::Isometry3d seen_pose(const TableProblem& problem, const BoardView& view) 
   std::vector<cv::Point2d> rays;
   for (const BoardPoint& point : view.points) {
     const Eigen::Vector3d& place = problem.places[static_cast<std::size_t>(point.index)];
-    const Eigen::Vector2d ray = problem.rig.camera.model.ray(point.camera_px);
+    const Eigen::Vector2d ray = problem.rig.reference().model.ray(point.camera_px);
     plane.emplace_back(place.x(), place.y(), 0.0);
     rays.emplace_back(ray.x(), ray.y());
   }

@@ -50,7 +50,7 @@ int side_px(double field) {
 Rig unknown_rig() {
   Rig rig;
   const Eigen::Vector2d unknown = Eigen::Vector2d::Constant(std::nan(""));
-  rig.camera.model.focal_px = rig.camera.model.principal_point_px = unknown;
+  rig.reference().model.focal_px = rig.reference().model.principal_point_px = unknown;
   rig.projector.position_mm.setConstant(std::nan(""));
   rig.projector.rotation.setConstant(std::nan(""));
   PinholeModel model;
@@ -79,14 +79,14 @@ void take_camera_from_frames(Scan& scan, const Run& run) {
   const std::filesystem::path path =
       scan.folder / scan.views.front().folder / frame_file_name(pattern, 0);
   const Frame frame = read_png(path);
-  scan.rig.camera.model.width_px = width_of(frame);
-  scan.rig.camera.model.height_px = height_of(frame);
-  scan.rig.camera.white_level = frame.index() == 0 ? 255 : 65535;
+  scan.rig.reference().model.width_px = width_of(frame);
+  scan.rig.reference().model.height_px = height_of(frame);
+  scan.rig.reference().white_level = frame.index() == 0 ? 255 : 65535;
   run.note(fmt::format("{}: there is no rig.toml: frames of {} x {} pixels, white_level {}",
                        scan.folder.string(),
                        width_of(frame),
                        height_of(frame),
-                       scan.rig.camera.white_level));
+                       scan.rig.reference().white_level));
 }
 
 void assume_field(Scan& scan, const Run& run) {

@@ -27,8 +27,8 @@ std::string reference_camera(const ImportPlan& plan, const std::vector<std::stri
   if (plan.options.rig.empty()) return names.front();
   std::vector<std::string> unnamed;
   std::copy_if(names.begin(), names.end(), std::back_inserter(unnamed), [&](const auto& name) {
-    return std::none_of(plan.rig.more_cameras.begin(),
-                        plan.rig.more_cameras.end(),
+    return std::none_of(plan.rig.cameras.begin(),
+                        plan.rig.cameras.end(),
                         [&](const PosedCamera& posed) { return posed.camera.name == name; });
   });
   if (unnamed.size() != 1) {
@@ -56,7 +56,7 @@ void order_by_rig(ImportPlan& plan) {
   if (plan.options.rig.empty()) return;
   for (const ImportedCamera& camera : plan.cameras) {
     const bool known = std::any_of(
-        plan.rig.more_cameras.begin(), plan.rig.more_cameras.end(), [&](const PosedCamera& posed) {
+        plan.rig.cameras.begin(), plan.rig.cameras.end(), [&](const PosedCamera& posed) {
           return posed.camera.name == camera.name;
         });
     if (known || &camera == &plan.cameras.front()) continue;
@@ -64,17 +64,17 @@ void order_by_rig(ImportPlan& plan) {
         "{} has no camera \"{}\"; add it to more_cameras", plan.options.rig.string(), camera.name));
   }
   std::vector<ImportedCamera> ordered{plan.cameras.front()};
-  for (const PosedCamera& posed : plan.rig.more_cameras) {
-    const auto found =
-        std::find_if(plan.cameras.begin() + 1, plan.cameras.end(), [&](const auto& camera) {
-          return camera.name == posed.camera.name;
-        });
+  for (std::size_t i = 1; i < plan.rig.cameras.size(); ++i) {
+    const std::string& name = plan.rig.cameras[i].camera.name;
+    const auto found = std::find_if(plan.cameras.begin() + 1,
+                                    plan.cameras.end(),
+                                    [&](const auto& camera) { return camera.name == name; });
     if (found == plan.cameras.end()) {
       refuse_import(
           fmt::format("{} has a camera \"{}\", of which there are no images; put {{camera}} into "
                       "`names`, or remove it from the rig",
                       plan.options.rig.string(),
-                      posed.camera.name));
+                      name));
     }
     ordered.push_back(*found);
   }

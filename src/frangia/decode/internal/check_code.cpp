@@ -35,7 +35,7 @@ void decide_by_orientation(const WrappedPhase& fringes,
 /// agrees: orders that reverse or delay the fringes leave the same residual.
 void decide_by_code(const DirectionInput& input,
                     const FrameStack& gray,
-                    const DecodedView& wrapped,
+                    const DecodedDirection& wrapped,
                     SequenceCheck& check) {
   const Pattern& pattern = wrapped.wrapped.front().pattern;
   const auto stack = std::find_if(input.stacks.begin(), input.stacks.end(), [&](const auto& one) {
@@ -65,8 +65,8 @@ void decide_by_code(const DirectionInput& input,
 
 SequenceCheck check_code(const DirectionInput& input,
                          const FrameStack& gray,
-                         const DecodedView& wrapped) {
-  SequenceCheck out = wrapped.checks.front();
+                         const DecodedDirection& wrapped) {
+  SequenceCheck out = *wrapped.check;
   if (out.consistent) {
     out = check_gray_code(gray, wrapped.wrapped.front());
     decide_by_orientation(wrapped.wrapped.front(), input.rig, input.rays, out);

@@ -9,6 +9,6 @@ namespace frangia {
 /// rig and code agree.
 [[nodiscard]] SequenceCheck check_code(const DirectionInput& input,
                                        const FrameStack& gray,
-                                       const DecodedView& wrapped);
+                                       const DecodedDirection& wrapped);
 
 }  // namespace frangia

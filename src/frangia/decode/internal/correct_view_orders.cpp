@@ -17,7 +17,7 @@ void correct_view_orders(std::span<const FrameStack* const> fringes,
                          std::span<const FittedAlgorithm> fits,
                          const DecodeOptions& options,
                          const Run& run,
-                         DecodedView& out) {
+                         DecodedDirection& out) {
   const auto coarse = [&](std::span<const std::uint32_t> pixels) {
     std::vector<WrappedPhase> maps;
     for (std::size_t m = 0; m + 1 < fringes.size(); ++m) {

@@ -16,6 +16,6 @@ void correct_view_orders(std::span<const FrameStack* const> fringes,
                          std::span<const FittedAlgorithm> fits,
                          const DecodeOptions& options,
                          const Run& run,
-                         DecodedView& out);
+                         DecodedDirection& out);
 
 }  // namespace frangia

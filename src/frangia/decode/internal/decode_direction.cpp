@@ -71,7 +71,7 @@ DirectionMaps unwrap_in_space(const DirectionInput& input) {
 }
 
 /// Unwraps the finer maps of a direction by the phase of the coarsest one.
-void unwrap_finer(const DirectionInput& input, ResolvedPhase resolved, DecodedView& view) {
+void unwrap_finer(const DirectionInput& input, ResolvedPhase resolved, DecodedDirection& view) {
   view.phase = unwrap_finer_levels(
       std::move(resolved.phase), std::span(view.wrapped).subspan(1), input.options.temporal);
   view.unresolved = std::move(resolved.unresolved);
@@ -117,9 +117,9 @@ AbsolutePhase inside_field(const DirectionInput& input, AbsolutePhase phase) {
 }
 
 /// What is left to do with a phase, wherever its orders come from.
-DecodedView finished(const DirectionInput& input, DirectionMaps maps) {
-  DecodedView view = std::move(maps.view);
-  if (input.options.keep_maps && view.checks.front().consistent && !view.relative) {
+DecodedDirection finished(const DirectionInput& input, DirectionMaps maps) {
+  DecodedDirection view = std::move(maps.view);
+  if (input.options.keep_maps && view.check->consistent && !view.relative) {
     const IndirectLightCheck indirect = check_indirect_light(view.wrapped, view.phase);
     if (indirect.found) input.run.warn(describe(indirect));
   }
@@ -128,17 +128,17 @@ DecodedView finished(const DirectionInput& input, DirectionMaps maps) {
   return view;
 }
 
-DecodedView decode_from(const FromCallers& /*source*/, const DirectionInput& input) {
+DecodedDirection decode_from(const FromCallers& /*source*/, const DirectionInput& input) {
   DirectionMaps maps = wrap_maps(input, fit_maps(input));
   maps.view.phase = own_unwrapped(maps.view.wrapped, input.options);
   return finished(input, std::move(maps));
 }
 
-DecodedView decode_from(const FromGrayCode& /*source*/, const DirectionInput& input) {
+DecodedDirection decode_from(const FromGrayCode& /*source*/, const DirectionInput& input) {
   DirectionMaps maps = wrap_maps(input, fit_maps(input));
-  DecodedView& view = maps.view;
+  DecodedDirection& view = maps.view;
   const auto gray = gray_of(input.stacks, input.plan.direction);
-  view.checks = {check_code(input, gray.front(), view)};
+  view.check = check_code(input, gray.front(), view);
   const WrappedPhase& coarsest = view.wrapped.front();
   unwrap_finer(
       input,
@@ -148,7 +148,7 @@ DecodedView decode_from(const FromGrayCode& /*source*/, const DirectionInput& in
   return finished(input, std::move(maps));
 }
 
-DecodedView decode_from(const FromGrayCodeAlone& /*source*/, const DirectionInput& input) {
+DecodedDirection decode_from(const FromGrayCodeAlone& /*source*/, const DirectionInput& input) {
   const auto gray = gray_of(input.stacks, input.plan.direction);
   require(!gray.empty(), "decode_view: the frames are not those of the plan's patterns");
   const auto find = [&](PatternKind kind) -> const FrameStack* {
@@ -158,8 +158,9 @@ DecodedView decode_from(const FromGrayCodeAlone& /*source*/, const DirectionInpu
     return found == input.stacks.end() ? nullptr : &*found;
   };
   input.run.check();
-  DecodedView out;
-  out.noise = input.rig.camera.noise ? *input.rig.camera.noise : estimate_gray_noise(gray.front());
+  DecodedDirection out;
+  out.noise = input.rig.reference().noise ? *input.rig.reference().noise
+                                          : estimate_gray_noise(gray.front());
   out.noise.floor_counts2 += input.stacks.front().compression_counts2;
   Image<float> threshold;
   if (gray.front().pattern.inverted == InvertedFrames::None)
@@ -171,7 +172,7 @@ DecodedView decode_from(const FromGrayCodeAlone& /*source*/, const DirectionInpu
   return out;
 }
 
-DecodedView decode_from(const FromCoarserMaps& /*source*/, const DirectionInput& input) {
+DecodedDirection decode_from(const FromCoarserMaps& /*source*/, const DirectionInput& input) {
   DirectionMaps maps = wrap_maps(input, fit_maps(input), WrappedParts::PhaseOnly);
   const Projector& projector = input.rig.projector;
   std::vector<WrappedPhase>& wrapped = maps.view.wrapped;
@@ -183,7 +184,7 @@ DecodedView decode_from(const FromCoarserMaps& /*source*/, const DirectionInput&
   return finished(input, std::move(maps));
 }
 
-DecodedView decode_from(const FromSlope& source, const DirectionInput& input) {
+DecodedDirection decode_from(const FromSlope& source, const DirectionInput& input) {
   DirectionMaps maps = fit_maps(input);
   if (source.safe_for_every_pixel && allow_one_pass(input, maps)) {
     maps = decode_in_one_pass(input, std::move(maps));
@@ -196,16 +197,16 @@ DecodedView decode_from(const FromSlope& source, const DirectionInput& input) {
   return finished(input, std::move(maps));
 }
 
-DecodedView decode_from(const FromLaserSheet& /*source*/, const DirectionInput& input) {
+DecodedDirection decode_from(const FromLaserSheet& /*source*/, const DirectionInput& input) {
   DirectionMaps maps = unwrap_in_space(input);
-  DecodedView& view = maps.view;
+  DecodedDirection& view = maps.view;
   const FrameStack* line = line_of(input.stacks);
   require(line != nullptr, "decode_view: the frames are not those of the plan's patterns");
   const WrappedPhase& coarsest = view.wrapped.front();
   view.profile =
       laser_profile(*line, coarsest.mean_counts, input.rig, view.noise, input.options.line);
   const SequenceCheck start = check_start_by_sheet(coarsest, view.profile, input.rig.projector);
-  if (!start.consistent) view.checks = {start};
+  if (!start.consistent) view.check = start;
   unwrap_finer(input,
                resolve_by_laser_sheet(
                    *view.relative, view.profile, input.rig.projector, input.options.fringe_order),
@@ -213,7 +214,7 @@ DecodedView decode_from(const FromLaserSheet& /*source*/, const DirectionInput& 
   return finished(input, std::move(maps));
 }
 
-DecodedView decode_from(const FromDistance& /*source*/, const DirectionInput& input) {
+DecodedDirection decode_from(const FromDistance& /*source*/, const DirectionInput& input) {
   DirectionMaps maps = unwrap_in_space(input);
   const RelativePhase& relative = *maps.view.relative;
   const double depth_mm = crossing_distance(relative.pattern, input.rig);
@@ -221,7 +222,7 @@ DecodedView decode_from(const FromDistance& /*source*/, const DirectionInput& in
   return finished(input, std::move(maps));
 }
 
-DecodedView decode_from(const Unresolved& /*source*/, const DirectionInput& input) {
+DecodedDirection decode_from(const Unresolved& /*source*/, const DirectionInput& input) {
   DirectionMaps maps = unwrap_in_space(input);
   const RelativePhase& relative = *maps.view.relative;
   input.run.warn(
@@ -238,15 +239,15 @@ DecodedView decode_from(const Unresolved& /*source*/, const DirectionInput& inpu
   return finished(input, std::move(maps));
 }
 
-DecodedView decode_as_planned(const DirectionInput& input) {
+DecodedDirection decode_as_planned(const DirectionInput& input) {
   return std::visit([&](const auto& source) { return decode_from(source, input); },
                     input.plan.orders);
 }
 
 /// The only declaration that fits the frames, if other shifts of one pattern are all that it needs.
-const SequenceFault* remedy_of(const DecodedView& view) {
-  if (view.checks.empty() || view.checks.front().consistent) return nullptr;
-  const SequenceCheck& check = view.checks.front();
+const SequenceFault* remedy_of(const DecodedDirection& view) {
+  if (!view.check || view.check->consistent) return nullptr;
+  const SequenceCheck& check = *view.check;
   if (check.fits.size() != 1 || check.fits.front().patterns.size() != 1 ||
       check.fits.front().shifts_rad.empty())
     return nullptr;
@@ -254,12 +255,12 @@ const SequenceFault* remedy_of(const DecodedView& view) {
 }
 
 /// Decodes again with the shifts that fit, and returns that if the same check passes.
-DecodedView remedied(const DirectionInput& input, DecodedView view) {
+DecodedDirection remedied(const DirectionInput& input, DecodedDirection view) {
   const SequenceFault* fault = remedy_of(view);
   if (fault == nullptr) return view;
   if (!input.options.accept_remedy) {
-    view.checks.front().finding =
-        describe(view.checks.front()) + "; `accept_remedy` decodes with the shifts that fit";
+    view.check->finding =
+        describe(*view.check) + "; `accept_remedy` decodes with the shifts that fit";
     return view;
   }
   std::vector<FrameStack> stacks(input.stacks.begin(), input.stacks.end());
@@ -270,15 +271,15 @@ DecodedView remedied(const DirectionInput& input, DecodedView view) {
   }
   DirectionInput changed = input;  // its references are those of `input`
   changed.stacks = stacks;
-  DecodedView again = decode_as_planned(changed);
-  if (!again.checks.front().consistent) return view;
-  input.run.warn(describe(view.checks.front()) + "; decoded with the shifts that fit");
+  DecodedDirection again = decode_as_planned(changed);
+  if (!again.check->consistent) return view;
+  input.run.warn(describe(*view.check) + "; decoded with the shifts that fit");
   return again;
 }
 
 }  // namespace
 
-DecodedView decode_direction(const DirectionInput& all) {
+DecodedDirection decode_direction(const DirectionInput& all) {
   JudgedFrames judged = judge_direction(all);
   const DirectionInput input{judged.stacks.empty() ? all.stacks : judged.stacks,
                              all.plan,
@@ -288,9 +289,9 @@ DecodedView decode_direction(const DirectionInput& all) {
                              all.run,
                              judged.noise,
                              std::move(judged.unexplained_rad)};
-  DecodedView view = remedied(input, decode_as_planned(input));
+  DecodedDirection view = remedied(input, decode_as_planned(input));
   view.frames = std::move(judged.verdicts);
-  report_frames(view.frames, view.checks, input.run);
+  view.check = report_frames(view.frames, std::move(view.check), input.run);
   return view;
 }
 

@@ -8,6 +8,6 @@ namespace frangia {
 /// Decodes one direction of a view as its plan says. Each source of orders has its function.
 ///
 /// @errors   as decode_view
-[[nodiscard]] DecodedView decode_direction(const DirectionInput& input);
+[[nodiscard]] DecodedDirection decode_direction(const DirectionInput& input);
 
 }  // namespace frangia

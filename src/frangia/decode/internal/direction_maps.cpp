@@ -43,13 +43,13 @@ std::vector<SequenceFrames> frames_of(const DirectionMaps& maps) {
 }
 
 /// Compares the patterns with each other.
-std::vector<SequenceCheck> checks_of(const DirectionInput& input, const DirectionMaps& maps) {
-  return {check_sequence(frames_of(maps),
-                         maps.view.noise,
-                         input.rig.projector,
-                         input.plan.maps_determine_orders,
-                         input.options.wrap,
-                         input.options.sequence_check)};
+SequenceCheck check_of(const DirectionInput& input, const DirectionMaps& maps) {
+  return check_sequence(frames_of(maps),
+                        maps.view.noise,
+                        input.rig.projector,
+                        input.plan.maps_determine_orders,
+                        input.options.wrap,
+                        input.options.sequence_check);
 }
 
 }  // namespace
@@ -79,7 +79,7 @@ DirectionMaps wrap_maps(const DirectionInput& input, DirectionMaps fitted, Wrapp
     out.view.wrapped.back().modulation_counts = {};
     out.view.wrapped.back().mean_counts = {};
   }
-  out.view.checks = checks_of(input, out);
+  out.view.check = check_of(input, out);
   return out;
 }
 
@@ -100,14 +100,14 @@ bool allow_one_pass(const DirectionInput& input, const DirectionMaps& fitted) {
 DirectionMaps decode_in_one_pass(const DirectionInput& input, DirectionMaps fitted) {
   constexpr std::size_t kAssessedPixels = 200'000;
   DirectionMaps out = std::move(fitted);
-  DecodedView& view = out.view;
+  DecodedDirection& view = out.view;
   const DecodeOptions& options = input.options;
   for (std::size_t m = 0; m < out.fringes.size(); ++m) {
     const FrameStack some = sample_rows(*out.fringes[m], kAssessedPixels);
     const WrappedPhase map = wrap_phase(some, out.fits[m].algorithm, view.noise, options.wrap);
     view.assessments.push_back(assess_frames(some, out.fits[m], map, view.noise));
   }
-  view.checks = checks_of(input, out);
+  view.check = check_of(input, out);
   view.phase = decode_sequence(
       frames_of(out), view.noise, input.rig.projector, {options.wrap, options.temporal});
   const SystematicPhase systematic = sequence_systematic(out);

@@ -34,7 +34,7 @@ struct DirectionInput {
 struct DirectionMaps {
   std::vector<const FrameStack*> fringes;  ///< coarse to fine, each at its first exposure
   std::vector<FittedAlgorithm> fits;       ///< one for each of the fringes
-  DecodedView view;                        ///< its phase is still open
+  DecodedDirection view;                   ///< its phase is still open
 };
 
 /// What wrapping keeps of each map.

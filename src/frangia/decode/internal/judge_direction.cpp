@@ -18,7 +18,7 @@ namespace {
 /// The camera's noise: from rig.toml, else from the survey of several views, else from this view.
 /// Lossy compression adds its own.
 NoiseModel noise_of(const DirectionInput& input, std::span<const FrameStack> stacks) {
-  NoiseModel noise = input.rig.camera.noise       ? *input.rig.camera.noise
+  NoiseModel noise = input.rig.reference().noise  ? *input.rig.reference().noise
                      : input.options.survey.noise ? *input.options.survey.noise
                                                   : estimate_noise(stacks);
   noise.floor_counts2 += stacks.front().compression_counts2;
@@ -101,9 +101,9 @@ JudgedFrames judge_direction(const DirectionInput& input) {
   return out;
 }
 
-void report_frames(const std::vector<FrameVerdict>& verdicts,
-                   std::vector<SequenceCheck>& checks,
-                   const Run& run) {
+std::optional<SequenceCheck> report_frames(const std::vector<FrameVerdict>& verdicts,
+                                           std::optional<SequenceCheck> check,
+                                           const Run& run) {
   for (const FrameVerdict& verdict : verdicts) {
     const FrameExplanation& found = verdict.explanation;
     if (verdict.action == FrameAction::LeaveOutFrames) {
@@ -114,20 +114,20 @@ void report_frames(const std::vector<FrameVerdict>& verdicts,
     }
     if (verdict.action == FrameAction::Use && !verdict.remedy_rad.empty())
       run.warn(fmt::format("{}; decoded with the shifts that fit", verdict.finding));
-    if (verdict.action != FrameAction::LeaveOutView || checks.empty()) continue;
-    SequenceCheck& check = checks.front();
+    if (verdict.action != FrameAction::LeaveOutView || !check) continue;
     // What the other patterns say about the order of the frames is more than their residuals do.
-    if (found.best.cause == FrameCause::Exchanged && !check.consistent) continue;
-    check = {.decided = true, .consistent = false};
-    check.patterns = {found.pattern};
-    check.finding = verdict.finding;
+    if (found.best.cause == FrameCause::Exchanged && !check->consistent) continue;
+    check = SequenceCheck{.decided = true, .consistent = false};
+    check->patterns = {found.pattern};
+    check->finding = verdict.finding;
     if (!found.explanation.remedy.empty() && found.are_fringes)
-      check.finding += "; " + found.explanation.remedy;
+      check->finding += "; " + found.explanation.remedy;
     if (!verdict.remedy_rad.empty())
-      check.finding += fmt::format(", or set `accept_remedy` to decode with shifts_deg = [{:.6g}]",
-                                   fmt::join(degrees_of(verdict.remedy_rad), ", "));
-    return;
+      check->finding += fmt::format(", or set `accept_remedy` to decode with shifts_deg = [{:.6g}]",
+                                    fmt::join(degrees_of(verdict.remedy_rad), ", "));
+    return check;
   }
+  return check;
 }
 
 }  // namespace frangia

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,10 +25,10 @@ struct JudgedFrames {
 /// Explains the fringe patterns of a direction and leaves out the frames at fault.
 [[nodiscard]] JudgedFrames judge_direction(const DirectionInput& input);
 
-/// Reports frames that are left out. A pattern that measures nothing in this view makes the
-/// direction's check, the first of `checks`, inconsistent.
-void report_frames(const std::vector<FrameVerdict>& verdicts,
-                   std::vector<SequenceCheck>& checks,
-                   const Run& run);
+/// Reports frames that are left out. Returns the direction's check, which a pattern that measures
+/// nothing in this view makes inconsistent.
+[[nodiscard]] std::optional<SequenceCheck> report_frames(const std::vector<FrameVerdict>& verdicts,
+                                                         std::optional<SequenceCheck> check,
+                                                         const Run& run);
 
 }  // namespace frangia

@@ -43,7 +43,9 @@ std::optional<ResponseTable> correction_of(const Pattern& pattern,
 
 /// Removes the effect of the projector's response from the last wrapped map, where the options ask
 /// for it, and sets its systematic uncertainty.
-void finish_wrapped(const FittedAlgorithm& fitted, const DecodeOptions& options, DecodedView& out) {
+void finish_wrapped(const FittedAlgorithm& fitted,
+                    const DecodeOptions& options,
+                    DecodedDirection& out) {
   WrappedPhase& map = out.wrapped.back();
   if (options.own.wrap && !map.systematic_rad.empty()) return;
   const auto table = correction_of(map.pattern, fitted, options);
@@ -109,7 +111,7 @@ void wrap_pattern(const FrameStack& taken,
                   const FittedAlgorithm& fitted,
                   const DecodeOptions& options,
                   const Run& run,
-                  DecodedView& out) {
+                  DecodedDirection& out) {
   if (taken.pattern.exposure_count() > 1 && !options.own.wrap) {
     out.wrapped.push_back(
         merge_exposures(exposures_of(&taken), fitted.shifts_rad, out.noise, options.wrap));

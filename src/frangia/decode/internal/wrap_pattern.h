@@ -24,6 +24,6 @@ void wrap_pattern(const FrameStack& taken,
                   const FittedAlgorithm& fitted,
                   const DecodeOptions& options,
                   const Run& run,
-                  DecodedView& out);
+                  DecodedDirection& out);
 
 }  // namespace frangia

@@ -54,7 +54,7 @@ class FolderCamera final : public CameraDevice {
     const Frame frame = read_png(first);
     info_.width_px = width_of(frame);
     info_.height_px = height_of(frame);
-    info_.white_level = rig.camera.white_level;
+    info_.white_level = rig.reference().white_level;
     info_.min_exposure_ms = 0.0;
     info_.max_exposure_ms = 1e9;
     info_.max_gain_db = 1e3;

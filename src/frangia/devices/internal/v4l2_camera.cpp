@@ -359,8 +359,8 @@ Driver v4l2_driver() {
     V4l2Settings camera;
     camera.path = settings.text_or("path", camera.path);
     camera.skip_frames = settings.integer_or("skip_frames", camera.skip_frames, 0, 30);
-    camera.width_px = rig.camera.model.width_px;
-    camera.height_px = rig.camera.model.height_px;
+    camera.width_px = rig.reference().model.width_px;
+    camera.height_px = rig.reference().model.height_px;
     return open_v4l2_camera(camera, kernel_v4l2());
   };
   driver.find = [](const Deadline&) { return find_v4l2_cameras(*kernel_v4l2()); };

@@ -24,13 +24,13 @@ struct RigRay {
 };
 
 Eigen::Vector2d pixel_of(const Rig& rig, std::size_t camera, const Eigen::Vector3d& point_mm) {
-  return model_of_camera(rig, camera).project(camera_from_rig(rig, camera) * point_mm);
+  return rig.cameras[camera].camera.model.project(rig.cameras[camera].camera_from_rig() * point_mm);
 }
 
 RigRay ray_of(const Rig& rig, std::size_t camera, const Eigen::Vector2d& pixel) {
-  const Eigen::Isometry3d rig_from_camera = camera_from_rig(rig, camera).inverse();
+  const Eigen::Isometry3d rig_from_camera = rig.cameras[camera].camera_from_rig().inverse();
   return {rig_from_camera.translation(),
-          rig_from_camera.linear() * model_of_camera(rig, camera).ray(pixel).homogeneous()};
+          rig_from_camera.linear() * rig.cameras[camera].camera.model.ray(pixel).homogeneous()};
 }
 
 /// The point on a camera's ray that the partner sees nearest to its pixel.
@@ -101,16 +101,17 @@ Displacements ChangedRigs::displacements_of(const Eigen::Vector3d& point_mm) con
   } else {
     phase_rad = phase_at(point_mm, pattern_, rig_.projector);
   }
-  const double depth = (camera_from_rig(rig_, camera_) * point_mm).z();
+  const double depth = (rig_.cameras[camera_].camera_from_rig() * point_mm).z();
   const auto seen_by = [&](const Rig& rig) -> Eigen::Vector3d {
     if (is_label)
       return seen_nearest(ray_of(rig, camera_, pixel), rig, partner, partner_pixel, depth);
-    const Eigen::Vector2d ray = model_of_camera(rig, camera_).ray(pixel);
+    const Eigen::Vector2d ray = rig.cameras[camera_].camera.model.ray(pixel);
     if (camera_ == 0)
       return intersect_fringe(ray, phase_rad, pattern_, rig.projector).depth_mm * ray.homogeneous();
     const Rig of_camera = rig_of_camera(rig, camera_);
     const double lit = intersect_fringe(ray, phase_rad, pattern_, of_camera.projector).depth_mm;
-    return camera_from_rig(rig, camera_).inverse() * Eigen::Vector3d(lit * ray.homogeneous());
+    return rig.cameras[camera_].camera_from_rig().inverse() *
+           Eigen::Vector3d(lit * ray.homogeneous());
   };
   Displacements moved(3, changes());
   for (Eigen::Index i = 0; i < changes(); ++i) {

@@ -54,14 +54,14 @@ Eigen::Vector2d CommonPoint::pixel_of(std::size_t other,
                                       double depth_mm) const {
   const Eigen::Vector3d point = other_from_own_[other] * (depth_mm * ray);
   if (!(point.z() > 0.0)) return Eigen::Vector2d::Constant(kNoDepth);
-  return cameras_[other].rig.camera.model.project(point);
+  return cameras_[other].rig.reference().model.project(point);
 }
 
 OtherSight CommonPoint::sight(std::size_t other,
                               const Eigen::Vector3d& ray,
                               double depth_mm) const {
   OtherSight out;
-  const CameraModel& model = cameras_[other].rig.camera.model;
+  const CameraModel& model = cameras_[other].rig.reference().model;
   out.point = other_from_own_[other] * (depth_mm * ray);
   if (!(out.point.z() > 0.0)) return out;
   out.pixel = model.project(out.point);
@@ -164,7 +164,7 @@ DepthDifference CommonPoint::compare_rays(int x, int y, const OtherSight& seen) 
   const Eigen::Vector2d px_of_phases = px_per_rad.transpose() * across;
   const Eigen::Vector2d sigma_rad(std::hypot(first.sigma_rad, seen.phases[0].sigma_rad),
                                   std::hypot(second.sigma_rad, seen.phases[1].sigma_rad));
-  const double mm_per_px = seen.point.z() / cameras_[own_].rig.camera.model.focal_px.mean();
+  const double mm_per_px = seen.point.z() / cameras_[own_].rig.reference().model.focal_px.mean();
   return {
       mm_per_px * across.dot(off_px), mm_per_px * px_of_phases.cwiseProduct(sigma_rad).norm(), 0.0};
 }

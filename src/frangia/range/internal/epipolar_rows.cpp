@@ -46,7 +46,7 @@ EpipolarRows epipolar_rows(const CameraPhases& camera,
                            const Eigen::Isometry3d& camera_from_first,
                            const EpipolarPlanes& planes,
                            const PhaseSampler& sampler) {
-  const CameraModel& model = camera.rig.camera.model;
+  const CameraModel& model = camera.rig.reference().model;
   const Eigen::Matrix3d camera_from_planes = camera_from_first.linear() * planes.axes.transpose();
   const Image<float>& phase = camera.phases.front()->phase_rad;
   Eigen::Array2d low = Eigen::Array2d::Constant(std::numeric_limits<double>::infinity());

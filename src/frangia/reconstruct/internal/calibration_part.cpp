@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "frangia/range/calibration_uncertainty.h"
-#include "frangia/rig/rig_of_camera.h"
 
 namespace frangia {
 namespace {
@@ -45,7 +44,7 @@ std::function<void(View&, std::size_t camera)> calibration_part(
   if (!rig.calibration || rig.calibration->covariance.empty()) return {};
   const auto volume = measured_volume(views, rays);
   const auto uncertainties = std::make_shared<std::vector<CalibrationUncertainty>>();
-  for (std::size_t camera = 0; camera < camera_count(rig); ++camera)
+  for (std::size_t camera = 0; camera < rig.cameras.size(); ++camera)
     uncertainties->emplace_back(rig, pattern, volume, camera);
   return [uncertainties](View& view, std::size_t camera) {
     uncertainties->at(camera).add_to(view.range);

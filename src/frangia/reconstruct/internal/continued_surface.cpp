@@ -47,9 +47,9 @@ Mesh continued_surface(const MeasuredViews& measured,
                        const FusionOptions& fusion,
                        const Run& run) {
   ViewStore continued;
-  for (std::size_t i = 0; i < measured.views.size(); ++i) {
+  for (std::size_t i = 0; i < measured.reference().size(); ++i) {
     run.check();
-    View view = measured.views.load_points(i);
+    View view = measured.reference().load_points(i);
     continue_faces(view, indirect.largest_shifts_mm(view), rays);
     continued.add(view);
   }
@@ -63,8 +63,8 @@ FusionOptions coarse_fusion(const MeasuredViews& measured,
                             FusionOptions options) {
   constexpr double kVoxel_px = 1.5;
   const auto px = static_cast<double>((rays(1, 0) - rays(0, 0)).norm());
-  for (std::size_t i = 0; i < measured.views.size(); ++i) {
-    const float depth_mm = median_of_known(measured.views.load_depth_mm(i));
+  for (std::size_t i = 0; i < measured.reference().size(); ++i) {
+    const float depth_mm = median_of_known(measured.reference().load_depth_mm(i));
     if (std::isnan(depth_mm)) continue;
     options.voxel_mm = kVoxel_px * px * static_cast<double>(depth_mm);
     break;

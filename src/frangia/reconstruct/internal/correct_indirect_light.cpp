@@ -90,11 +90,11 @@ Corrected correct_all(MeasuredViews& measured,
                       const Run& run) {
   Corrected out;
   double points = 0.0;
-  for (std::size_t i = 0; i < measured.views.size(); ++i) {
+  for (std::size_t i = 0; i < measured.reference().size(); ++i) {
     run.check();
-    View view = measured.views.load(i);
+    View view = measured.reference().load(i);
     indirect.correct(view);
-    measured.views.replace(i, view);
+    measured.reference().replace(i, view);
     compare(measured_views.load_points(i).range, view.range, out, points);
   }
   out.moved /= std::max(1.0, points);
@@ -117,7 +117,7 @@ Mesh surface_or_none(const Make& make) {
 int thinning_px(const MeasuredViews& measured) {
   constexpr double kPoints = 100'000.0;  // of a view: with fewer, narrow grooves would be lost
   constexpr int kMost_px = 4;            // 1.5 pixels to a voxel of the first pass, as in others
-  const auto views = static_cast<double>(std::max<std::size_t>(1, measured.views.size()));
+  const auto views = static_cast<double>(std::max<std::size_t>(1, measured.reference().size()));
   const double points = static_cast<double>(measured.points) / views;
   return std::clamp(static_cast<int>(std::sqrt(points / kPoints)), 1, kMost_px);
 }
@@ -129,11 +129,11 @@ bool shows_indirect_light(const MeasuredViews& measured,
                           const Lighting& lighting,
                           const FusionOptions& fusion,
                           const Run& run) {
-  const CameraModel camera = subsample(lighting.decoding.scan.rig.camera.model, step_px);
+  const CameraModel camera = subsample(lighting.decoding.scan.rig.reference().model, step_px);
   ViewStore thinned;
-  for (std::size_t i = 0; i < measured.views.size(); ++i) {
+  for (std::size_t i = 0; i < measured.reference().size(); ++i) {
     run.check();
-    thinned.add(subsample(measured.views.load_points(i), step_px));
+    thinned.add(subsample(measured.reference().load_points(i), step_px));
   }
   const Mesh surface = surface_or_none([&] { return fuse_views(thinned, camera, fusion, run); });
   return part_of(measured, surface, lighting, run).has_value();
@@ -148,7 +148,7 @@ std::optional<IndirectPart> predict(const MeasuredViews& measured,
   auto first = part_of(measured, surface, lighting, run);
   if (!first) return first;
   const ScanDecoding& decoding = lighting.decoding;
-  const CameraModel& camera = decoding.scan.rig.camera.model;
+  const CameraModel& camera = decoding.scan.rig.reference().model;
   const Mesh continued = surface_or_none(
       [&] { return continued_surface(measured, *first, camera, decoding.rays, coarse, run); });
   auto second = part_of(measured, continued, lighting, run);
@@ -167,7 +167,7 @@ EarlyIndirectLight correct_before_registration(MeasuredViews& measured,
   constexpr int kPasses = 2;
   if (measured.points == 0) return {.found = false};
   coarse = coarse_fusion(measured, decoding.rays, std::move(coarse));
-  const CameraModel& camera = decoding.scan.rig.camera.model;
+  const CameraModel& camera = decoding.scan.rig.reference().model;
   Run quiet;
   quiet.stop = run.stop;
   // A coarser surface is smoother where indirect light has torn the points apart.
@@ -182,12 +182,12 @@ EarlyIndirectLight correct_before_registration(MeasuredViews& measured,
   for (int pass = 0; pass < kPasses; ++pass) {
     const FusionOptions& fusion = pass == 0 ? first : coarse;
     const Mesh surface =
-        surface_or_none([&] { return fuse_views(measured.views, camera, fusion, quiet); });
+        surface_or_none([&] { return fuse_views(measured.reference(), camera, fusion, quiet); });
     const auto indirect = predict(measured, surface, lighting, coarse, quiet);
     if (!indirect) return {.found = pass > 0};
-    if (pass == 0) as_measured = copy_of(measured.views);
+    if (pass == 0) as_measured = copy_of(measured.reference());
     if (correct_all(measured, as_measured, *indirect, run).is_rougher()) {
-      measured.views = std::move(as_measured);
+      measured.reference() = std::move(as_measured);
       return {.found = true, .corrects = false};
     }
   }
@@ -202,7 +202,7 @@ std::optional<IndirectLightReport> correct_indirect_light(Mesh& fused,
                                                           const Run& run) {
   constexpr int kPasses = 2;
   constexpr double kFew = 0.001;  // share of the points whose correction a second pass changes
-  const CameraModel& camera = decoding.scan.rig.camera.model;
+  const CameraModel& camera = decoding.scan.rig.reference().model;
   const auto others = fusion.add_systematic;
   ShownFringes shown;
   Lighting lighting{
@@ -215,11 +215,11 @@ std::optional<IndirectLightReport> correct_indirect_light(Mesh& fused,
     if (!indirect) break;
     double moved = 0.0;
     if (lighting.points == ShiftedPoints::Moved) {
-      if (pass == 0) as_measured = copy_of(measured.views);
+      if (pass == 0) as_measured = copy_of(measured.reference());
       const Corrected done = correct_all(measured, as_measured, *indirect, run);
       moved = done.moved;
       if (done.is_rougher()) {
-        measured.views = std::move(as_measured);
+        measured.reference() = std::move(as_measured);
         lighting.points = ShiftedPoints::Kept;
         indirect = part_of(measured, fused, lighting, run);
         if (!indirect) break;
@@ -231,7 +231,7 @@ std::optional<IndirectLightReport> correct_indirect_light(Mesh& fused,
       if (others) others(view, of_camera);
       add(view);
     };
-    fused = fuse_views(measured.views, camera, fusion, run);
+    fused = fuse_views(measured.reference(), camera, fusion, run);
     if (moved < kFew) break;
   }
   if (!report) return report;

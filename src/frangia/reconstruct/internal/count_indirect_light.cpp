@@ -8,7 +8,6 @@
 #include "frangia/dataset/scan_of_camera.h"
 #include "frangia/reconstruct/internal/indirect_part.h"
 #include "frangia/reconstruct/internal/tie_cameras.h"
-#include "frangia/rig/rig_of_camera.h"
 
 namespace frangia {
 namespace {
@@ -26,12 +25,12 @@ std::optional<IndirectLightReport> count_indirect_light(Mesh& fused,
                                                         const ScanDecoding& decoding,
                                                         FusionOptions& fusion,
                                                         const Run& run) {
-  const auto parts = std::make_shared<std::vector<CameraPart>>(camera_count(decoding.scan.rig));
+  const auto parts = std::make_shared<std::vector<CameraPart>>(decoding.scan.rig.cameras.size());
   std::optional<IndirectLightReport> report;
   for (std::size_t camera = 0; camera < parts->size(); ++camera) {
     CameraPart& own = (*parts)[camera];
     const Scan scan = scan_of_camera(decoding.scan, camera);
-    own.rays = rays_of(scan.rig.camera.model);
+    own.rays = rays_of(scan.rig.reference().model);
     ShownFringes shown;
     own.part = indirect_part({scan, own.rays, decoding.options, decoding.plan},
                              lit_views(measured, decoding.scan, camera),

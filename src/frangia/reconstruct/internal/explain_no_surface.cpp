@@ -38,7 +38,8 @@ class FirstView {
     Run silent;
     silent.stop = run.stop;
     const auto stacks = read_frames(scan, 0, silent);
-    auto status = decode_view(stacks, scan.rig, rays, options, silent).phase.status;
+    auto status =
+        decode_view(stacks, scan.rig, rays, options, silent).directions.front().phase.status;
     reason_ = explain_no_phase(stacks, status);
     return status;
   }

@@ -91,16 +91,19 @@ std::vector<ShownFringes::AtPixel> fringes_of(const DecodedView& decoded,
                                               const std::vector<Pattern>& patterns,
                                               const Image<float>& depth_mm) {
   constexpr std::size_t kSamples = 2500;
+  const auto lit = std::ranges::find(
+      decoded.directions, patterns.back().direction, [](const DecodedDirection& one) {
+        return one.phase.pattern.direction;
+      });
+  if (lit == decoded.directions.end()) return {};
   std::vector<const WrappedPhase*> maps;
   for (const Pattern& pattern : patterns) {
-    for (const WrappedPhase& map : decoded.wrapped) {
+    for (const WrappedPhase& map : lit->wrapped) {
       if (map.pattern.name == pattern.name) maps.push_back(&map);
     }
   }
   if (maps.size() != patterns.size()) return {};
-  const bool first = decoded.phase.pattern.direction == patterns.back().direction;
-  if (!first && !decoded.second_phase) return {};
-  const AbsolutePhase& absolute = first ? decoded.phase : *decoded.second_phase;
+  const AbsolutePhase& absolute = lit->phase;
   std::vector<ShownFringes::AtPixel> out;
   for (const Eigen::Vector2i& at : sampled_pixels(depth_mm, kSamples)) {
     const int x = at.x();
@@ -136,15 +139,6 @@ void add_samples(const std::vector<ShownFringes::AtPixel>& shown,
     constexpr double kMost = 1.0;  // at grazing light the prediction is too sensitive
     if (sample.predicted.mean < kMost) out.push_back(std::move(sample));
   }
-}
-
-/// The plan of a direction; null where it is not decoded.
-const DirectionPlan* plan_of(const DecodePlan& plan, FringeDirection direction) {
-  const auto found =
-      std::find_if(plan.directions.begin(), plan.directions.end(), [&](const DirectionPlan& one) {
-        return one.direction == direction;
-      });
-  return found == plan.directions.end() ? nullptr : &*found;
 }
 
 /// What the phase of a direction is computed from.
@@ -232,8 +226,7 @@ const std::vector<ShownFringes::AtPixel>& ShownFringes::of_view(const ScanDecodi
 }
 
 LitViews lit_views(const MeasuredViews& measured, const Scan& scan, std::size_t camera) {
-  LitViews out{
-      camera == 0 ? measured.views : measured.more.at(camera - 1), {}, measured.coarsest.direction};
+  LitViews out{measured.cameras.at(camera), {}, measured.coarsest.direction};
   for (const Station& station : measured.stations)
     out.of_scan.push_back(index_in_scan(scan, station.name));
   return out;
@@ -249,8 +242,9 @@ std::optional<IndirectPart> indirect_part(const ScanDecoding& decoding,
   constexpr std::size_t kDecoded = 3;  // views whose frames determine the reflectance
   const Scan& scan = decoding.scan;
   const Image<Eigen::Vector2f>& rays = decoding.rays;
-  const DirectionPlan* plan = plan_of(decoding.plan, lit.direction);
-  if (plan == nullptr || plan->maps.empty() || surface.empty()) return std::nullopt;
+  const auto& directions = decoding.plan.directions;
+  const auto plan = std::ranges::find(directions, lit.direction, &DirectionPlan::direction);
+  if (plan == directions.end() || plan->maps.empty() || surface.empty()) return std::nullopt;
   Mesh shape;
   shape.vertices_mm = surface.vertices_mm;
   shape.triangles = surface.triangles;

@@ -16,7 +16,6 @@
 #include "frangia/decode/survey_scan.h"
 #include "frangia/decode/view_decoder.h"
 #include "frangia/decode/view_quality.h"
-#include "frangia/rig/rig_of_camera.h"
 
 namespace frangia {
 namespace {
@@ -75,26 +74,25 @@ class ScanFit {
  public:
   ScanFit(const Scan& scan, const Run& run) : scan_(scan), run_(run) {}
 
-  /// Whether the view is to be triangulated; warns if something in it does not fit.
-  bool add(std::size_t view, const ViewFit& fit) {
+  /// Warns if something in the view does not fit.
+  void add(std::size_t view, const ViewFit& fit) {
     const std::string folder = scan_.views[view].folder.string();
     if (fit.accepted) {
       run_.warn(fmt::format(
           "{}: {}; triangulated because `accept_inconsistent` is set", folder, fit.reason));
-      return true;
+      return;
     }
     if (fit.fits()) {
       fitting_ = fitting_ || fit.decided;
       if (!fit.reason.empty())
         run_.warn(fmt::format("{}: {}; this direction is not used", folder, fit.reason));
-      return true;
+      return;
     }
     if (first_reason_.empty()) first_reason_ = fit.reason;
     run_.warn(fmt::format("{}: {}; the view is left out", folder, fit.reason));
     ++unfit_;
     constexpr std::size_t kEnough = 3;
     if (unfit_ == kEnough && !fitting_) end();
-    return false;
   }
   /// Throws if views do not fit and none does.
   void finish() const {
@@ -138,7 +136,7 @@ struct CameraScan {
              const DecodeOptions& decode,
              const Run& run)
       : scan(scan_of_camera(all, camera)),
-        own_rays(camera == 0 ? Image<Eigen::Vector2f>() : rays_of(scan.rig.camera.model)),
+        own_rays(camera == 0 ? Image<Eigen::Vector2f>() : rays_of(scan.rig.reference().model)),
         rays(camera == 0 ? reference_rays : own_rays),
         options(decode),
         fit(scan, run) {
@@ -152,7 +150,7 @@ std::vector<std::unique_ptr<CameraScan>> survey_cameras(const Scan& scan,
                                                         const DecodeOptions& decode,
                                                         const Run& run) {
   std::vector<std::unique_ptr<CameraScan>> cameras;
-  for (std::size_t i = 0; i < camera_count(scan.rig); ++i)
+  for (std::size_t i = 0; i < scan.rig.cameras.size(); ++i)
     cameras.push_back(std::make_unique<CameraScan>(scan, i, rays, decode, run));
   return cameras;
 }
@@ -160,10 +158,10 @@ std::vector<std::unique_ptr<CameraScan>> survey_cameras(const Scan& scan,
 /// Decodes a view of a camera and decides which of its phases are used.
 DecodedCamera decode_camera(CameraScan& camera, std::size_t view, const Run& run) {
   DecodedCamera out{camera.scan.rig, camera.rays, camera.decoder->next()};
-  report_assessments(camera.scan, view, out.decoded.assessments, run);
+  report_assessments(camera.scan, view, assessments_of(out.decoded), run);
   out.fit =
       check_view(out.decoded, camera.scan.rig, camera.rays, camera.options.accept_inconsistent);
-  out.used = camera.fit.add(view, out.fit);
+  camera.fit.add(view, out.fit);
   return out;
 }
 
@@ -189,7 +187,7 @@ MeasuredViews measure_views(const Scan& scan,
         std::make_unique<ViewDecoder>(camera->scan, camera->rays, camera->options, run);
   }
   MeasuredViews all;
-  all.more.resize(cameras.size() - 1);
+  all.cameras.resize(cameras.size());
   for (std::size_t i = 0; i < scan.views.size(); ++i) {
     run.report(static_cast<double>(i) / static_cast<double>(scan.views.size()));
     std::vector<DecodedCamera> decoded;
@@ -197,46 +195,47 @@ MeasuredViews measure_views(const Scan& scan,
       decoded.push_back(decode_camera(*camera, i, run));
     ViewSummary summary{
         scan.views[i].folder.string(), scan.views[i].angle_rad, scan.views[i].setup};
-    DecodedView& reference = decoded.front().decoded;
-    summary.quality = view_quality(reference.assessments);
-    if (i == 0) all.response = describe_corrections(reference.assessments);
-    if (!decoded.front().used) {
+    const ViewFit& fit = decoded.front().fit;
+    const auto assessments = assessments_of(decoded.front().decoded);
+    summary.quality = view_quality(assessments);
+    if (i == 0) all.response = describe_corrections(assessments);
+    if (!fit.fits()) {
       summary.left_out = true;
-      summary.reason = decoded.front().fit.reason;
+      summary.reason = fit.reason;
       all.summaries.push_back(summary);
       continue;
     }
-    all.coarsest = decoded.front().fit.uses_first ? reference.coarsest : reference.phase.pattern;
+    DecodedDirection& leading = decoded.front().decoded.directions[fit.leading()];
+    all.coarsest = leading.coarsest;
     MeasuredView measured =
         fuse_view_cameras(scan.rig, decoded, decode.directions, mixed_pixels, run);
     if (measured.directions.pixels > 0) {
-      all.first = reference.phase.pattern;
-      all.second = reference.second_phase->pattern;
+      all.first = leading.phase.pattern;
+      all.second = decoded.front().decoded.directions[fit.used.back()].phase.pattern;
       all.direction_agreements.push_back(std::move(measured.directions));
     }
     if (measured.between_cameras.pixels > 0)
       all.camera_agreements.push_back(std::move(measured.between_cameras));
     summary.points = count_points(measured);
     summary.sigma_mm = median_sigma_mm(measured.cameras.front().range);
-    summary.left_out = summary.points == 0 && reference.unresolved.empty();
+    summary.left_out = summary.points == 0 && leading.unresolved.empty();
     all.summaries.push_back(summary);
     if (summary.left_out) {
-      run.warn(why_empty(scan, i, reference.phase.status));
+      run.warn(why_empty(scan, i, leading.phase.status));
       continue;
     }
-    for (UnresolvedRegion& region : reference.unresolved)
-      all.unresolved.push_back({all.views.size(), std::move(region)});
-    all.unwrapped_spatially = reference.relative.has_value();
+    for (UnresolvedRegion& region : leading.unresolved)
+      all.unresolved.push_back({all.reference().size(), std::move(region)});
+    all.unwrapped_spatially = leading.relative.has_value();
     all.stations.push_back({scan.views[i].angle_rad, scan.views[i].folder.string(), 0});
     all.setups.push_back(scan.views[i].setup);
     const Eigen::Isometry3d rig_from_object = scan.rig.rig_from_object(scan.views[i].angle_rad);
     for (std::size_t camera = 0; camera < cameras.size(); ++camera) {
       MeasuredCamera& seen = measured.cameras[camera];
-      ViewStore& views = camera == 0 ? all.views : all.more[camera - 1];
-      views.add({std::move(seen.range),
-                 camera_from_rig(scan.rig, camera) * rig_from_object,
-                 std::move(seen.edge_pixels),
-                 std::move(decoded[camera].decoded.color)});
+      all.cameras[camera].add({std::move(seen.range),
+                               scan.rig.cameras[camera].camera_from_rig() * rig_from_object,
+                               std::move(seen.edge_pixels),
+                               std::move(decoded[camera].decoded.color)});
     }
     all.points += summary.points;
   }

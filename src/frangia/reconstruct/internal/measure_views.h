@@ -22,10 +22,10 @@ namespace frangia {
 
 /// The range grids of all views of a scan.
 struct MeasuredViews {
-  ViewStore views;                ///< of the reference camera
-  std::vector<ViewStore> more;    ///< of each further camera, one for each of `views`
-  std::vector<Station> stations;  ///< of the turntable, one per view
-  std::vector<int> setups;        ///< setup numbers, one per view
+  /// The views of each camera of the rig, the reference camera first; one for each station.
+  std::vector<ViewStore> cameras = std::vector<ViewStore>(1);
+  std::vector<Station> stations;                 ///< of the turntable, one per view
+  std::vector<int> setups;                       ///< setup numbers, one per view
   std::vector<UnresolvedViewRegion> unresolved;  ///< regions without a fringe order
   Pattern coarsest;                              ///< coarsest fringe pattern
   bool unwrapped_spatially = false;              ///< whole patches may then be wrong by fringes
@@ -37,6 +37,9 @@ struct MeasuredViews {
   Pattern second;
   std::string response;  ///< what is corrected in the phase of the first view; may be empty
   std::vector<ViewSummary> summaries;  ///< of all views of the scan, also of those left out
+
+  [[nodiscard]] const ViewStore& reference() const { return cameras.front(); }  ///< camera 0
+  [[nodiscard]] ViewStore& reference() { return cameras.front(); }              ///< camera 0
 };
 
 /// Reads, decodes and triangulates all views of a scan. The next view is read and decoded while one

@@ -32,7 +32,7 @@ std::vector<PointCloud> points_of_setups(const MeasuredSetup& joined,
                                          std::size_t most,
                                          const Run& run) {
   const MeasuredViews& measured = joined.measured;
-  const auto rays = measured.views.rays(rig.camera.model);
+  const auto rays = measured.reference().rays(rig.reference().model);
   std::map<int, PointCloud> clouds;
   for (const SetupJoin& join : joined.joins)
     if (join.joined) clouds[join.number];
@@ -41,16 +41,18 @@ std::vector<PointCloud> points_of_setups(const MeasuredSetup& joined,
   for (const SetupJoin& join : joined.joins)
     if (join.joined && join.number != joined.number) numbers.push_back(join.number);
   std::size_t points = 0;
-  for (std::size_t i = 0; i < measured.views.size(); ++i) {
-    for (const float depth : measured.views.load_depth_mm(i).pixels())
+  for (std::size_t i = 0; i < measured.reference().size(); ++i) {
+    for (const float depth : measured.reference().load_depth_mm(i).pixels())
       points += std::isnan(depth) ? 0U : 1U;
   }
   const std::size_t step =
       std::max<std::size_t>(1, points / (numbers.size() * std::max<std::size_t>(1, most)));
-  for (std::size_t i = 0; i < measured.views.size(); ++i) {
+  for (std::size_t i = 0; i < measured.reference().size(); ++i) {
     run.check();
-    add_points(
-        measured.views.load_points(i), *rays, step, clouds[numbers.at(measured.stations[i].setup)]);
+    add_points(measured.reference().load_points(i),
+               *rays,
+               step,
+               clouds[numbers.at(measured.stations[i].setup)]);
   }
   std::vector<PointCloud> all;
   all.reserve(clouds.size());

@@ -23,7 +23,7 @@ MappedSetups map_setups(const std::vector<MeasuredSetup>& setups,
                         const Run& run) {
   MappedSetups all;
   for (const MeasuredSetup& setup : setups) {
-    const ViewStore& views = setup.measured.views;
+    const ViewStore& views = setup.measured.reference();
     std::vector<ViewGroup::Member> members;
     for (SurfelMap& map : make_surfel_maps(views, camera, kSurfelsPerView, run)) {
       members.push_back({all.maps.size(), views.rig_from_object(members.size())});
@@ -114,11 +114,10 @@ SetupPoses find_part_poses(const std::vector<MeasuredSetup>& setups,
 
 /// Appends the views of a setup, as setup `index` of those that are joined.
 void append(MeasuredViews& all, const MeasuredViews& setup, std::size_t index) {
-  all.more.resize(setup.more.size());
-  for (std::size_t i = 0; i < setup.views.size(); ++i) {
-    all.views.add(setup.views.load(i));
-    for (std::size_t camera = 0; camera < setup.more.size(); ++camera)
-      all.more[camera].add(setup.more[camera].load(i));
+  all.cameras.resize(setup.cameras.size());
+  for (std::size_t i = 0; i < setup.stations.size(); ++i) {
+    for (std::size_t camera = 0; camera < setup.cameras.size(); ++camera)
+      all.cameras[camera].add(setup.cameras[camera].load(i));
     all.stations.push_back(setup.stations[i]);
     all.stations.back().setup = index;
   }
@@ -129,7 +128,7 @@ void append(MeasuredViews& all, const MeasuredViews& setup, std::size_t index) {
 std::vector<SetupJoin> joins_of(const std::vector<MeasuredSetup>& setups, const SetupPoses& poses) {
   std::vector<SetupJoin> joins;
   for (std::size_t i = 0; i < setups.size(); ++i) {
-    SetupJoin join{.number = setups[i].number, .views = setups[i].measured.views.size()};
+    SetupJoin join{.number = setups[i].number, .views = setups[i].measured.reference().size()};
     join.joined = poses.setup_from_reference[i].has_value();
     join.ambiguous = !join.joined && i < poses.ambiguous.size() && poses.ambiguous[i];
     if (join.joined && i != poses.reference) {
@@ -152,7 +151,7 @@ void set_poses(MeasuredSetup& joined,
   for (std::size_t i = 0; i < joined.measured.stations.size(); ++i) {
     const Station& station = joined.measured.stations[i];
     const Eigen::Isometry3d pose = rig.rig_from_object(station.angle_rad);
-    joined.measured.views.set_rig_from_object(
+    joined.measured.reference().set_rig_from_object(
         i, station.setup == 0 ? pose : pose * part_poses[station.setup - 1]);
   }
 }
@@ -163,7 +162,7 @@ MeasuredSetup register_setups(std::vector<MeasuredSetup> setups,
                               const Rig& rig,
                               const RegisterSetupsOptions& options,
                               const Run& run) {
-  const CameraModel& camera = rig.camera.model;
+  const CameraModel& camera = rig.reference().model;
   const SetupPoses setup_poses = find_part_poses(setups, camera, options, run);
   MeasuredSetup& reference = setups[setup_poses.reference];
   const Eigen::Isometry3d given_from_rig = rig.rig_from_object(0.0).inverse();
@@ -191,7 +190,7 @@ MeasuredSetup register_setups(std::vector<MeasuredSetup> setups,
     append(joined.measured, setups[i].measured, registration.part_poses.size());
   }
   if (options.refine) {
-    joined.registration = register_views(joined.measured.views,
+    joined.registration = register_views(joined.measured.reference(),
                                          camera,
                                          {*rig.turntable, joined.measured.stations},
                                          registration,

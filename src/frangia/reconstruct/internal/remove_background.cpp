@@ -19,11 +19,10 @@ std::size_t clip_cameras(MeasuredViews& measured,
                          const Rig& rig,
                          const Clip& clip,
                          const Run& run) {
-  std::size_t removed = clip_views(measured.views, rig.camera.model, clip, run);
+  std::size_t removed = clip_views(measured.reference(), rig.reference().model, clip, run);
   tie_cameras(measured, rig);
-  for (std::size_t i = 0; i < measured.more.size(); ++i) {
-    removed += clip_views_to_nothing(measured.more[i], rig.more_cameras[i].camera.model, clip, run);
-  }
+  for (std::size_t i = 1; i < measured.cameras.size(); ++i)
+    removed += clip_views_to_nothing(measured.cameras[i], rig.cameras[i].camera.model, clip, run);
   return removed;
 }
 
@@ -43,7 +42,7 @@ void clip_on_registered_turntable(MeasuredSetup& setup,
                                   const Rig& rig,
                                   const ReconstructOptions& options,
                                   const Run& run) {
-  ViewStore& views = setup.measured.views;
+  ViewStore& views = setup.measured.reference();
   std::vector<Eigen::Isometry3d> poses;
   for (std::size_t i = 0; i < views.size(); ++i) {
     poses.push_back(views.rig_from_object(i));
@@ -61,7 +60,7 @@ double remove_turntable_top(MeasuredViews& measured,
                             const Rig& rig,
                             const TurntableTopOptions& options,
                             const Run& run) {
-  const auto top = find_turntable_top(measured.views, rig.camera.model, options, run);
+  const auto top = find_turntable_top(measured.reference(), rig.reference().model, options, run);
   if (!top) return kMissing;
   Clip clip;
   clip.floor = {top->plane.normal(), top->plane.offset() - top->clearance_mm};

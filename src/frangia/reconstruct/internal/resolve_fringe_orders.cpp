@@ -14,7 +14,7 @@ std::size_t resolve_fringe_orders(MeasuredViews& measured,
                                   const Run& run) {
   const FringeOptics optics{measured.coarsest, rig, rays};
   const auto resolved =
-      resolve_by_views(measured.views, measured.unresolved, optics, resolve_options, run);
+      resolve_by_views(measured.reference(), measured.unresolved, optics, resolve_options, run);
   if (resolved.removed_points > 0) {
     run.warn(
         fmt::format("points removed because neither the laser sheet nor another view determines "
@@ -24,7 +24,7 @@ std::size_t resolve_fringe_orders(MeasuredViews& measured,
   measured.points += resolved.resolved_points;
   if (!measured.unwrapped_spatially) return resolved.removed_points;
   const std::size_t corrected =
-      correct_fringe_orders(measured.views, optics, correction_options, run);
+      correct_fringe_orders(measured.reference(), optics, correction_options, run);
   if (corrected > 0) {
     run.note(
         fmt::format("points moved by whole fringes to agree with the other views: {}", corrected));

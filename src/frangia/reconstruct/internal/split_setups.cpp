@@ -17,28 +17,27 @@ std::size_t measured_points(const View& view) {
 
 }  // namespace
 
-std::vector<MeasuredSetup> split_setups(MeasuredViews all, const std::vector<int>& numbers) {
+std::vector<MeasuredSetup> split_setups(MeasuredViews all) {
+  const std::vector<int>& numbers = all.setups;
   std::map<int, std::vector<std::size_t>> views;
   for (std::size_t i = 0; i < numbers.size(); ++i)
     views[numbers[i]].push_back(i);
   std::vector<MeasuredSetup> setups;
   if (views.size() < 2) {
-    setups.push_back({numbers.empty() ? 0 : numbers.front(), std::move(all), {}, {}});
+    const int number = numbers.empty() ? 0 : numbers.front();
+    setups.push_back({number, std::move(all), {}, {}});
     return setups;
   }
   for (const auto& [number, which] : views) {
     MeasuredSetup setup{number, {}, {}, {}};
+    setup.measured.cameras.resize(all.cameras.size());
     setup.measured.coarsest = all.coarsest;
     setup.measured.unwrapped_spatially = all.unwrapped_spatially;
     for (std::size_t i = 0; i < which.size(); ++i) {
-      const View view = all.views.load(which[i]);
-      setup.measured.points += measured_points(view);
-      setup.measured.views.add(view);
-      setup.measured.more.resize(all.more.size());
-      for (std::size_t camera = 0; camera < all.more.size(); ++camera) {
-        const View other = all.more[camera].load(which[i]);
-        setup.measured.points += measured_points(other);
-        setup.measured.more[camera].add(other);
+      for (std::size_t camera = 0; camera < all.cameras.size(); ++camera) {
+        const View view = all.cameras[camera].load(which[i]);
+        setup.measured.points += measured_points(view);
+        setup.measured.cameras[camera].add(view);
       }
       setup.measured.stations.push_back(all.stations[which[i]]);
       for (UnresolvedViewRegion& part : all.unresolved) {

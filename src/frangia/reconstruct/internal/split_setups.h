@@ -19,9 +19,6 @@ struct MeasuredSetup {
 
 /// Splits the views of a scan by their setups, ordered by number. Properties of the whole scan are
 /// copied to each setup.
-///
-/// @shape    `numbers`: one a view
-[[nodiscard]] std::vector<MeasuredSetup> split_setups(MeasuredViews all,
-                                                      const std::vector<int>& numbers);
+[[nodiscard]] std::vector<MeasuredSetup> split_setups(MeasuredViews all);
 
 }  // namespace frangia

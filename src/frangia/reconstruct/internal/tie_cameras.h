@@ -14,14 +14,13 @@ namespace frangia {
 /// of the cameras in the rig.
 void tie_cameras(MeasuredViews& measured, const Rig& rig);
 
-/// Empties the further cameras' views of those that the registration of a setup emptied.
+/// Empties the views of all cameras that the registration of a setup emptied.
 void clear_outliers_of_cameras(MeasuredSetup& setup);
 
 /// Collects the points of all cameras, as `collect_points` does for one. `add_systematic` gets each
 /// view with the index of its camera.
 [[nodiscard]] PointCloud collect_points_of_cameras(
-    const MeasuredViews& measured,
-    const Rig& rig,
+    const std::vector<CameraViews>& cameras,
     const Run& run,
     const std::function<void(View&, std::size_t camera)>& add_systematic);
 

@@ -74,7 +74,7 @@ DriftModel::DriftModel(const Rig& given,
     sigmas.insert(sigmas.end(),
                   {options.relative_focal_sigma * model.focal_px.x(), principal_px, principal_px});
   };
-  add_intrinsics("camera", given.camera.model);
+  add_intrinsics("camera", given.reference().model);
   if (const auto* pinhole = std::get_if<PinholeModel>(&given.projector.model))
     add_intrinsics("projector", *pinhole);
   for (const char* name :
@@ -159,7 +159,7 @@ PointDrift::Derivative PointDrift::of(const Eigen::Vector3d& point_mm,
                    phase_at(point_mm - step, pattern, rig_.projector)) /
                   (2.0 * kRelativeStep * depth_mm);
   }
-  const CameraModel& camera = rig_.camera.model;
+  const CameraModel& camera = rig_.reference().model;
   const Eigen::Matrix2d ray_by_pixel =
       (camera.focal_px.asDiagonal() * camera.distort_jacobian(direction.head<2>())).inverse();
   Derivative by(3, changes);
@@ -167,7 +167,7 @@ PointDrift::Derivative PointDrift::of(const Eigen::Vector3d& point_mm,
     const Rig& more = changed_[static_cast<std::size_t>(2 * i)];
     const Rig& less = changed_[static_cast<std::size_t>(2 * i + 1)];
     const Eigen::Vector2d pixel =
-        (more.camera.model.project(point_mm) - less.camera.model.project(point_mm)) /
+        (more.reference().model.project(point_mm) - less.reference().model.project(point_mm)) /
         (2.0 * kDriftStep);
     const double phase = (phase_at(point_mm, pattern, more.projector) -
                           phase_at(point_mm, pattern, less.projector)) /

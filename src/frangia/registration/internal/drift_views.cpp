@@ -28,10 +28,10 @@ std::vector<DriftView> drift_views(std::span<const RigSurfaces> surfaces,
     const auto maps =
         changed
             ? make_surfel_maps(retriangulate_views(surface.views, surface.pattern, given, rig, run),
-                               rig.camera.model,
+                               rig.reference().model,
                                budget,
                                silent)
-            : make_surfel_maps(surface.views, rig.camera.model, budget, silent);
+            : make_surfel_maps(surface.views, rig.reference().model, budget, silent);
     for (std::size_t i = 0; i < maps.size(); ++i)
       views.push_back({maps[i], surface.stations[i], {}});
   }

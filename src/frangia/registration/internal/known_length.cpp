@@ -62,7 +62,7 @@ KnownLength measure_known_length(const DriftBundle& bundle, const RefineRigOptio
 
 void scale_rig(Rig& rig, double factor) {
   rig.projector.position_mm *= factor;
-  for (PosedCamera& camera : rig.more_cameras)
+  for (PosedCamera& camera : rig.cameras)
     camera.position_mm *= factor;
   if (rig.turntable) rig.turntable->point_mm *= factor;
   if (rig.laser_sheet) rig.laser_sheet->offset_mm *= factor;

@@ -55,7 +55,7 @@ View retriangulate(View view, const Pattern& pattern, const Rig& from, const Rig
                             pattern,
                             from.projector,
                             to.projector,
-                            {rays_of(from.camera.model), rays_of(to.camera.model)});
+                            {rays_of(from.reference().model), rays_of(to.reference().model)});
 }
 
 ViewStore retriangulate_views(const ViewStore& views,
@@ -63,7 +63,7 @@ ViewStore retriangulate_views(const ViewStore& views,
                               const Rig& from,
                               const Rig& to,
                               const Run& run) {
-  const RaysOfRigs rays{rays_of(from.camera.model), rays_of(to.camera.model)};
+  const RaysOfRigs rays{rays_of(from.reference().model), rays_of(to.reference().model)};
   ViewStore out;
   load_each_view(views, [&](std::size_t /*index*/, View& view) {
     run.check();

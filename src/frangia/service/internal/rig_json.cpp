@@ -48,7 +48,7 @@ RigJson json_of_rig(const Rig& rig) {
   Eigen::Isometry3d rig_from_projector = Eigen::Isometry3d::Identity();
   rig_from_projector.linear() = rig.projector.rotation.transpose();
   rig_from_projector.translation() = rig.projector.position_mm;
-  RigJson json{{"camera", json_of_optics(rig.camera.model)},
+  RigJson json{{"camera", json_of_optics(rig.reference().model)},
                {"rig_from_projector", list_of(rig_from_projector)},
                {"baseline_mm", rig.projector.position_mm.norm()}};
   if (const auto* pinhole = std::get_if<PinholeModel>(&rig.projector.model)) {

@@ -12,7 +12,7 @@ namespace frangia {
 /// Triangulates decoded views of one rig, to be looked at while a scan grows.
 class StationCloud {
  public:
-  explicit StationCloud(const Rig& rig) : rig_(rig), rays_(rays_of(rig.camera.model)) {}
+  explicit StationCloud(const Rig& rig) : rig_(rig), rays_(rays_of(rig.reference().model)) {}
 
   /// The points of a view at a turntable angle; none when its phase does not fit the rig.
   ///

@@ -60,7 +60,7 @@ std::vector<Shot> shots_of(const Pattern& pattern,
 }
 
 FrameStack empty_stack(const Pattern& pattern, int exposure, const SimulatedScene& scene) {
-  FrameStack stack{pattern, {}, scene.known_rig.camera.white_level, exposure};
+  FrameStack stack{pattern, {}, scene.known_rig.reference().white_level, exposure};
   const int width = scene.rays.width();
   const int height = scene.rays.height();
   for (int i = 0; i < pattern.frame_count(); ++i) {

@@ -80,7 +80,7 @@ Frame BenchCamera::capture(const SimulatedBench& bench,
   if (shots.front().picture != nullptr && bench.picture.empty()) shots.front().picture = &kDark;
   const int width = bench.scene->rays.width();
   const int height = bench.scene->rays.height();
-  FrameStack stack{pattern_on(bench), {}, bench.scene->known_rig.camera.white_level};
+  FrameStack stack{pattern_on(bench), {}, bench.scene->known_rig.reference().white_level};
   const bool bytes = bench.scene->options.bits == 8;
   stack.frames.push_back(bytes ? Frame(Image<std::uint8_t>(width, height, Uninitialized{}))
                                : Frame(Image<std::uint16_t>(width, height, Uninitialized{})));

@@ -28,13 +28,13 @@ SimulateOptions read_options(DeviceSettings& settings, const Rig& rig) {
   options.seed = static_cast<std::uint64_t>(settings.integer_or("seed", 1, 0, 1'000'000'000));
   options.samples_per_px = settings.integer_or("samples", 1, 1, 64);
   // A further camera has noise of its own.
-  for (const char letter : rig.camera.name)
+  for (const char letter : rig.reference().name)
     options.seed = hash(options.seed, static_cast<std::uint64_t>(letter));
-  options.bits = static_cast<int>(std::lround(std::log2(rig.camera.white_level + 1)));
-  if (rig.camera.noise) {
-    const double e_per_count = 1.0 / rig.camera.noise->slope_counts;
-    const double read2_counts = std::max(0.0, rig.camera.noise->floor_counts2 - 1.0 / 12.0);
-    options.full_well_e = e_per_count * rig.camera.white_level;
+  options.bits = static_cast<int>(std::lround(std::log2(rig.reference().white_level + 1)));
+  if (rig.reference().noise) {
+    const double e_per_count = 1.0 / rig.reference().noise->slope_counts;
+    const double read2_counts = std::max(0.0, rig.reference().noise->floor_counts2 - 1.0 / 12.0);
+    options.full_well_e = e_per_count * rig.reference().white_level;
     options.read_e = e_per_count * std::sqrt(read2_counts);
   }
   options.ambient = settings.number_or("ambient", options.ambient);
@@ -97,10 +97,10 @@ std::shared_ptr<const SimulatedScene> make_board_scene(DeviceSettings& settings,
 Rig true_rig(DeviceSettings& settings, const Rig& known) {
   if (!settings.has("true_rig")) return known;
   Rig truth = read_rig(settings.path("true_rig"));
-  if (truth.camera.model.width_px != known.camera.model.width_px ||
-      truth.camera.model.height_px != known.camera.model.height_px)
+  if (truth.reference().model.width_px != known.reference().model.width_px ||
+      truth.reference().model.height_px != known.reference().model.height_px)
     settings.fail("true_rig", "has a camera of another size; correct [camera] size_px");
-  truth.camera.white_level = known.camera.white_level;
+  truth.reference().white_level = known.reference().white_level;
   return truth;
 }
 
@@ -110,7 +110,7 @@ class SceneOfSetups {
   SceneOfSetups(DeviceSettings& settings, const Rig& rig, SimulatedBench& bench)
       : tilt_rad_(rad_from_deg(settings.number_or("setup_tilt_deg", 180.0, -360.0, 360.0))) {
     if (bench.board) {
-      if (!rig.camera.name.empty())
+      if (!rig.reference().name.empty())
         settings.fail("driver", "shows a simulated board to one camera; remove [[more_cameras]]");
       first_ = make_board_scene(settings, rig, bench);
       return;
@@ -162,10 +162,10 @@ class SimulatedCamera final : public CameraDevice {
         real_time_(settings.flag_or("real_time", false)),
         scenes_(settings, true_rig(settings, rig), *bench_),
         reference_exposure_ms_(settings.number_or("reference_exposure_ms", 10.0, 1e-3, 1e5)) {
-    if (rig.camera.name.empty()) bench_->scene = scenes_.of(0);  // of the reference camera
-    info_.width_px = rig.camera.model.width_px;
-    info_.height_px = rig.camera.model.height_px;
-    info_.white_level = scenes_.of(0)->known_rig.camera.white_level;
+    if (rig.reference().name.empty()) bench_->scene = scenes_.of(0);  // of the reference camera
+    info_.width_px = rig.reference().model.width_px;
+    info_.height_px = rig.reference().model.height_px;
+    info_.white_level = scenes_.of(0)->known_rig.reference().white_level;
     info_.min_exposure_ms = 1e-3;
     info_.max_gain_db = 24.0;
   }

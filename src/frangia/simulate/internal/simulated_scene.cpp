@@ -178,18 +178,17 @@ SimulatedScene make_simulated_scene(const Mesh& part,
                        .normals = std::move(normals),
                        .rig = rig,
                        .known_rig = rig,
-                       .rays = rays_of(rig.camera.model),
+                       .rays = rays_of(rig.reference().model),
                        .part_from_object = part_pose.inverse(),
                        .options = options};
-  set_noise(scene.known_rig.camera, options);
-  for (PosedCamera& posed : scene.known_rig.more_cameras)
+  for (PosedCamera& posed : scene.known_rig.cameras)
     set_noise(posed.camera, options);
   scene.rig.turntable = true_turntable(*rig.turntable, options);
   if (camera > 0) {
     scene.camera = camera;
     scene.rig = rig_of_camera(scene.rig, camera);
     scene.known_rig = rig_of_camera(scene.known_rig, camera);
-    scene.rays = rays_of(scene.rig.camera.model);
+    scene.rays = rays_of(scene.rig.reference().model);
   }
   scene.working_distance_mm =
       (scene.rig.projector.position_mm - scene.rig.turntable->point_mm).norm();

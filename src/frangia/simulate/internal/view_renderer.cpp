@@ -112,7 +112,7 @@ LitRow ViewRenderer::sample_row(int y) const {
   const bool gathers = options_.bounces > 0 || options_.subsurface_mm > 0.0;
   if (gathers) row_light.gathered.resize(static_cast<std::size_t>(scene_.rays.width()));
   samples.reserve(static_cast<std::size_t>(scene_.rays.width()) * samples_per_px_);
-  const CameraModel& model = scene_.rig.camera.model;
+  const CameraModel& model = scene_.rig.reference().model;
   for (int x = 0; x < scene_.rays.width(); ++x) {
     const Eigen::Vector2d center = scene_.rays(x, y).cast<double>();
     // The undistortion is linear within a pixel: its slope replaces one undistortion per sample.

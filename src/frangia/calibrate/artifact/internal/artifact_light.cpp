@@ -36,7 +36,7 @@ TurnedSurface turned_surface(const ArtifactProblem& problem,
                              const Eigen::Vector2d& pixel) {
   const ArtifactCapture& seen = problem.captures[capture];
   const auto* balls = std::get_if<Balls>(&seen.artifact);
-  return {ray_at(problem.start.camera.model, pixel),
+  return {ray_at(problem.start.reference().model, pixel),
           {problem.start.turntable->point_mm, problem.start.turntable->axis},
           view.angle_rad,
           seen.surfaces[static_cast<std::size_t>(surface)],

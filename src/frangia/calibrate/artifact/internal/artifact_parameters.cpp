@@ -11,7 +11,7 @@ namespace frangia {
 ArtifactParameters artifact_start(const ArtifactProblem& problem) {
   const Rig& rig = problem.start;
   ArtifactParameters out;
-  out.camera = intrinsics_block(rig.camera.model);
+  out.camera = intrinsics_block(rig.reference().model);
   if (const auto* pinhole = std::get_if<PinholeModel>(&rig.projector.model)) {
     out.projector = intrinsics_block(*pinhole);
   } else {
@@ -43,7 +43,7 @@ ArtifactParameters artifact_start(const ArtifactProblem& problem) {
 
 Rig artifact_rig(const ArtifactProblem& problem, const ArtifactParameters& parameters) {
   Rig rig = problem.start;
-  rig.camera.model = with_intrinsics(rig.camera.model, parameters.camera);
+  rig.reference().model = with_intrinsics(rig.reference().model, parameters.camera);
   if (auto* pinhole = std::get_if<PinholeModel>(&rig.projector.model)) {
     *pinhole = with_intrinsics(*pinhole, parameters.projector);
   } else {

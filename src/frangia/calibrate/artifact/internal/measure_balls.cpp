@@ -37,18 +37,17 @@ bool is_frontal(const Eigen::Vector3d& point, const Eigen::Vector3d& center, con
 ArtifactCapture measure_balls(const Scan& scan,
                               const Rig& rig,
                               const CalibrateArtifactsOptions& options,
-                              const Run& run,
-                              std::vector<std::string>& left_out) {
+                              const Run& run) {
   const auto& balls = std::get<Balls>(*scan.artifact);
   constexpr double kFarOff = 12.0;  // diameters, where the rig has no turntable
   const std::size_t count = balls.spacing_mm ? 2 : 1;
   // Within a tenth of the radius the surface of a ball is quadratic to 1e-5 of it.
   const double apparent_px =
-      0.5 * balls.diameter_mm * rig.camera.model.focal_px.x() /
+      0.5 * balls.diameter_mm * rig.reference().model.focal_px.x() /
       (rig.turntable ? rig.turntable->point_mm.z() : kFarOff * balls.diameter_mm);
   const int step = std::max(2,
                             std::min(static_cast<int>(std::lround(0.1 * apparent_px)),
-                                     site_step(rig.camera.model, options.ball_sites)));
+                                     site_step(rig.reference().model, options.ball_sites)));
   const auto measured = measure_sites(scan, rig, site_options(step), run);
   ArtifactCapture capture{balls, {}, {}};
   std::vector<Eigen::Vector3d> before;
@@ -59,7 +58,7 @@ ArtifactCapture measure_balls(const Scan& scan,
         find_balls(points, 0.5 * balls.diameter_mm, count, options.balls);
     ArtifactView view{scan.views[i].folder.generic_string(), scan.views[i].angle_rad, {}, {}, {}};
     if (found.size() < count) {
-      left_out.push_back(view.name);
+      capture.left_out.push_back(view.name);
       continue;
     }
     const Eigen::Isometry3d to_zero = table_turn(rig, -view.angle_rad);

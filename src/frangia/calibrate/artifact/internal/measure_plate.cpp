@@ -74,7 +74,7 @@ std::vector<LinePixel> line_on(const Scan& scan,
   std::vector<FrameStack> fringes;
   for (const FrameStack& stack : stacks)
     if (stack.pattern.kind == PatternKind::Fringe) fringes.push_back(stack);
-  const NoiseModel noise = rig.camera.noise.value_or(NoiseModel{});
+  const NoiseModel noise = rig.reference().noise.value_or(NoiseModel{});
   constexpr std::size_t kEvery = 4;  // rows, which share the noise of one line
   const std::vector<ProfilePoint> profile = laser_profile(*found, board_image(fringes), rig, noise);
   for (std::size_t i = 0; i < profile.size(); i += kEvery) {
@@ -91,10 +91,9 @@ std::vector<LinePixel> line_on(const Scan& scan,
 ArtifactCapture measure_plate(const Scan& scan,
                               const Rig& rig,
                               const CalibrateArtifactsOptions& options,
-                              const Run& run,
-                              std::vector<std::string>& left_out) {
+                              const Run& run) {
   constexpr std::size_t kFewestSites = 60;
-  const int step = site_step(rig.camera.model, options.plate_sites);
+  const int step = site_step(rig.reference().model, options.plate_sites);
   auto measured = measure_sites(scan, rig, site_options(step), run);
   remove_static(measured);
   ArtifactCapture capture{Plate{}, {}, {}};
@@ -104,7 +103,7 @@ ArtifactCapture measure_plate(const Scan& scan,
     std::vector<double> light;
     std::size_t seen = 0;
     for (const LightSite& site : measured[i]) {
-      rays.push_back(rig.camera.model.ray(site.camera_px));
+      rays.push_back(rig.reference().model.ray(site.camera_px));
       const double value = site.light.x();
       light.push_back(rig.projector.is_angular() ? std::tan(value) : value);
       if (!std::isnan(value)) ++seen;
@@ -118,7 +117,7 @@ ArtifactCapture measure_plate(const Scan& scan,
                        static_cast<double>(view.sites.size()) >
                            options.min_plate_share * static_cast<double>(seen);
     if (!found) {
-      left_out.push_back(view.name);
+      capture.left_out.push_back(view.name);
       continue;
     }
     view.line = line_on(scan, i, rig, view.sites, step, run);

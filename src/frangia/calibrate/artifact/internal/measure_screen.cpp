@@ -38,7 +38,7 @@ std::vector<ScreenView> measure_screen(const Scan& scan,
   display.projector = Projector{};
   display.projector.model =
       PinholeModel{.width_px = screen.width_px, .height_px = screen.height_px};
-  const int step = site_step(scan.rig.camera.model, options.screen_sites);
+  const int step = site_step(scan.rig.reference().model, options.screen_sites);
   auto measured = measure_sites(scan, display, site_options(step), run);
   std::vector<ScreenView> views;
   for (std::size_t i = 0; i < measured.size(); ++i) {

@@ -66,7 +66,7 @@ std::vector<Eigen::Vector3d> site_points(const std::vector<LightSite>& sites, co
   const double phase_per_light = rig.projector.is_angular() ? kTwoPi * deg_from_rad(1.0) : kTwoPi;
   std::vector<Eigen::Vector3d> points;
   for (const LightSite& site : sites) {
-    const Eigen::Vector2d ray = rig.camera.model.ray(site.camera_px);
+    const Eigen::Vector2d ray = rig.reference().model.ray(site.camera_px);
     const double phase = phase_per_light * site.light.x();
     points.emplace_back(intersect_fringe(ray, phase, pattern, rig.projector).depth_mm *
                         ray.homogeneous());

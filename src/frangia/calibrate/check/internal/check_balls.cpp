@@ -62,15 +62,13 @@ Eigen::Vector3d center_of(const std::vector<Eigen::Vector3d>& points,
 
 }  // namespace
 
-void check_balls_of(const Scan& scan,
-                    const CheckRigOptions& options,
-                    const CheckedCamera& camera,
-                    const Run& run,
-                    RigCheck& check) {
+RigCheck check_balls_of(const Scan& scan,
+                        const CheckRigOptions& options,
+                        const CheckedCamera& camera,
+                        const Run& run) {
   const Rig& rig = scan.rig;
   const auto& balls = std::get<Balls>(*scan.artifact);
-  const ArtifactCapture capture = measure_balls(scan, rig, options.measure, run, check.left_out);
-  check.views = std::max(check.views, capture.views.size());
+  const ArtifactCapture capture = measure_balls(scan, rig, options.measure, run);
   const std::size_t count = capture.surfaces.size();
   std::vector<double> spacings;
   std::vector<std::vector<double>> diameters(count);
@@ -91,7 +89,8 @@ void check_balls_of(const Scan& scan,
     }
     if (count == 2) spacings.push_back((here[1] - here[0]).norm());
   }
-  CheckLimits limits(camera, all, options, check);
+  CheckLimits limits(
+      camera, all, options, {.views = capture.views.size(), .left_out = capture.left_out});
   if (count == 2) {
     const MeanOf spacing = mean_of(spacings);
     limits.add("spacing",
@@ -109,7 +108,7 @@ void check_balls_of(const Scan& scan,
                4.0,
                fmt::format("{:.4f} mm, {:g} mm are known", diameter.mean, balls.diameter_mm));
   }
-  if (!rig.turntable || capture.views.size() < 2) return;
+  if (!rig.turntable || capture.views.size() < 2) return limits.result();
   double square = 0.0;
   for (const std::vector<Eigen::Vector3d>& places : centers) {
     Eigen::Vector3d mean = Eigen::Vector3d::Zero();
@@ -123,6 +122,7 @@ void check_balls_of(const Scan& scan,
              0.0,
              1.0,
              fmt::format("differs by {:.4f} mm rms between the views", std::sqrt(square)));
+  return limits.result();
 }
 
 }  // namespace frangia

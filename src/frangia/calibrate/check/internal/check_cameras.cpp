@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -8,7 +9,6 @@
 #include "frangia/calibrate/check/internal/compare_views.h"
 #include "frangia/core/error.h"
 #include "frangia/dataset/scan_of_camera.h"
-#include "frangia/rig/rig_of_camera.h"
 
 namespace frangia {
 namespace {
@@ -25,20 +25,18 @@ std::vector<PartView> views_of(const Scan& scan,
   for (std::size_t i = 0; i < used; ++i) {
     run.check();
     views.push_back(measure_part_view(own, i * count / used, options.part_sites, run));
-    views.back().camera_from_zero = camera_from_rig(scan.rig, camera);
+    views.back().camera_from_zero = scan.rig.cameras[camera].camera_from_rig();
   }
   return views;
 }
 
 }  // namespace
 
-void check_cameras_of(const Scan& scan,
-                      const CheckRigOptions& options,
-                      const Run& run,
-                      RigCheck& check) {
+RigCheck check_cameras_of(const Scan& scan, const CheckRigOptions& options, const Run& run) {
+  RigCheck all;
   const std::vector<PartView> reference = views_of(scan, 0, options, run);
-  for (std::size_t camera = 1; camera < camera_count(scan.rig); ++camera) {
-    const std::string& name = scan.rig.more_cameras[camera - 1].camera.name;
+  for (std::size_t camera = 1; camera < scan.rig.cameras.size(); ++camera) {
+    const std::string& name = scan.rig.cameras[camera].camera.name;
     const std::vector<PartView> views = views_of(scan, camera, options, run);
     PatchDistances patches;
     std::vector<Eigen::Vector3d> points;  // in the frame of the camera
@@ -58,9 +56,11 @@ void check_cameras_of(const Scan& scan,
                               patches.mean_mm.size(),
                               options.match_share));
     }
-    CheckLimits limits({scan.rig, camera}, points, options, check);
+    CheckLimits limits({scan.rig, camera}, points, options);
     limits.add_spread("against the reference", patches);
+    all = joined(std::move(all), limits.result());
   }
+  return all;
 }
 
 }  // namespace frangia

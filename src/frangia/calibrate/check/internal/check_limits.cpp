@@ -8,25 +8,24 @@
 
 #include "frangia/core/median.h"
 #include "frangia/range/calibration_uncertainty.h"
-#include "frangia/rig/rig_of_camera.h"
 
 namespace frangia {
 
 CheckLimits::CheckLimits(const CheckedCamera& camera,
                          const std::vector<Eigen::Vector3d>& points,
                          const CheckRigOptions& options,
-                         RigCheck& check)
-    : options_(options), check_(check) {
+                         RigCheck check)
+    : options_(options), check_(std::move(check)) {
   const Rig& rig = camera.whole;
   if (camera.camera > 0)
-    suffix_ = fmt::format(", camera {}", rig.more_cameras.at(camera.camera - 1).camera.name);
+    suffix_ = fmt::format(", camera {}", rig.cameras.at(camera.camera).camera.name);
   for (const Eigen::Vector3d& point : points)
     distance_mm_ += point.norm() / static_cast<double>(points.size());
-  if (camera.camera == 0) check.distance_mm = distance_mm_;
+  if (camera.camera == 0) check_.distance_mm = distance_mm_;
   if (!rig.calibration || rig.calibration->covariance.empty()) return;
   Pattern pattern;
   (rig.projector.is_angular() ? pattern.fringes_per_degree : pattern.period_px) = 1.0;
-  const Eigen::Isometry3d rig_from_camera = camera_from_rig(rig, camera.camera).inverse();
+  const Eigen::Isometry3d rig_from_camera = rig.cameras[camera.camera].camera_from_rig().inverse();
   std::vector<Eigen::Vector3d> own;  // in the frame of the camera
   std::vector<Eigen::Vector3d> volume;
   constexpr std::size_t kMost = 500;
@@ -35,14 +34,14 @@ CheckLimits::CheckLimits(const CheckedCamera& camera,
     volume.emplace_back(rig_from_camera * points[i]);
   }
   const CalibrationUncertainty uncertainty(rig, pattern, volume, camera.camera);
-  const CameraModel& model = model_of_camera(rig, camera.camera);
+  const CameraModel& model = rig.cameras[camera.camera].camera.model;
   double square = 0.0;
   for (const Eigen::Vector3d& point : own) {
     const Eigen::Vector2d pixel = model.project(point);
     square += std::pow(uncertainty.along_ray_mm(pixel.x(), pixel.y(), point.z()), 2);
   }
   calibration_sigma_mm_ = std::sqrt(square / static_cast<double>(own.size()));
-  check.calibration_sigma_mm = std::max(check.calibration_sigma_mm, calibration_sigma_mm_);
+  check_.calibration_sigma_mm = calibration_sigma_mm_;
 }
 
 void CheckLimits::add(const std::string& name,

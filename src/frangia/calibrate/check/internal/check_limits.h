@@ -19,7 +19,7 @@ class CheckLimits {
   CheckLimits(const CheckedCamera& camera,
               const std::vector<Eigen::Vector3d>& points,
               const CheckRigOptions& options,
-              RigCheck& check);
+              RigCheck check = {});
 
   /// Adds a figure. `points`: how many independent points of the calibration's uncertainty it has.
   void add(const std::string& name,
@@ -29,10 +29,12 @@ class CheckLimits {
            std::string measured);
   /// Adds the robust spread of patches that were measured twice.
   void add_spread(const std::string& name, const PatchDistances& patches);
+  /// The check with all figures.
+  [[nodiscard]] const RigCheck& result() const { return check_; }
 
  private:
   const CheckRigOptions& options_;
-  RigCheck& check_;
+  RigCheck check_;
   std::string suffix_;  ///< names a further camera
   double distance_mm_ = 0.0;
   double calibration_sigma_mm_ = 0.0;

@@ -10,11 +10,10 @@
 
 namespace frangia {
 
-void check_part_of(const Scan& scan,
-                   const CheckRigOptions& options,
-                   const CheckedCamera& camera,
-                   const Run& run,
-                   RigCheck& check) {
+RigCheck check_part_of(const Scan& scan,
+                       const CheckRigOptions& options,
+                       const CheckedCamera& camera,
+                       const Run& run) {
   const Rig& rig = scan.rig;
   if (scan.views.size() < 2) {
     throw Error(ErrorKind::Input,
@@ -34,7 +33,6 @@ void check_part_of(const Scan& scan,
     for (const Eigen::Vector3d& point : views.back().points)
       if (point.allFinite()) all.push_back(point);
   }
-  check.views = views.size();
   if (all.empty()) {
     throw Error(ErrorKind::Input,
                 fmt::format("{}: no point of the part is measured; check that rig and scan belong "
@@ -55,8 +53,9 @@ void check_part_of(const Scan& scan,
                             patches.mean_mm.size(),
                             options.match_share * all.front().norm()));
   }
-  CheckLimits limits(camera, all, options, check);
+  CheckLimits limits(camera, all, options, {.views = views.size()});
   limits.add_spread("disagreement of the views", patches);
+  return limits.result();
 }
 
 }  // namespace frangia

@@ -83,16 +83,15 @@ PatchHeights patch_heights(std::span<const double> heights,
 
 }  // namespace
 
-void check_plate_of(const Scan& scan,
-                    const CheckRigOptions& options,
-                    const CheckedCamera& camera,
-                    const Run& run,
-                    RigCheck& check) {
+RigCheck check_plate_of(const Scan& scan,
+                        const CheckRigOptions& options,
+                        const CheckedCamera& camera,
+                        const Run& run) {
   const Rig& rig = scan.rig;
-  const ArtifactCapture capture = measure_plate(scan, rig, options.measure, run, check.left_out);
-  check.views = std::max(check.views, capture.views.size());
-  const double patch_px = 8.0 * std::max(rig.camera.model.width_px, rig.camera.model.height_px) /
-                          options.measure.plate_sites;
+  const ArtifactCapture capture = measure_plate(scan, rig, options.measure, run);
+  const double patch_px =
+      8.0 * std::max(rig.reference().model.width_px, rig.reference().model.height_px) /
+      options.measure.plate_sites;
   std::vector<Eigen::Vector3d> all;
   std::vector<Eigen::Vector3d> turned;
   std::vector<Eigen::Vector2d> pixels;
@@ -125,13 +124,14 @@ void check_plate_of(const Scan& scan,
                             "third of it",
                             (scan.folder / "scan.toml").string()));
   }
-  CheckLimits limits(camera, all, options, check);
+  CheckLimits limits(
+      camera, all, options, {.views = capture.views.size(), .left_out = capture.left_out});
   limits.add("flatness",
              worst,
              worst_sigma,
              1.0,
              fmt::format("{:.4f} mm from a plane in the worst view", worst));
-  if (!rig.turntable || capture.views.size() < 2) return;
+  if (!rig.turntable || capture.views.size() < 2) return limits.result();
   const std::vector<double> heights = heights_of(turned);
   double together = 0.0;
   double together_sigma = 0.0;
@@ -151,6 +151,7 @@ void check_plate_of(const Scan& scan,
              together_sigma,
              1.0,
              fmt::format("{:.4f} mm from the plane of all views in the worst view", together));
+  return limits.result();
 }
 
 }  // namespace frangia

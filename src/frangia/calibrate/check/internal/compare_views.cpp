@@ -25,7 +25,7 @@ Eigen::Vector3d normal_at(const PartView& view, int column, int row) {
 PartView measure_part_view(const Scan& scan, std::size_t view, int part_sites, const Run& run) {
   const Rig& rig = scan.rig;
   PartView out;
-  out.camera = rig.camera.model;
+  out.camera = rig.reference().model;
   SiteGrid& grid = out.grid;
   grid.step = std::max(1, std::max(out.camera.width_px, out.camera.height_px) / part_sites);
   grid.columns = (out.camera.width_px - grid.step / 2 + grid.step - 1) / grid.step;

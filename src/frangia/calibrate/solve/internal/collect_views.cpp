@@ -23,9 +23,8 @@ std::vector<PoseCapture> measure_poses(const Scan& scan,
                                        const PoseOptions& options,
                                        std::size_t camera,
                                        const Run& run) {
-  Scan own = scan_of_camera(scan, camera);
-  own.rig.more_cameras.clear();  // their frames are in folders of their own
-  const std::size_t all = scan.views.size() * camera_count(scan.rig);
+  const Scan own = scan_of_camera(scan, camera);
+  const std::size_t all = scan.views.size() * scan.rig.cameras.size();
   std::vector<PoseCapture> poses;
   for (std::size_t i = 0; i < own.views.size(); ++i) {
     run.report(static_cast<double>(camera * own.views.size() + i) / static_cast<double>(all));
@@ -45,10 +44,9 @@ PoseChecks check_poses(const std::vector<PoseCapture>& poses,
                        const PoseCheckOptions& options,
                        std::size_t camera,
                        const Run& run) {
-  Rig known = rig_of_camera(scan.rig, camera);
-  known.more_cameras.clear();
+  const Rig known = rig_of_camera(scan.rig, camera);
   const std::string prefix =
-      camera > 0 ? fmt::format("camera \"{}\": ", known.camera.name) : std::string();
+      camera > 0 ? fmt::format("camera \"{}\": ", known.reference().name) : std::string();
   try {
     PoseChecks checks = check_board_views(poses, *scan.board, known, options);
     for (const std::string& warning : checks.warnings)
@@ -64,13 +62,13 @@ bool is_left_out(const PoseChecks& checks, const PoseCapture& pose) {
          checks.left_out.end();
 }
 
-/// Adds the points of a further camera to the views.
-void add_camera(const Scan& scan,
-                const CalibrateRigOptions& options,
-                std::size_t camera,
-                const std::vector<std::size_t>& used,
-                RigCalibration& result,
-                const Run& run) {
+/// The calibration with the points of a further camera in its views.
+RigCalibration with_camera(RigCalibration result,
+                           const Scan& scan,
+                           const CalibrateRigOptions& options,
+                           std::size_t camera,
+                           const std::vector<std::size_t>& used,
+                           const Run& run) {
   std::vector<PoseCapture> poses = measure_poses(scan, options.pose, camera, run);
   const PoseChecks checks = check_poses(poses, scan, options.check, camera, run);
   result.left_out.insert(result.left_out.end(), checks.left_out.begin(), checks.left_out.end());
@@ -82,20 +80,21 @@ void add_camera(const Scan& scan,
     if (left_out) pose.view.points.clear();
     result.views[i].more.push_back(std::move(pose.view.points));
   }
-  if (unseen.empty()) return;
+  if (unseen.empty()) return result;
   run.warn(fmt::format("camera \"{}\": the board is not found in {}; the other {} poses are used",
-                       scan.rig.more_cameras[camera - 1].camera.name,
+                       scan.rig.cameras[camera].camera.name,
                        fmt::join(unseen, ", "),
                        used.size() - unseen.size()));
   result.without_board.insert(result.without_board.end(), unseen.begin(), unseen.end());
+  return result;
 }
 
 }  // namespace
 
-void collect_board_views(const Scan& scan,
-                         const CalibrateRigOptions& options,
-                         RigCalibration& result,
-                         const Run& run) {
+RigCalibration collect_board_views(const Scan& scan,
+                                   const CalibrateRigOptions& options,
+                                   const Run& run) {
+  RigCalibration result;
   std::vector<PoseCapture> poses = measure_poses(scan, options.pose, 0, run);
   const PoseChecks checks = check_poses(poses, scan, options.check, 0, run);
   result.left_out = checks.left_out;
@@ -116,8 +115,9 @@ void collect_board_views(const Scan& scan,
                          fmt::join(result.without_board, ", "),
                          result.views.size()));
   }
-  for (std::size_t camera = 1; camera < camera_count(scan.rig); ++camera)
-    add_camera(scan, options, camera, used, result, run);
+  for (std::size_t camera = 1; camera < scan.rig.cameras.size(); ++camera)
+    result = with_camera(std::move(result), scan, options, camera, used, run);
+  return result;
 }
 
 }  // namespace frangia

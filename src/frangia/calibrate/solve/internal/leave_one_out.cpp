@@ -2,17 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <vector>
 
 #include <Eigen/Cholesky>
 
 namespace frangia {
-void add_leave_one_out(std::span<const RigObservation> observations,
-                       const RigFreedom& freedom,
-                       const RigNoise& noise,
-                       const RigParameters& parameters,
-                       const Eigen::MatrixXd& response,
-                       RigSolution& solution) {
+
+LeaveOneOut leave_one_out(std::span<const RigObservation> observations,
+                          const RigFreedom& freedom,
+                          const RigNoise& noise,
+                          const RigParameters& parameters,
+                          const Eigen::MatrixXd& response) {
+  LeaveOneOut out;
   RigLinearization all = linearize_rig(observations, freedom.layout, noise, parameters);
   const std::vector<Eigen::Index> columns = free_columns(freedom, all.jacobian.cols());
   all.jacobian = all.jacobian(Eigen::all, columns).eval();
@@ -44,11 +44,12 @@ void add_leave_one_out(std::span<const RigObservation> observations,
     slope.segment<kPose>(first).setZero();
     const Eigen::VectorXd step = -others.ldlt().solve(slope);
     const double square = (by_free * step.head(shown)).squaredNorm() / points;
-    solution.leave_one_out_mm.push_back(std::sqrt(square));
+    out.by_view_mm.push_back(std::sqrt(square));
     squares += square;
   }
   const auto count = static_cast<double>(views);
-  solution.spread_mm = std::sqrt((count - 1.0) / count * squares);
+  out.spread_mm = std::sqrt((count - 1.0) / count * squares);
+  return out;
 }
 
 }  // namespace frangia

@@ -25,12 +25,11 @@ void add_priors(const RigFreedom& freedom, std::size_t first, Eigen::MatrixXd& n
 
 }  // namespace
 
-void add_covariance(std::span<const RigObservation> observations,
-                    const RigFreedom& freedom,
-                    const RigNoise& noise,
-                    const RigParameters& parameters,
-                    const std::vector<std::string>& names,
-                    RigSolution& solution) {
+SolvedCovariance covariance_of(std::span<const RigObservation> observations,
+                               const RigFreedom& freedom,
+                               const RigNoise& noise,
+                               const RigParameters& parameters,
+                               const std::vector<std::string>& names) {
   constexpr double kOpen = 1e-12;
   const RigLayout& layout = freedom.layout;
   RigFreedom all = freedom;  // a held term is uncertain, too, and correlated with the others
@@ -41,18 +40,18 @@ void add_covariance(std::span<const RigObservation> observations,
   Eigen::MatrixXd normal = jacobian.transpose() * jacobian;
   add_priors(freedom, 0, normal);
   if (layout.has_projector) add_priors(freedom, layout.projector(), normal);
-  for (std::size_t i = 0; i < layout.more; ++i)
+  for (std::size_t i = 1; i < layout.cameras; ++i)
     add_priors(freedom, layout.camera(i), normal);
   const NormalInverse inverse = invert_normal(normal, kOpen);
-  solution.parameters = names;
-  const auto kept = static_cast<Eigen::Index>(solution.parameters.size());
-  solution.covariance = inverse.covariance.topLeftCorner(kept, kept);
+  const auto kept = static_cast<Eigen::Index>(names.size());
+  SolvedCovariance out{inverse.covariance.topLeftCorner(kept, kept), {}};
   constexpr double kMuch = 0.1;  // share of a parameter that lies in open directions
   for (Eigen::Index i = 0; i < kept; ++i) {
     if (inverse.open[i] < kMuch) continue;
-    solution.undetermined.push_back(solution.parameters[static_cast<std::size_t>(i)]);
-    solution.covariance(i, i) = std::numeric_limits<double>::infinity();
+    out.undetermined.push_back(names[static_cast<std::size_t>(i)]);
+    out.covariance(i, i) = std::numeric_limits<double>::infinity();
   }
+  return out;
 }
 
 }  // namespace frangia

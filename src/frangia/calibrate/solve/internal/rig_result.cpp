@@ -26,17 +26,11 @@ struct ResidualSink {
   std::vector<std::vector<Eigen::Vector2d>>* points = nullptr;
 };
 
-ResidualSink sink_of(RigSolution& solution, std::size_t camera, bool by_projector) {
-  if (camera == 0 && by_projector) {
-    return {&solution.projector_residuals,
-            &solution.projector_by_view,
-            &solution.projector_residuals_px};
-  }
-  if (camera == 0)
-    return {&solution.camera_residuals, &solution.camera_by_view, &solution.camera_residuals_px};
-  FurtherCameraSolution& further = solution.more_cameras[camera - 1];
-  if (by_projector) return {&further.projector_residuals, &further.projector_by_view};
-  return {&further.residuals, &further.by_view, &further.residuals_px};
+ResidualSink sink_of(SolvedCamera& camera, bool is_reference, bool by_projector) {
+  if (!by_projector) return {&camera.residuals, &camera.by_view, &camera.residuals_px};
+  return {&camera.projector_residuals,
+          &camera.projector_by_view,
+          is_reference ? &camera.projector_residuals_px : nullptr};
 }
 
 void add_residual(const Eigen::Vector2d& residual, ResidualSummary& summary) {
@@ -52,8 +46,8 @@ void finish(ResidualSummary& summary) {
 
 }  // namespace
 
-void add_devices(const Rig& known, const RigParameters& parameters, RigSolution& solution) {
-  solution.camera = model_of(parameters.camera, known.camera.model);
+RigSolution solution_of(const Rig& known, const RigParameters& parameters) {
+  RigSolution solution;
   solution.has_projector = !known.projector.is_label;
   const auto& projector = std::get<PinholeModel>(known.projector.model);
   if (solution.has_projector) {
@@ -62,30 +56,32 @@ void add_devices(const Rig& known, const RigParameters& parameters, RigSolution&
   } else {
     solution.projector = projector;
   }
-  for (std::size_t i = 0; i < parameters.more.size(); ++i) {
-    const Camera& camera = known.more_cameras[i].camera;
-    FurtherCameraSolution& further = solution.more_cameras.emplace_back();
-    further.name = camera.name;
-    further.model = model_of(parameters.more[i].intrinsics, camera.model);
-    further.camera_from_rig = isometry_of(parameters.more[i].from_reference);
+  solution.cameras.resize(parameters.cameras.size());
+  for (std::size_t i = 0; i < solution.cameras.size(); ++i) {
+    const Camera& camera = known.cameras[i].camera;
+    solution.cameras[i].name = camera.name;
+    solution.cameras[i].model = model_of(parameters.cameras[i].intrinsics, camera.model);
+    solution.cameras[i].camera_from_rig = isometry_of(parameters.cameras[i].from_reference);
   }
   for (const RigParameters::Pose& pose : parameters.camera_from_board)
     solution.camera_from_board.push_back(isometry_of(pose));
   solution.board.aspect = parameters.board[0];
   solution.board.shear = parameters.board[1];
   std::copy(parameters.board.begin() + 2, parameters.board.end(), solution.board.height_mm.begin());
+  return solution;
 }
 
-void add_residuals(std::span<const RigObservation> observations,
-                   std::span<const BoardView> views,
-                   const RigParameters& parameters,
-                   const RigNoise& noise,
-                   RigSolution& solution) {
+std::vector<SolvedCamera> with_residuals(std::vector<SolvedCamera> cameras,
+                                         std::span<const RigObservation> observations,
+                                         std::span<const BoardView> views,
+                                         const RigParameters& parameters,
+                                         const RigNoise& noise) {
   const Eigen::Vector2d none = Eigen::Vector2d::Constant(std::nan(""));
   std::vector<ResidualSink> sinks;
-  for (std::size_t camera = 0; camera <= solution.more_cameras.size(); ++camera) {
+  for (std::size_t camera = 0; camera < cameras.size(); ++camera) {
     for (const bool by_projector : {false, true}) {
-      const ResidualSink& sink = sinks.emplace_back(sink_of(solution, camera, by_projector));
+      const ResidualSink& sink =
+          sinks.emplace_back(sink_of(cameras[camera], camera == 0, by_projector));
       sink.by_view->resize(views.size());
       sink.all->sigma_px = (by_projector ? noise.projector : noise.camera)[camera];
       if (sink.points == nullptr) continue;
@@ -105,6 +101,7 @@ void add_residuals(std::span<const RigObservation> observations,
     finish(*sink.all);
     std::for_each(sink.by_view->begin(), sink.by_view->end(), finish);
   }
+  return cameras;
 }
 
 }  // namespace frangia

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <span>
+#include <vector>
 
 #include "frangia/calibrate/internal/rig_bundle.h"
 #include "frangia/calibrate/solve/solve_rig.h"
@@ -8,15 +9,15 @@
 
 namespace frangia {
 
-/// Adds the models and poses of all devices, the poses of the board and its shape to a solution.
-/// The sizes are those of the known rig.
-void add_devices(const Rig& known, const RigParameters& parameters, RigSolution& solution);
+/// A solution with the models and poses of all devices, the poses of the board and its shape. The
+/// sizes are those of the known rig.
+[[nodiscard]] RigSolution solution_of(const Rig& known, const RigParameters& parameters);
 
-/// Adds the residuals of all devices and their summaries. `add_devices` comes first.
-void add_residuals(std::span<const RigObservation> observations,
-                   std::span<const BoardView> views,
-                   const RigParameters& parameters,
-                   const RigNoise& noise,
-                   RigSolution& solution);
+/// The cameras of a solution with their residuals and the summaries of these.
+[[nodiscard]] std::vector<SolvedCamera> with_residuals(std::vector<SolvedCamera> cameras,
+                                                       std::span<const RigObservation> observations,
+                                                       std::span<const BoardView> views,
+                                                       const RigParameters& parameters,
+                                                       const RigNoise& noise);
 
 }  // namespace frangia

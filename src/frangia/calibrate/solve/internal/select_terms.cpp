@@ -38,7 +38,7 @@ std::vector<ModelTerm> optional_terms(const RigLayout& layout,
   add_lens_terms("camera", 0, terms);
   if (layout.has_projector) add_lens_terms("projector", layout.projector(), terms);
   for (std::size_t i = 0; i < cameras.size(); ++i)
-    add_lens_terms("camera \"" + cameras[i] + "\"", layout.camera(i), terms);
+    add_lens_terms("camera \"" + cameras[i] + "\"", layout.camera(i + 1), terms);
   if (!release_board) return terms;
   const auto add = [&](const char* name, std::size_t begin, std::size_t end) {
     ModelTerm& term = terms.emplace_back();

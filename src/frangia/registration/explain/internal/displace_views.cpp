@@ -36,8 +36,8 @@ void displace_views(std::vector<SurfelMap>& maps,
         SurfelMap::Surfel& surfel = surfels[i];
         if (!(surfel.sigma_mm > 0.0F)) continue;
         const Eigen::Vector3d point = surfel.point_mm.cast<double>();
-        const Eigen::Vector2d pixel = stated.camera.model.project(point);
-        const Eigen::Vector2d ray = rig.camera.model.ray(pixel);
+        const Eigen::Vector2d pixel = stated.reference().model.project(point);
+        const Eigen::Vector2d ray = rig.reference().model.ray(pixel);
         const double phase_rad = phase_at(point, pattern, stated.projector);
         const RayDepth found = intersect_fringe(ray, phase_rad, pattern, rig.projector);
         if (std::isnan(found.depth_mm)) {
