@@ -42,7 +42,7 @@ inline void add_decode_options(CLI::App& verb, DecodeOptions& options) {
       "--undo-response",
       [&options](const std::string& path) {
         options.undo_own_response = path == "auto";
-        if (options.undo_own_response) return;
+        if (path == "auto" || path == "none") return;
         const Projector projector = read_rig(path).projector;
         options.response = projector.response;
         options.waveforms = projector.waveforms;
@@ -51,9 +51,10 @@ inline void add_decode_options(CLI::App& verb, DecodeOptions& options) {
                       path + " has no [projector.response]; measure one with `frangia response`");
         }
       },
-      "a rig.toml with the [projector.response] of a projector that showed the patterns without a "
-      "look-up table; the response is corrected in the phase; auto: the harmonics that the frames "
-      "of the scan show are corrected");
+      "what the response of a projector without a look-up table did to the phase: auto (default: "
+      "the "
+      "harmonics that the frames show are corrected where they shift the phase), none (they are "
+      "counted in sigma), or a rig.toml with its [projector.response]");
   CLI::Option* phase = verb.add_option_function<std::string>(
       "--phase",
       [&options](const std::string& folder) {

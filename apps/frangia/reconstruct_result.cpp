@@ -10,6 +10,7 @@
 
 #include "counted.h"
 #include "fixed_text.h"
+#include "json_number.h"
 #include "mesh_result.h"
 #include "option_names.h"
 #include "print_text.h"
@@ -134,31 +135,44 @@ std::string table_of(const std::vector<ViewSummary>& views) {
   return text_table({name, angle, points, sigma, state});
 }
 
-/// What a disagreement over its noise says about the rig.
-const char* verdict(double over_noise) {
-  constexpr double kSound = 2.0;  // times the noise: calibrations of real rigs add as much again
-  return over_noise <= kSound ? "the rig is consistent"
-                              : "errors of the rig's calibration or of the phases exceed the noise";
-}
-
-/// The check of the rig by its cameras.
-void print_cameras(const Reconstruction& result) {
-  if (result.cameras < 2) return;
-  if (std::isnan(result.camera_disagreement_mm)) {
+/// The check of the rig by what was measured twice; what contradicts has been said before.
+void print_agreements(const Reconstruction& result) {
+  bool compared = false;
+  for (const RigAgreement& agreement : result.agreements) {
+    compared = compared || agreement.by == MeasuredTwiceBy::Cameras;
+    if (agreement.is_consistent()) print_text("{}\n", with_flags(agreement.text()));
+  }
+  if (result.cameras > 1 && !compared) {
     print_text("{} cameras: nothing compares them; fringes in both directions would\n",
                result.cameras);
-    return;
   }
-  print_text("{} cameras: {:.4f} mm apart (median), {:.1f} times their noise: {}\n",
-             result.cameras,
-             result.camera_disagreement_mm,
-             result.camera_disagreement_over_noise,
-             verdict(result.camera_disagreement_over_noise));
+}
+
+nlohmann::ordered_json json_of(const RigAgreement& agreement) {
+  const Explanation& found = agreement.explanation;
+  return {{"disagreement_mm", agreement.median_mm},  // NaN becomes null
+          {"over_noise", agreement.over_noise},
+          {"chi_squared", agreement.chi_squared},
+          {"beyond", agreement.beyond},
+          {"consistent", agreement.is_consistent()},
+          {"best", found.best},
+          {"second", found.second},
+          {"log10_odds", number_or_null(found.log_odds / std::log(10.0))},
+          {"unexplained", number_or_null(found.unexplained)},
+          {"remedy", with_flags(found.remedy)},
+          {"text", with_flags(agreement.text())}};
 }
 
 /// The answer of --json.
 nlohmann::ordered_json json_of(const Reconstruction& result, const std::filesystem::path& raw) {
   nlohmann::ordered_json json;
+  if (result.cameras > 1) {
+    json["cameras"] = {
+        {"count", result.cameras}, {"disagreement_mm", nullptr}, {"over_noise", nullptr}};
+  }
+  for (const RigAgreement& agreement : result.agreements)
+    json[agreement.by == MeasuredTwiceBy::Directions ? "directions" : "cameras"].update(
+        json_of(agreement));
   json["points"] = result.points;
   json["views"] = result.views;
   json["per_view"] = json_of(result.view_summaries);
@@ -166,15 +180,6 @@ nlohmann::ordered_json json_of(const Reconstruction& result, const std::filesyst
   json["triangles"] = result.mesh.triangles.size();
   json["islands_removed"] = json_of(result.islands);
   json["median_sigma"] = json_of(result.sigma);
-  if (!std::isnan(result.disagreement_mm)) {
-    json["directions"] = {{"disagreement_mm", result.disagreement_mm},
-                          {"over_noise", result.disagreement_over_noise}};
-  }
-  if (result.cameras > 1) {
-    json["cameras"] = {{"count", result.cameras},
-                       {"disagreement_mm", result.camera_disagreement_mm},  // NaN becomes null
-                       {"over_noise", result.camera_disagreement_over_noise}};
-  }
   if (result.indirect_light) {
     json["indirect_light"] = {{"reflectance", result.indirect_light->albedo},
                               {"affected", result.indirect_light->affected},
@@ -200,7 +205,7 @@ void print_reconstruction(const Reconstruction& result,
   }
   if (terminal.quiet) return;
   terminal.finish();
-  print_cameras(result);
+  print_agreements(result);
   write_output(table_of(result.view_summaries));
   print_text("{} points from {} -> {} triangles{}{}\n",
              result.points,
@@ -209,12 +214,6 @@ void print_reconstruction(const Reconstruction& result,
              text_of(result.sigma),
              text_of(result.islands));
   if (result.refinement) print_refinement(*result.refinement);
-  if (!std::isnan(result.disagreement_mm)) {
-    print_text("directions of fringes: {:.4f} mm apart (median), {:.1f} times their noise: {}\n",
-               result.disagreement_mm,
-               result.disagreement_over_noise,
-               verdict(result.disagreement_over_noise));
-  }
   print_mesh_summary(terminal, outputs);
   if (!raw.empty()) terminal.print_written(raw.string());
 }

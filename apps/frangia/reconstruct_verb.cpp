@@ -70,6 +70,10 @@ void reconstruct_verb(ReconstructArguments& arguments, Terminal& terminal) {
   const Reconstruction result = reconstruct(scan, arguments.options, run);
   run.stage("files");
   write_outputs(result, arguments, run);
+  for (const RigAgreement& agreement : result.agreements) {
+    if (!agreement.is_consistent() && agreement.text() != result.untrusted_reason)
+      terminal.lead(agreement.text());
+  }
   terminal.assess(result.untrusted_reason);
   if (terminal.exit_code == 0 && leaves_out_views(result)) terminal.exit_code = DeviceFault;
   print_reconstruction(result, arguments.outputs.paths, arguments.raw, terminal);

@@ -1,6 +1,8 @@
 #include "simulate_options.h"
 
 #include <charconv>
+#include <map>
+#include <string>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -144,6 +146,9 @@ void add_camera_faults(CLI::App& verb, SimulateArguments& arguments) {
       ->check(above_zero());
   add_fault(verb, kGroup, "--ambient", options.ambient, "ambient light, as a share of white")
       ->check(zero_or_more());
+  add_fault(
+      verb, kGroup, "--camera-blur", options.camera_blur_px, "sigma of the blur of its lens, px")
+      ->check(from_to(0.0, 20.0));
   verb.add_flag("--no-noise", arguments.no_noise, "no shot and no read noise")->group(kGroup);
 }
 
@@ -168,6 +173,15 @@ void add_projector_faults(CLI::App& verb, SimulateArguments& arguments) {
             options.flicker,
             "rms relative error of the projector's light, independent per frame, such as 0.02")
       ->check(from_to(0.0, 0.5));
+  static const std::map<std::string, DisplayedWaveform> kWaveforms = {
+      {"sine", DisplayedWaveform::Sine},
+      {"binary", DisplayedWaveform::Binary},
+      {"dithered", DisplayedWaveform::Dithered}};
+  verb.add_option("--waveform",
+                  options.waveform,
+                  "how a digital projector shows fringes: sine (default), binary or dithered")
+      ->transform(named(kWaveforms))
+      ->group(kGroup);
   add_fault(verb,
             kGroup,
             "--projector-blur",
@@ -184,6 +198,15 @@ void add_part_faults(CLI::App& verb, SimulateArguments& arguments) {
   SimulateOptions& options = arguments.options;
   add_fault(verb, kGroup, "--texture", options.texture, "strength of dark patches, 0 to 1")
       ->check(from_to(0.0, 1.0));
+  constexpr double kChecker_mm = 8.0;
+  verb.add_option_function<std::string>(
+          "--paint",
+          [&options](const std::string& paint) {
+            options.checker_mm = paint == "checker" ? kChecker_mm : 0.0;
+          },
+          "none (default), or checker: cubes of 8 mm, of albedo 0.10 and 0.85")
+      ->check(one_of({"none", "checker"}))
+      ->group(kGroup);
   add_fault(verb, kGroup, "--color", options.color, "strength of bands of changing hue, 0 to 0.95")
       ->check(from_to(0.0, 0.95));
   add_fault(verb, kGroup, "--gloss", options.gloss, "strength of the highlight")

@@ -61,6 +61,15 @@ void Terminal::release() {
   held_.clear();
 }
 
+void Terminal::lead(const std::string& sentence) {
+  warnings_.insert(warnings_.begin(), with_flags(sentence));
+  if (holding_) {
+    held_.insert(held_.begin(), "warning: " + warnings_.front());
+  } else {
+    print_line("warning: " + warnings_.front());
+  }
+}
+
 void Terminal::assess(const std::string& reason) {
   if (!reason.empty()) {
     const std::string text = with_flags(reason);

@@ -33,6 +33,9 @@ class Terminal {
   /// Prints what was kept back.
   void release();
 
+  /// A warning that comes before all that is kept back.
+  void lead(const std::string& sentence);
+
   /// Prints what was kept back. For a result that must not be trusted, prints the reason first,
   /// leaves out the lines that repeat it, and sets the exit code; `reason` is empty otherwise.
   void assess(const std::string& reason);

@@ -88,6 +88,27 @@ TEST_F(CalibrateRig, FindsTheRigThatRenderedThePoses) {
   EXPECT_EQ(found.rig.calibration->sigma.size(), found.solution.parameters.size());
 }
 
+TEST(CalibrateRigByCode, FindsTheRigFromGrayCodeAlone) {
+  const testing::TemporaryFolder folder;
+  CalibrationPlan plan;
+  plan.folder = folder.path() / "poses";
+  plan.rig = testing::small_rig("digital");
+  plan.poses = 5;
+  plan.patterns.sequence = "gray-alone";
+  plan.patterns.fringes = 160.0;
+  static_cast<void>(simulate_calibration(plan, {.samples_per_px = 4}));
+  Scan scan = read_scan(plan.folder, {}, RigContent::StartValues);
+  // The frames of the code show the board, too.
+  std::erase_if(scan.patterns, [](const Pattern& one) { return one.kind == PatternKind::White; });
+  const RigCalibration found = calibrate_rig(scan);
+  const Rig& rig = plan.rig;
+  const auto& projector = std::get<PinholeModel>(found.rig.projector.model);
+  const double true_focal_px = std::get<PinholeModel>(rig.projector.model).focal_px.x();
+  EXPECT_LT(found.solution.reference().projector_residuals.rms_px, 0.4);
+  EXPECT_NEAR(projector.focal_px.x(), true_focal_px, 4e-3 * true_focal_px);
+  EXPECT_NEAR(found.rig.projector.position_mm.norm(), rig.projector.position_mm.norm(), 1.0);
+}
+
 TEST_F(CalibrateRig, WritesAReportThatStandsAlone) {
   const RigCalibration& found = CalibrateRig::found();
   const testing::TemporaryFolder folder;

@@ -101,7 +101,7 @@ std::vector<AlbedoSample> exact_samples(double albedo, double sigma_rad, int out
 
 TEST(EstimateAlbedoExactly, IsTheReflectanceOfExactFramesBetweenItsSteps) {
   const auto patterns = of_periods({64.0, 16.0});
-  for (const double albedo : {0.12, 0.4, 0.66, 1.0}) {
+  for (const double albedo : {0.12, 0.4, 0.66, 0.93}) {
     const AlbedoEstimate found = estimate_albedo(exact_samples(albedo, 0.01), patterns);
     EXPECT_TRUE(found.significant);
     EXPECT_NEAR(found.albedo, albedo, 0.006);

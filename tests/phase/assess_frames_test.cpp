@@ -101,7 +101,7 @@ TEST(AssessFrames, NamesTheHarmonicOfAGammaAndNotMotion) {
   const FrameAssessment three = assess({.gamma = 1.8}, 3);
   EXPECT_NEAR(three.harmonic_error_rad, 0.149, 0.01);
   EXPECT_TRUE(needs_attention(three));
-  EXPECT_TRUE(contains(describe(three), "set `undo_response` to auto")) << describe(three);
+  EXPECT_TRUE(contains(describe(three), "give it as `undo_response`")) << describe(three);
   EXPECT_FALSE(needs_attention(assess({.gamma = 1.8, .dark_counts = 40.0}, 6)));
 }
 

@@ -1,6 +1,8 @@
 #include "frangia/phase/waveform/systematic_phase.h"
 
+#include <algorithm>
 #include <cmath>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -33,10 +35,8 @@ PhaseErrors errors_of(const DisplayScene& scene, int frames, bool correct = fals
   const FittedAlgorithm fitted = fit_algorithm("auto", stack, noise);
   WrappedPhase map = wrap_phase(stack, fitted.algorithm, noise);
   std::optional<ResponseTable> table;
-  if (correct && fitted.waveform.largest_harmonic() > 0) {
-    table = response_table(fitted.waveform.waveform, fitted.algorithm, shifts);
-    correct_response(*table, map);
-  }
+  if (correct) table = own_correction(fitted, fitted.algorithm);
+  if (table) correct_response(*table, map);
   PhaseErrors out;
   out.systematic_rad = systematic_phase(fitted, table ? &*table : nullptr).rad;
   double count = 0.0;
@@ -79,6 +79,62 @@ TEST(SystematicPhase, AfterTheCorrectionOfTheFramesOwnHarmonicsIsTheNoiseOfALine
     EXPECT_GT(corrected.over_sigma, 0.7) << frames;
     EXPECT_LT(corrected.over_sigma, 1.5) << frames;
   }
+}
+
+/// A square wave after a blur of `sigma` in its phase: its Fourier series, in a table.
+std::function<double(double)> blurred_square(double sigma) {
+  constexpr int kSteps = 4096;
+  std::vector<double> table(kSteps, 0.0);
+  for (int i = 0; i < kSteps; ++i) {
+    const double phase = kTwoPi * i / kSteps;
+    double& light = table[static_cast<std::size_t>(i)];
+    for (int n = 1; n < 60; n += 2) {
+      light += (n % 4 == 1 ? 1.0 : -1.0) * 4.0 / (kPi * n) * std::cos(n * phase) *
+               std::exp(-0.5 * n * n * sigma * sigma);
+    }
+    light = std::clamp(light, -1.0, 1.0);
+  }
+  return [table](double phase) {
+    const auto step = std::lround(phase / kTwoPi * kSteps);
+    return table[static_cast<std::size_t>((step % kSteps + kSteps) % kSteps)];
+  };
+}
+
+TEST(SystematicPhase, CoversBinaryPatternsWithAnyBlur) {
+  for (const double blur_px : {0.5, 1.0, 2.0, 4.0}) {
+    for (const int frames : {3, 4, 5, 6, 12}) {
+      DisplayScene scene;
+      scene.waveform = blurred_square(kTwoPi * blur_px / scene.period_px);
+      EXPECT_LT(errors_of(scene, frames, true).over_sigma, 1.5)
+          << frames << " frames, blur " << blur_px << " px";
+    }
+  }
+}
+
+TEST(SystematicPhase, CoversResponsesOfThreeFramesThatAreNoPowerLaw) {
+  const auto response_of = [](double gamma, double bend) {
+    return [=](double phase) {
+      const double level = 0.5 + 0.5 * std::cos(phase);
+      const double light = std::pow(level, gamma);
+      return 2.0 * (light + bend * std::sin(kTwoPi * level)) - 1.0;
+    };
+  };
+  for (const double gamma : {1.4, 1.6, 2.2}) {
+    for (const double bend : {-0.05, -0.02, 0.03}) {
+      DisplayScene scene;
+      scene.waveform = response_of(gamma, bend);
+      EXPECT_LT(errors_of(scene, 3, true).over_sigma, 1.5) << "gamma " << gamma << ", " << bend;
+    }
+  }
+}
+
+TEST(SystematicPhase, IsNotCorrectedWhereNothingIsToBeWon) {
+  const std::vector<double> shifts = equal_shifts(6, kTwoPi / 6);
+  const NoiseModel noise{.floor_counts2 = 1.0 + 1.0 / 12.0};
+  const FittedAlgorithm fitted =
+      fit_algorithm("auto", display_frames({.gamma = 1.8}, shifts), noise);
+  EXPECT_GT(fitted.waveform.largest_harmonic(), 0);  // six steps do not see the second harmonic
+  EXPECT_FALSE(own_correction(fitted, fitted.algorithm));
 }
 
 TEST(SystematicPhase, FlickerOfTwelveFramesIsCompensated) {

@@ -64,6 +64,43 @@ TEST(FuseDirections, LeastSquaresReachesTheNoiseOfBothWeightedByTheirVariances) 
   EXPECT_LT(fused_square, better_square);
 }
 
+TEST(FuseDirections, CountsADisagreementWholeUnlessTheCalibrationExplainsIt) {
+  constexpr double kApart_mm = 0.3;
+  const FlatView view;
+  const RangeGrid second = noisy_wall(0.02, 0.0, 2, kApart_mm);
+  const auto fuse = [&](const FuseDirectionsOptions& options, RangeGrid& fused) {
+    fused = noisy_wall(0.02, 0.0, 1);
+    Image<PixelStatus> status = view.status;
+    return fuse_directions(second, view.rays, options, fused, status);
+  };
+  RangeGrid fused;
+  const auto unknown = fuse({}, fused);
+  EXPECT_GT(unknown.chi_squared, 50.0);
+  EXPECT_GT(unknown.beyond, 0.95);
+  ASSERT_FALSE(fused.systematic_mm.empty());
+  EXPECT_NEAR(fused.systematic_mm(40, 30), kApart_mm, 0.1 * kApart_mm);
+  const auto known = fuse({.calibration = [&](const auto&) { return kApart_mm; }}, fused);
+  EXPECT_TRUE(known.by_calibration);
+  EXPECT_LT(known.chi_squared, kConsistent);
+  EXPECT_EQ(known.beyond, 0.0);
+  EXPECT_TRUE(fused.systematic_mm.empty());
+}
+
+TEST(FuseDirections, CountsNothingForSoundDirectionsWhoseNoiseIsStatedTooSmall) {
+  const FlatView view;
+  RangeGrid fused = noisy_wall(0.02, 0.0, 1);
+  RangeGrid second = noisy_wall(0.02, 0.0, 2);
+  for (RangeGrid* range : {&fused, &second}) {
+    for (float& sigma : range->sigma_mm.pixels())
+      sigma *= 0.8F;
+  }
+  Image<PixelStatus> status = view.status;
+  const auto found = fuse_directions(second, view.rays, {}, fused, status);
+  EXPECT_LT(found.chi_squared, kConsistent);
+  EXPECT_LT(found.beyond, 0.001);
+  EXPECT_TRUE(fused.systematic_mm.empty());
+}
+
 TEST(FuseDirections, BestTakesTheSmallerSigma) {
   const FlatView view;
   RangeGrid fused = noisy_wall(0.02, 0.002, 1);

@@ -60,8 +60,10 @@ TEST(TwoCameras, MeasureMoreThanOneAndMoreExactly) {
   const bool has_parts = !std::isnan(two.sigma.noise_mm);
   EXPECT_LT(has_parts ? two.sigma.noise_mm : two.sigma.combined_mm, one.sigma.combined_mm);
   EXPECT_LT(surface_error_of(two).p95_mm, surface_error_of(one).p95_mm);
-  EXPECT_LT(two.camera_disagreement_over_noise, 1.3);
-  EXPECT_GT(two.camera_disagreement_over_noise, 0.7);
+  ASSERT_EQ(two.agreements.size(), 1U);
+  EXPECT_LT(two.agreements.front().over_noise, 1.3);
+  EXPECT_GT(two.agreements.front().over_noise, 0.7);
+  EXPECT_TRUE(two.agreements.front().is_consistent());
 }
 
 TEST(TwoCameras, ReportACameraThatHasTurned) {
@@ -70,7 +72,12 @@ TEST(TwoCameras, ReportACameraThatHasTurned) {
   PosedCamera& second = scan.rig.cameras.at(1);
   second.rotation =
       Eigen::AngleAxisd(rad_from_deg(0.2), Eigen::Vector3d::UnitY()) * second.rotation;
-  EXPECT_GT(reconstruct_by_rig(scan).camera_disagreement_over_noise, 3.0);
+  const Reconstruction result = reconstruct_by_rig(scan);
+  ASSERT_EQ(result.agreements.size(), 1U);
+  EXPECT_GT(result.agreements.front().over_noise, 3.0);
+  EXPECT_TRUE(result.untrusted_reason.starts_with("the cameras contradict each other"))
+      << result.untrusted_reason;
+  EXPECT_TRUE(std::isnan(result.sigma.combined_mm));
 }
 
 TEST(TwoCameras, RefuseFramesThatAreMissingOrOfAnotherSize) {

@@ -49,9 +49,9 @@ struct DecodeOptions {
   std::optional<ResponseCurve> response;
   /// Waveforms of such a projector's fringes, by period; they take precedence over `response`.
   std::vector<FringeWaveform> waveforms;
-  /// Removes the effect of the harmonics that the frames themselves show; takes precedence over
-  /// `response` and `waveforms`.
-  bool undo_own_response = false;
+  /// Removes the effect of the harmonics that the frames themselves show where they shift the phase
+  /// by more than their own uncertainty would; not where `response` or `waveforms` are given.
+  bool undo_own_response = true;
   /// Keeps the wrapped maps. Otherwise a sequence is decoded in one pass over its frames if all its
   /// unwrapping levels are safe for every pixel that `wrap` keeps.
   bool keep_maps = true;

@@ -7,6 +7,7 @@
 
 #include "frangia/core/missing.h"
 #include "frangia/decode/triangulate_view.h"
+#include "frangia/range/difference_uncertainty.h"
 #include "frangia/range/match_by_phase.h"
 #include "frangia/range/recover_edge_pixels.h"
 
@@ -88,11 +89,19 @@ RangeGrid match_camera(std::span<const CameraPhases> cameras, std::size_t own, c
 }
 
 /// Replaces the grids of the cameras that are compared by the fused ones.
-MeasuredView fuse_grids(const CommonPhases& common, MeasuredView view, const Run& run) {
+MeasuredView fuse_grids(const Rig& rig,
+                        const CommonPhases& common,
+                        MeasuredView view,
+                        const Run& run) {
   std::vector<RangeGrid> ranges;
   for (const std::size_t i : common.indices)
     ranges.push_back(std::move(view.cameras[i].range));
-  view.between_cameras = fuse_cameras(common.cameras, ranges, {}, run);
+  const FuseCamerasOptions options{
+      .calibration = between_cameras(rig,
+                                     common.cameras.front().phases.front()->pattern,
+                                     common.indices[0],
+                                     common.indices[1])};
+  view.between_cameras = fuse_cameras(common.cameras, ranges, options, run);
   for (std::size_t k = 0; k < ranges.size(); ++k)
     view.cameras[common.indices[k]].range = std::move(ranges[k]);
   return view;
@@ -109,7 +118,7 @@ MeasuredView match_cameras(const Rig& rig,
   if (common.cameras.empty()) return out;
   for (std::size_t k = 0; k < common.cameras.size(); ++k)
     out.cameras[common.indices[k]].range = match_camera(common.cameras, k, run);
-  out = fuse_grids(common, std::move(out), run);
+  out = fuse_grids(rig, common, std::move(out), run);
   for (const std::size_t i : common.indices) {
     RangeGrid& range = out.cameras[i].range;
     Image<PixelStatus>& status = cameras[i].status();
@@ -147,7 +156,7 @@ MeasuredView fuse_view_cameras(const Rig& rig,
     remove_unused_phases(out.cameras[i].range, cameras[i].decoded);
   const CommonPhases common = common_phases(rig, cameras);
   if (common.cameras.empty()) return out;
-  return fuse_grids(common, std::move(out), run);
+  return fuse_grids(rig, common, std::move(out), run);
 }
 
 }  // namespace frangia

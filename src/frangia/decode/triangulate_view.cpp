@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <span>
 
+#include "frangia/range/difference_uncertainty.h"
 #include "frangia/range/triangulate.h"
 
 namespace frangia {
@@ -18,8 +19,14 @@ TriangulatedView triangulate_view(DecodedView& decoded,
   TriangulatedView out;
   out.range = triangulate(leading, rig, rays);
   for (const std::size_t i : std::span(fit.used).subspan(1)) {
-    const RangeGrid other = triangulate(decoded.directions[i].phase, rig, rays);
-    out.disagreement = fuse_directions(other, rays, {.fusion = fusion}, out.range, leading.status);
+    AbsolutePhase& phase = decoded.directions[i].phase;
+    const RangeGrid other = triangulate(phase, rig, rays);
+    out.disagreement = fuse_directions(
+        other,
+        rays,
+        {.fusion = fusion, .calibration = between_directions(rig, leading.pattern, phase.pattern)},
+        out.range,
+        leading.status);
   }
   return out;
 }

@@ -89,36 +89,77 @@ double residuals(std::span<const AlbedoSample> samples,
 
 }  // namespace
 
+namespace {
+
+constexpr std::size_t kAlbedos = 21;  // from 0 to 1
+constexpr double kStep = 1.0 / (kAlbedos - 1);
+/// Least improvement of each sample that sees lit surface. Neighbouring samples share their errors:
+/// a sum that falls by a small share says nothing.
+constexpr double kMaterial = 0.2;
+
+/// Squared residuals of some samples for each reflectance.
+struct ResidualSums {
+  std::array<double, kAlbedos> sums{};
+  double affected = 0.0;  ///< samples that see lit surface
+
+  ResidualSums(std::span<const AlbedoSample> samples, std::span<const Pattern> patterns) {
+    constexpr double kSeesSurface = 0.03;  // share of indirect light
+    affected = static_cast<double>(
+        std::count_if(samples.begin(), samples.end(), [](const AlbedoSample& sample) {
+          return sample.predicted.mean > kSeesSurface;
+        }));
+    if (affected == 0.0) return;
+    for (std::size_t i = 0; i < kAlbedos; ++i)
+      sums.at(i) = residuals(samples, patterns, static_cast<double>(i) * kStep);
+  }
+  [[nodiscard]] std::size_t best() const {
+    return static_cast<std::size_t>(std::min_element(sums.begin(), sums.end()) - sums.begin());
+  }
+  [[nodiscard]] double improvement(std::size_t at) const {
+    return affected > 0.0 ? (sums.front() - sums.at(at)) / affected : 0.0;
+  }
+};
+
+/// Whether the reflectance of either half of the samples predicts the other half better than no
+/// indirect light.
+bool predicts_left_out(std::span<const AlbedoSample> samples, std::span<const Pattern> patterns) {
+  // In the order of the image's rows: the halves are blocks, not neighbours of each other.
+  constexpr std::size_t kBlocks = 8;
+  std::array<std::vector<AlbedoSample>, 2> halves;
+  for (std::size_t i = 0; i < samples.size(); ++i)
+    halves.at(i * kBlocks / samples.size() % 2).push_back(samples[i]);
+  const ResidualSums first(halves[0], patterns);
+  const ResidualSums second(halves[1], patterns);
+  // A half that sees no lit surface decides nothing.
+  const bool by_first = first.affected == 0.0 || second.affected == 0.0 ||
+                        second.improvement(first.best()) > kMaterial;
+  const bool by_second = first.affected == 0.0 || second.affected == 0.0 ||
+                         first.improvement(second.best()) > kMaterial;
+  return by_first && by_second;
+}
+
+}  // namespace
+
 AlbedoEstimate estimate_albedo(std::span<const AlbedoSample> samples,
                                std::span<const Pattern> patterns) {
-  constexpr std::size_t kAlbedos = 21;  // from 0 to 1
-  constexpr double kStep = 1.0 / (kAlbedos - 1);
-  constexpr double kSeesSurface = 0.03;  // share of indirect light
   AlbedoEstimate out;
-  std::array<double, kAlbedos> sums{};
-  for (std::size_t i = 0; i < kAlbedos; ++i)
-    sums.at(i) = residuals(samples, patterns, static_cast<double>(i) * kStep);
-  const auto best =
-      static_cast<std::size_t>(std::min_element(sums.begin(), sums.end()) - sums.begin());
-  const auto affected = static_cast<double>(
-      std::count_if(samples.begin(), samples.end(), [](const AlbedoSample& sample) {
-        return sample.predicted.mean > kSeesSurface;
-      }));
+  const ResidualSums all(samples, patterns);
+  if (all.affected == 0.0) return out;
+  const auto& sums = all.sums;
+  const std::size_t best = all.best();
   const double least = sums.at(best);
-  if (affected == 0.0) return out;
   out.unexplained = sums.front() > 0.0 ? least / sums.front() : 1.0;
-  out.improvement = (sums.front() - least) / affected;
-  // Neighbouring samples share their errors: a sum that falls by a small share says nothing.
-  constexpr double kMaterial = 0.2;
-  out.significant = best > 0 && out.improvement > kMaterial;
+  out.improvement = all.improvement(best);
+  // At its bound the reflectance is no result: something else is explained by it.
+  const bool within_bounds = best > 0 && best + 1 < kAlbedos;
+  out.significant =
+      within_bounds && out.improvement > kMaterial && predicts_left_out(samples, patterns);
   if (!out.significant) return out;
-  double offset = 0.0;
-  if (best + 1 < kAlbedos) {  // vertex of the parabola through the least sum and its neighbours
-    const double before = sums.at(best - 1);
-    const double after = sums.at(best + 1);
-    const double bend = before - 2.0 * least + after;
-    if (bend > 0.0) offset = 0.5 * (before - after) / bend;
-  }
+  // Vertex of the parabola through the least sum and its neighbours.
+  const double before = sums.at(best - 1);
+  const double after = sums.at(best + 1);
+  const double bend = before - 2.0 * least + after;
+  const double offset = bend > 0.0 ? 0.5 * (before - after) / bend : 0.0;
   out.albedo = std::clamp((static_cast<double>(best) + offset) * kStep, 0.0, 1.0);
   return out;
 }

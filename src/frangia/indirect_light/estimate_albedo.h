@@ -25,8 +25,9 @@ struct AlbedoSample {
 
 /// The reflectance that explains the frames.
 struct AlbedoEstimate {
-  double albedo = 0.0;       ///< 0 to 1; 0 when indirect light does not explain the frames better
-  bool significant = false;  ///< whether it does
+  double albedo = 0.0;  ///< 0 to 1; 0 when indirect light does not explain the frames better
+  /// Whether it does, also in samples that it was not fitted to; never at the upper bound.
+  bool significant = false;
   /// Sum of squared residuals over their expectation, per sample that sees lit surface: of no
   /// indirect light, less that of `albedo`.
   double improvement = 0.0;

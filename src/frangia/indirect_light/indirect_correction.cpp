@@ -28,7 +28,7 @@ bool is_inside(const Image<float>& depth_mm, int x, int y) {
 
 void IndirectCorrection::correct(View& view) const {
   if (!moves_points_ || view.range.phase_rad.empty()) return;
-  const ViewLight light(*surface_, view, rays_, LightUse::Correction);
+  const ViewLight light(*surface_, view, rays_, LightUse::Correction, &sight_);
   const Image<float> before_mm = view.range.depth_mm;
   parallel_rows(before_mm.height(), [&](int y) {
     for (int x = 0; x < before_mm.width(); ++x) {
@@ -57,7 +57,7 @@ bool IndirectCorrection::is_lit_indirectly(const ViewLight& light, const RangePi
 }
 
 Image<float> IndirectCorrection::systematic_mm(const View& view) const {
-  const ViewLight light(*surface_, view, rays_, LightUse::Uncertainty);
+  const ViewLight light(*surface_, view, rays_, LightUse::Uncertainty, &sight_);
   const Image<float>& depth_mm = view.range.depth_mm;
   Image<float> out(depth_mm.width(), depth_mm.height(), kMissing);
   parallel_rows(depth_mm.height(), [&](int y) {
@@ -71,7 +71,7 @@ Image<float> IndirectCorrection::systematic_mm(const View& view) const {
 
 Image<float> IndirectCorrection::largest_shifts_mm(const View& view) const {
   constexpr double kMatters = 2.0;  // sigma of noise
-  const ViewLight light(*surface_, view, rays_, LightUse::Uncertainty);
+  const ViewLight light(*surface_, view, rays_, LightUse::Uncertainty, &sight_);
   const Image<float>& depth_mm = view.range.depth_mm;
   Image<float> out(depth_mm.width(), depth_mm.height(), kMissing);
   std::vector<float> sigmas_mm;

@@ -25,6 +25,7 @@ class IndirectCorrection {
                      bool moves_points,
                      const Image<Eigen::Vector2f>& rays)
       : surface_(std::move(surface)),
+        sight_(surface_->look_around()),
         albedo_(albedo),
         source_(source),
         moves_points_(moves_points),
@@ -47,6 +48,7 @@ class IndirectCorrection {
   [[nodiscard]] bool move(const ViewLight& light, RangePixel& at) const;
 
   std::shared_ptr<const LitSurface> surface_;
+  SurfaceSight sight_;
   double albedo_;
   PhaseSource source_;
   bool moves_points_;

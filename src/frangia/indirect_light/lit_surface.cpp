@@ -101,7 +101,8 @@ double LitSurface::direct_light(const Eigen::Isometry3d& rig_from_object, const 
 PointLight LitSurface::light_along(const Eigen::Isometry3d& rig_from_object,
                                    const Vector3d& origin_mm,
                                    const Vector3d& direction,
-                                   double& distance) const {
+                                   double& distance,
+                                   const SurfaceSight* sight) const {
   PointLight out;
   out.fringes.assign(patterns_.size(), 0.0);
   const auto seen = scene_.first_hit(origin_mm, direction);
@@ -110,6 +111,7 @@ PointLight LitSurface::light_along(const Eigen::Isometry3d& rig_from_object,
   const Hit to{origin_mm + seen->distance * direction, normal_at(*seen)};
   out.direct = direct_light(rig_from_object, to);
   if (!(out.direct > 0.0)) return out;
+  if (sight != nullptr && !sight->sees_surface(seen->triangle)) return out;
   const Vector3d origin = to.point_mm + step_off_mm_ * to.normal;
   const auto meets = [&](const Vector3d& other, const RayHit& hit, const Vector3d& at) -> Vector3d {
     const double slope = hit.normal.dot(other);

@@ -7,6 +7,7 @@
 
 #include "frangia/geometry/mesh.h"
 #include "frangia/geometry/ray_scene.h"
+#include "frangia/indirect_light/surface_sight.h"
 #include "frangia/pattern/pattern.h"
 #include "frangia/rig/projector.h"
 
@@ -37,11 +38,16 @@ class LitSurface {
   /// there. The light is zero where the ray meets nothing, the inside of the surface, or a shadow.
   ///
   /// The integral over the hemisphere is a sum over 192 cells, over each of which the fringes are
-  /// averaged. The same arguments give the same result.
+  /// averaged. The same arguments give the same result. With `sight`, that of `look_around`, points
+  /// that see no surface get no sum.
   [[nodiscard]] PointLight light_along(const Eigen::Isometry3d& rig_from_object,
                                        const Eigen::Vector3d& origin_mm,
                                        const Eigen::Vector3d& direction,
-                                       double& distance) const;
+                                       double& distance,
+                                       const SurfaceSight* sight = nullptr) const;
+
+  /// Where the surface sees itself: for those that ask for the light on many points.
+  [[nodiscard]] SurfaceSight look_around() const { return {scene_, step_off_mm_}; }
 
   [[nodiscard]] const Projector& projector() const { return projector_; }           ///< as given
   [[nodiscard]] const std::vector<Pattern>& patterns() const { return patterns_; }  ///< as given

@@ -32,8 +32,10 @@ bool is_measured_near(const Image<float>& depth_mm, int x, int y, int radius) {
 ViewLight::ViewLight(const LitSurface& surface,
                      const View& view,
                      const Image<Eigen::Vector2f>& rays,
-                     LightUse use)
+                     LightUse use,
+                     const SurfaceSight* sight)
     : surface_(surface),
+      sight_(sight),
       rig_from_object_(view.rig_from_object),
       object_from_rig_(view.rig_from_object.inverse()),
       rays_(rays),
@@ -102,7 +104,8 @@ ViewLight::Node ViewLight::trace(int x, int y) const {
   node.light = surface_.light_along(rig_from_object_,
                                     object_from_rig_.translation(),
                                     object_from_rig_.linear() * ray.homogeneous(),
-                                    node.depth_mm);
+                                    node.depth_mm,
+                                    sight_);
   return node;
 }
 

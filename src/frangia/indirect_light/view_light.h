@@ -41,7 +41,8 @@ class ViewLight {
   ViewLight(const LitSurface& surface,
             const View& view,
             const Image<Eigen::Vector2f>& rays,
-            LightUse use);
+            LightUse use,
+            const SurfaceSight* sight = nullptr);
 
   /// The indirect light of the point of a pixel at this depth.
   ///
@@ -83,6 +84,7 @@ class ViewLight {
   [[nodiscard]] bool differ(const Grid& grid, std::size_t cell) const;
 
   const LitSurface& surface_;
+  const SurfaceSight* sight_;  ///< null: every point may get indirect light
   Eigen::Isometry3d rig_from_object_;
   Eigen::Isometry3d object_from_rig_;
   const Image<Eigen::Vector2f>& rays_;

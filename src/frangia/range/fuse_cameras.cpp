@@ -133,49 +133,53 @@ class CameraFusion {
   /// Compares the cameras on every fourth row.
   [[nodiscard]] Consistency compare() const {
     constexpr int kRows = 4;
-    std::vector<float> apart_mm;
-    std::vector<float> over_noise;
-    std::vector<float> over_sigma;
+    std::vector<DepthPair> pairs;
+    std::vector<DepthPair> of_first;  // the first camera against the second
     for (std::size_t own = 0; own < cameras_.size(); ++own) {
       const Image<float>& depth = ranges_[own].depth_mm;
       const int rows = depth.height() / kRows;
-      std::vector<std::vector<DepthDifference>> found(static_cast<std::size_t>(rows));
+      std::vector<std::vector<DepthPair>> found(static_cast<std::size_t>(rows));
+      std::vector<std::vector<DepthPair>> found_first(static_cast<std::size_t>(rows));
       parallel_rows(rows, [&](int row) {
+        const int y = kRows * row;
         for (int x = 0; x < depth.width(); ++x) {
-          const auto start = static_cast<double>(depth(x, kRows * row));
+          const auto start = static_cast<double>(depth(x, y));
           if (std::isnan(start)) continue;
           for (std::size_t other = 0; other < cameras_.size(); ++other) {
             if (other == own) continue;
-            const OtherSight seen = points_[own].sight(other, ray_of(own, x, kRows * row), start);
-            const DepthDifference apart = points_[own].compare(x, kRows * row, start, seen);
-            if (!std::isnan(apart.mm)) found[static_cast<std::size_t>(row)].push_back(apart);
+            const OtherSight seen = points_[own].sight(other, ray_of(own, x, y), start);
+            const DepthDifference apart = points_[own].compare(x, y, start, seen);
+            if (std::isnan(apart.mm)) continue;
+            const DepthPair pair{.x = x,
+                                 .y = y,
+                                 .point_mm = (start * ray_of(own, x, y)).cast<float>(),
+                                 .apart_mm = static_cast<float>(apart.mm),
+                                 .sigma_mm = static_cast<float>(apart.sigma_mm),
+                                 .systematic_mm = static_cast<float>(apart.systematic_mm)};
+            found[static_cast<std::size_t>(row)].push_back(pair);
+            if (own == 0 && other == 1) found_first[static_cast<std::size_t>(row)].push_back(pair);
           }
         }
       });
       run_.check();
-      for (const auto& row : found) {
-        for (const DepthDifference& apart : row) {
-          apart_mm.push_back(static_cast<float>(std::abs(apart.mm)));
-          over_noise.push_back(static_cast<float>(std::abs(apart.mm) / apart.sigma_mm));
-          over_sigma.push_back(static_cast<float>(std::abs(apart.mm) /
-                                                  std::hypot(apart.sigma_mm, apart.systematic_mm)));
-        }
-      }
+      for (const auto& row : found)
+        pairs.insert(pairs.end(), row.begin(), row.end());
+      for (const auto& row : found_first)
+        of_first.insert(of_first.end(), row.begin(), row.end());
     }
     Consistency out;
-    out.disagreement.pixels = apart_mm.size();
-    if (apart_mm.empty()) {
-      out.disagreement.median_mm = out.disagreement.median_over_sigma =
-          static_cast<double>(kMissing);
-      return out;
-    }
-    out.disagreement.median_mm = static_cast<double>(median_in_place(std::span(apart_mm)));
-    out.disagreement.median_over_sigma =
-        static_cast<double>(median_in_place(std::span(over_noise)));
+    static_cast<DepthAgreement&>(out.disagreement) = measure_agreement(pairs);
+    if (pairs.empty()) return out;
     out.typical_mm = out.disagreement.median_mm / kMedianOfNormal;
-    const double ratio =
-        static_cast<double>(median_in_place(std::span(over_sigma))) / kMedianOfNormal;
-    if (ratio > 1.0) out.excess_mm = out.typical_mm * std::sqrt(1.0 - 1.0 / (ratio * ratio));
+    const double ratio2 = out.disagreement.chi_squared;
+    if (options_.calibration && ratio2 >= kConsistent && !of_first.empty()) {
+      const DepthAgreement known = measure_agreement(of_first, options_.calibration);
+      out.disagreement.chi_squared = known.chi_squared;
+      out.disagreement.beyond = known.beyond;
+      out.disagreement.by_calibration = known.by_calibration;
+    }
+    if (ratio2 > 1.0 && !out.disagreement.by_calibration)
+      out.excess_mm = out.typical_mm * std::sqrt(1.0 - 1.0 / ratio2);
     return out;
   }
 
@@ -261,7 +265,7 @@ class CameraFusion {
     }
     if (out.removed) return out;
     const double along_ray = ray.norm();
-    const double excess_mm = found.excess_mm * (is_label_ ? mm_per_mm : std::sqrt(0.5));
+    const double excess_mm = found.excess_mm * (is_label_ ? mm_per_mm : 1.0);
     if (!others.empty()) {
       const CommonDepth common = points_[own].solve(x, y, start, others, densities);
       if (!std::isnan(common.depth_mm)) {

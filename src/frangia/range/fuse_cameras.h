@@ -6,17 +6,15 @@
 
 #include "frangia/core/run.h"
 #include "frangia/range/camera_phases.h"
+#include "frangia/range/depth_agreement.h"
 #include "frangia/range/range_grid.h"
 
 namespace frangia {
 
 /// How well the cameras of a view agree.
-struct CameraDisagreement {
-  std::size_t pixels = 0;          ///< that two cameras measured and that check the rig
-  double median_mm = 0.0;          ///< median distance; NaN without pixels
-  double median_over_sigma = 0.0;  ///< median of the distance over its noise; 0.67 for noise
-  std::size_t fused = 0;           ///< points of all cameras that a second camera measured as well
-  std::size_t removed = 0;         ///< points that a camera contradicts
+struct CameraDisagreement : DepthAgreement {
+  std::size_t fused = 0;    ///< points of all cameras that a second camera measured as well
+  std::size_t removed = 0;  ///< points that a camera contradicts
 };
 
 /// Limits of `fuse_cameras`.
@@ -24,6 +22,9 @@ struct FuseCamerasOptions {
   /// Two cameras measured the same point unless their depths differ by more than this multiple of
   /// the noise and of the typical difference.
   double max_sigmas = 8.0;
+  /// Uncertainty of the difference between the first camera and the second by that of the
+  /// calibration; empty where it is not known.
+  DifferenceUncertainty calibration{};
 };
 
 /// Improves the range grids of all cameras of a view by the phases of the other cameras.
@@ -38,7 +39,8 @@ struct FuseCamerasOptions {
 /// A point of a camera stays as it is where no other camera sees it. A calibrated projector's
 /// points behind which another camera sees a surface contradict that surface: both are removed,
 /// because one of their fringe orders is wrong and it is not known which. The differences beyond
-/// the noise that remain enter the systematic part of all points.
+/// the noise that remain enter the systematic part of all points whole, unless the known
+/// uncertainty of the calibration explains them.
 ///
 /// Grids of several cameras repeat the same measurements, and fusion averages them as if they were
 /// independent. The variance of each point is therefore multiplied by the number of cameras that

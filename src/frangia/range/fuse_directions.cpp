@@ -3,12 +3,16 @@
 #include <algorithm>
 #include <cmath>
 #include <span>
+#include <utility>
 #include <vector>
+
+#include <Eigen/Geometry>
 
 #include "frangia/core/error.h"
 #include "frangia/core/median.h"
 #include "frangia/core/missing.h"
 #include "frangia/core/parallel.h"
+#include "frangia/uncertainty/combined_sigma.h"
 
 namespace frangia {
 namespace {
@@ -27,28 +31,103 @@ Difference difference_of(const RangePixel& a,
           std::hypot(static_cast<double>(a.sigma_mm), static_cast<double>(b.sigma_mm))};
 }
 
-DirectionDisagreement measure_disagreement(const RangeGrid& first,
-                                           const RangeGrid& second,
-                                           const Image<Eigen::Vector2f>& rays) {
-  DirectionDisagreement out;
-  std::vector<float> differences_mm;
-  std::vector<float> over_sigma;
-  for (int y = 0; y < first.depth_mm.height(); ++y) {
+/// Both measurements of a pixel; `apart_mm` is NaN where one is missing.
+DepthPair pair_at(const RangeGrid& first,
+                  const RangeGrid& second,
+                  const Image<Eigen::Vector2f>& rays,
+                  int x,
+                  int y) {
+  const RangePixel a = first.pixel(x, y);
+  const RangePixel b = second.pixel(x, y);
+  const Difference found = difference_of(a, b, rays);
+  const auto known = [](float part) { return std::isnan(part) ? 0.0F : part; };
+  return {.x = x,
+          .y = y,
+          .point_mm = a.depth_mm * rays(x, y).homogeneous(),
+          .apart_mm = static_cast<float>(found.mm),
+          .sigma_mm = static_cast<float>(found.sigma_mm),
+          .systematic_mm = std::hypot(known(a.systematic_mm), known(b.systematic_mm)),
+          .first_rad = a.phase_rad,
+          .second_rad = b.phase_rad};
+}
+
+/// The pixels of some rows that both directions measured.
+std::vector<DepthPair> pairs_of(const RangeGrid& first,
+                                const RangeGrid& second,
+                                const Image<Eigen::Vector2f>& rays) {
+  constexpr int kMost = 300'000;  // pixels
+  const int height = first.depth_mm.height();
+  const int step = std::max(1, static_cast<int>(first.depth_mm.pixels().size()) / kMost);
+  std::vector<DepthPair> pairs;
+  for (int y = step / 2; y < height; y += step) {
     for (int x = 0; x < first.depth_mm.width(); ++x) {
-      const Difference found = difference_of(first.pixel(x, y), second.pixel(x, y), rays);
-      if (std::isnan(found.mm)) continue;
-      differences_mm.push_back(static_cast<float>(std::abs(found.mm)));
-      over_sigma.push_back(static_cast<float>(std::abs(found.mm) / found.sigma_mm));
+      const DepthPair pair = pair_at(first, second, rays, x, y);
+      if (!std::isnan(pair.apart_mm)) pairs.push_back(pair);
     }
   }
-  out.pixels = differences_mm.size();
-  if (out.pixels == 0) {
-    out.median_mm = out.median_over_sigma = kMissing;
-    return out;
+  return pairs;
+}
+
+constexpr int kBlock = 16;  // pixels
+
+/// Square of what the known uncertainties of a block do not explain: of the median of its
+/// differences, and `with_rest` of their scatter about it.
+///
+/// The median is certain to 1.25 sigma over the root of the pixels however well the noise of a
+/// pixel is known, so that it shows the smooth part, which averaging does not reduce.
+double unexplained2_of(std::span<const DepthPair> members, bool with_rest) {
+  constexpr std::size_t kLeast = 32;     // pixels that make a median
+  constexpr double kMedianError = 1.25;  // of a median over that of a mean
+  constexpr double kSignificant = 4.0;   // standard errors
+  if (members.size() < kLeast) return 0.0;
+  std::vector<float> apart;
+  double variance = 0.0;
+  double systematic2 = 0.0;
+  for (const DepthPair& pair : members) {
+    apart.push_back(pair.apart_mm);
+    variance += std::pow(static_cast<double>(pair.sigma_mm), 2);
+    systematic2 += std::pow(static_cast<double>(pair.systematic_mm), 2);
   }
-  out.median_mm = static_cast<double>(median_in_place(std::span(differences_mm)));
-  out.median_over_sigma = static_cast<double>(median_in_place(std::span(over_sigma)));
-  return out;
+  const auto count = static_cast<double>(members.size());
+  const double error2 = kMedianError * kMedianError * variance / (count * count);
+  const double known2 = systematic2 / count;
+  const float middle = median(apart);
+  const double found2 = std::pow(static_cast<double>(middle), 2);
+  const bool significant = found2 > kSignificant * kSignificant * error2 + known2;
+  double out = significant ? found2 - error2 - known2 : 0.0;
+  if (!with_rest) return out;
+  for (float& one : apart)
+    one = std::abs(one - middle);
+  const double rest2 = std::pow(static_cast<double>(median(std::move(apart))) / kMedianOfNormal, 2);
+  return out + std::max(0.0, rest2 - variance / count - known2);
+}
+
+/// What of the disagreement the known uncertainties do not explain, for each block of pixels; empty
+/// if nothing is left.
+Image<float> unexplained_part(const RangeGrid& first,
+                              const RangeGrid& second,
+                              const Image<Eigen::Vector2f>& rays,
+                              const DepthAgreement& found) {
+  if (found.pixels == 0 || found.by_calibration) return {};
+  // What is not smooth counts only where it exceeds what an estimate of the noise may be wrong by.
+  const bool with_rest = found.chi_squared >= kConsistent;
+  Image<float> out(rays.width() / kBlock + 1, rays.height() / kBlock + 1, 0.0F);
+  parallel_rows(out.height(), [&](int row) {
+    std::vector<DepthPair> members;
+    for (int column = 0; column < out.width(); ++column) {
+      members.clear();
+      for (int y = row * kBlock; y < std::min(rays.height(), (row + 1) * kBlock); ++y) {
+        for (int x = column * kBlock; x < std::min(rays.width(), (column + 1) * kBlock); ++x) {
+          const DepthPair pair = pair_at(first, second, rays, x, y);
+          if (!std::isnan(pair.apart_mm)) members.push_back(pair);
+        }
+      }
+      out(column, row) = static_cast<float>(std::sqrt(unexplained2_of(members, with_rest)));
+    }
+  });
+  const bool counts =
+      std::any_of(out.pixels().begin(), out.pixels().end(), [](float part) { return part > 0.0F; });
+  return counts ? out : Image<float>();
 }
 
 /// The point of both planes of light.
@@ -86,8 +165,10 @@ DirectionDisagreement fuse_directions(const RangeGrid& second,
   require(same_size(first.depth_mm, second.depth_mm) && same_size(first.depth_mm, status),
           "fuse_directions: the range grids differ in size");
   require(same_size(first.depth_mm, rays), "fuse_directions: range grid and rays differ in size");
-  DirectionDisagreement out = measure_disagreement(first, second, rays);
-  if (first.systematic_mm.empty() && !second.systematic_mm.empty())
+  DirectionDisagreement out{measure_agreement(pairs_of(first, second, rays), options.calibration)};
+  const Image<float> unexplained = unexplained_part(first, second, rays, out);
+  if (!unexplained.empty()) first.differing_share = 0.0F;  // the rig is that of all views
+  if (first.systematic_mm.empty() && (!second.systematic_mm.empty() || !unexplained.empty()))
     first.systematic_mm = Image<float>(first.depth_mm.width(), first.depth_mm.height(), 0.0F);
   const double typical_mm = out.pixels == 0 ? 0.0 : out.median_mm / kMedianOfNormal;
   std::vector<std::size_t> removed(static_cast<std::size_t>(status.height()));
@@ -109,7 +190,12 @@ DirectionDisagreement fuse_directions(const RangeGrid& second,
         ++removed[static_cast<std::size_t>(y)];
         continue;
       }
-      first.set(combined(a, b, options.fusion));
+      RangePixel both = combined(a, b, options.fusion);
+      if (!unexplained.empty()) {
+        both.systematic_mm =
+            combined_sigma(both.systematic_mm, unexplained(x / kBlock, y / kBlock));
+      }
+      first.set(both);
     }
   });
   for (const std::size_t row : removed)

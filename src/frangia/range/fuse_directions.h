@@ -6,6 +6,7 @@
 
 #include "frangia/core/image.h"
 #include "frangia/phase/wrap/phase_map.h"
+#include "frangia/range/depth_agreement.h"
 #include "frangia/range/range_grid.h"
 
 namespace frangia {
@@ -17,11 +18,8 @@ enum class DirectionFusion {
 };
 
 /// How well the depths from two directions of fringes agree along the camera's rays.
-struct DirectionDisagreement {
-  std::size_t pixels = 0;          ///< measured in both directions
-  double median_mm = 0.0;          ///< median of the absolute difference; NaN without pixels
-  double median_over_sigma = 0.0;  ///< median of the difference over its noise; 0.67 for noise
-  std::size_t removed = 0;         ///< pixels that differ by far more than the others
+struct DirectionDisagreement : DepthAgreement {
+  std::size_t removed = 0;  ///< pixels that differ by far more than the others
 };
 
 /// Limits of `fuse_directions`.
@@ -30,6 +28,8 @@ struct FuseDirectionsOptions {
   /// A pixel is removed whose depths differ by more than this multiple of the noise and of the
   /// typical difference: one of its fringe orders is wrong, but not known which.
   double max_sigmas = 8.0;
+  /// Uncertainty of the difference by that of the calibration; empty where it is not known.
+  DifferenceUncertainty calibration{};
 };
 
 /// Combines the range grids of vertical and horizontal fringes of one view.
@@ -37,7 +37,9 @@ struct FuseDirectionsOptions {
 /// Both planes of light meet the same camera ray, so the least-squares point is the mean of the two
 /// depths weighted by their inverse variances. A point that only one direction measured is kept.
 /// The disagreement is a check of the rig: errors of its calibration move the two depths
-/// differently.
+/// differently, and both of them away from the truth. Unless the known uncertainty of the
+/// calibration explains it, it enters the systematic part whole: its smooth part in blocks of
+/// pixels, and where chi squared says that it exceeds noise by far, the rest, too.
 ///
 /// @shape    both grids w x h; `first` and its `status` become those of the result; `rays` as
 ///           rays_of(rig.reference().model)

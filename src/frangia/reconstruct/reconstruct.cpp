@@ -8,7 +8,6 @@
 #include <utility>
 #include <vector>
 
-#include "frangia/core/median.h"
 #include "frangia/core/missing.h"
 #include "frangia/core/release_cached_pixels.h"
 #include "frangia/decode/scan_decoding.h"
@@ -34,16 +33,37 @@
 namespace frangia {
 namespace {
 
-void report_disagreement(const MeasuredViews& measured, Reconstruction& out) {
-  if (!measured.disagreements_mm.empty()) {
-    out.disagreement_mm = static_cast<double>(median(measured.disagreements_mm));
-    out.disagreement_over_noise =
-        static_cast<double>(median(measured.disagreements_over_sigma)) / kMedianOfNormal;
+/// How well the points agree that were measured twice.
+std::vector<RigAgreement> agreements_of(const MeasuredViews& measured, const Rig& rig) {
+  std::vector<RigAgreement> out;
+  if (auto found = agreement_of_directions(
+          measured.direction_agreements, rig, measured.first, measured.second))
+    out.push_back(std::move(*found));
+  if (auto found = agreement_of_cameras(measured.camera_agreements))
+    out.push_back(std::move(*found));
+  return out;
+}
+
+/// Whether the views say that the rig is not what it states, and nothing else.
+bool blames_rig(const std::optional<RegistrationReport>& registration) {
+  return registration && registration->explanation.best == PoseCause::Rig &&
+         registration->explanation.decided;
+}
+
+/// Why the surface must not be trusted; empty when it can be. What was measured twice and differs
+/// comes first: the rest follows from it.
+std::string untrusted_reason_of(const Reconstruction& result) {
+  for (const RigAgreement& agreement : result.agreements) {
+    if (agreement.contradicts()) return agreement.text();
   }
-  if (measured.camera_disagreements_mm.empty()) return;
-  out.camera_disagreement_mm = static_cast<double>(median(measured.camera_disagreements_mm));
-  out.camera_disagreement_over_noise =
-      static_cast<double>(median(measured.camera_disagreements_over_sigma)) / kMedianOfNormal;
+  std::string reason;
+  if (result.registration) reason = result.registration->untrusted_reason();
+  if (reason.empty() && blames_rig(result.registration)) {
+    reason =
+        "the views show that the rig is not what rig.toml states, and do not determine how: "
+        "calibrate the rig again";
+  }
+  return reason;
 }
 
 /// The stations of some views. A rig with one camera is itself an explanation of what the views
@@ -57,19 +77,18 @@ TurntableStations stations_of(const Rig& rig, const MeasuredViews& measured) {
 }
 
 /// Removes what is not the part from the views of one setup, corrects them for indirect light, and
-/// registers them on the turntable. False where indirect light was looked for before the
-/// registration and not found.
-bool register_setup(MeasuredSetup& setup,
-                    const ScanDecoding& decoding,
-                    const Capabilities& can,
-                    const ReconstructOptions& options,
-                    double& turntable_top_height_mm,
-                    const Run& run) {
+/// registers them on the turntable.
+EarlyIndirectLight register_setup(MeasuredSetup& setup,
+                                  const ScanDecoding& decoding,
+                                  const Capabilities& can,
+                                  const ReconstructOptions& options,
+                                  double& turntable_top_height_mm,
+                                  const Run& run) {
   MeasuredViews& measured = setup.measured;
   const Scan& scan = decoding.scan;
   const CameraModel& camera = scan.rig.reference().model;
-  bool indirect_light = true;
-  if (measured.points == 0) return true;
+  EarlyIndirectLight indirect_light;
+  if (measured.points == 0) return indirect_light;
   clip_to_volume(measured, scan.rig, options, run);
   if (can.removes_turntable_top)
     turntable_top_height_mm = remove_turntable_top(measured, scan.rig, options.turntable_top, run);
@@ -139,7 +158,7 @@ MeasuredSetup register_together(std::vector<MeasuredSetup> setups,
 /// What the registered views of all setups form.
 struct RegisteredViews {
   MeasuredSetup joined;
-  bool indirect_light = false;  ///< was found before the registration
+  EarlyIndirectLight indirect_light;  ///< as found before the registration
 };
 
 /// Views -> one surface, with its points and colors.
@@ -157,10 +176,12 @@ FusedSurface fuse_registered(RegisteredViews& registered,
   fusion.terms = calibration_part(all.reference(), scan.rig, all.coarsest, decoding.rays);
   const std::vector<CameraViews> cameras = views_of_cameras(all, scan.rig);
   FusedSurface fused = fuse_with_weights(cameras, fusion, run);
-  if (can.indirect_light != IndirectLightUse::Ignored && registered.indirect_light) {
-    out.indirect_light = cameras.size() == 1
-                             ? correct_indirect_light(fused, joined.measured, decoding, fusion, run)
-                             : count_indirect_light(fused, joined.measured, decoding, fusion, run);
+  if (can.indirect_light != IndirectLightUse::Ignored && registered.indirect_light.found) {
+    out.indirect_light =
+        cameras.size() == 1
+            ? correct_indirect_light(
+                  fused, joined.measured, decoding, registered.indirect_light, fusion, run)
+            : count_indirect_light(fused, joined.measured, decoding, fusion, run);
   }
   const ViewMotions motions = motions_of_views(joined, scan.rig, options, run);
   const bool turntable_counts = add_turntable_part(fused, motions, run);
@@ -170,12 +191,6 @@ FusedSurface fuse_registered(RegisteredViews& registered,
   }
   color_vertices(fused.mesh, cameras, run);
   return fused;
-}
-
-/// Whether the views say that the rig is not what it states, and nothing else.
-bool blames_rig(const std::optional<RegistrationReport>& registration) {
-  return registration && registration->explanation.best == PoseCause::Rig &&
-         registration->explanation.decided;
 }
 
 /// Refines the rig and reconstructs with it from the frames on.
@@ -217,21 +232,24 @@ Reconstruction reconstruct(const Scan& scan, const ReconstructOptions& given, co
   release_cached_pixels();
   out.views = measured.stations.size();
   out.view_summaries = std::move(measured.summaries);
-  report_disagreement(measured, out);
+  out.agreements = agreements_of(measured, scan.rig);
 
   // Fringe orders from the other views, and registration, setup by setup.
   run.stage("views");
+  if (!measured.response.empty()) run.note(measured.response);
   std::vector<MeasuredSetup> setups = split_setups(std::move(measured));
   FringeOrderCorrectionOptions correction = options.fringe_order_correction;
   correction.mixed_pixels = options.mixed_pixels;
   std::set<std::string> outliers;
-  bool indirect_light = false;
+  EarlyIndirectLight indirect_light{.found = false};
   std::size_t unresolved = 0;
   for (MeasuredSetup& setup : setups) {
     unresolved += resolve_fringe_orders(
         setup.measured, scan.rig, rays, options.resolve_by_views, correction, run);
-    indirect_light |=
+    const EarlyIndirectLight early =
         register_setup(setup, decoding, can, options, out.turntable_top_height_mm, run);
+    indirect_light.found = indirect_light.found || early.found;
+    indirect_light.corrects = indirect_light.corrects && early.corrects;
     out.points += setup.measured.points;
     add_outliers(outliers, setup);
   }
@@ -262,12 +280,7 @@ Reconstruction reconstruct(const Scan& scan, const ReconstructOptions& given, co
     throw Error(ErrorKind::Input,
                 explain_no_surface(scan, rays, options.decode, {out.points, unresolved}, run));
   }
-  if (out.registration) out.untrusted_reason = out.registration->untrusted_reason();
-  if (out.untrusted_reason.empty() && blames_rig(out.registration)) {
-    out.untrusted_reason =
-        "the views show that the rig is not what rig.toml states, and do not determine how: "
-        "calibrate the rig again";
-  }
+  out.untrusted_reason = untrusted_reason_of(out);
   if (!out.untrusted_reason.empty()) discard_sigma(out.mesh);
   out.sigma = median_sigma(out.mesh);
   return out;

@@ -18,6 +18,7 @@
 #include "frangia/indirect_light/indirect_light_report.h"
 #include "frangia/range/remove_mixed_pixels.h"
 #include "frangia/reconstruct/finish_mesh.h"
+#include "frangia/reconstruct/rig_agreement.h"
 #include "frangia/reconstruct/setup_join.h"
 #include "frangia/registration/find_turntable_top.h"
 #include "frangia/registration/refine_rig.h"
@@ -69,16 +70,9 @@ struct Reconstruction {
   std::optional<RigRefinement> refinement;  ///< empty when not done
   double turntable_top_height_mm =
       std::numeric_limits<double>::quiet_NaN();  ///< NaN: none was removed
-  /// Median over the views of the median distance between the points of vertical and of horizontal
-  /// fringes along their rays; NaN where no view has both. It checks the rig.
-  double disagreement_mm = std::numeric_limits<double>::quiet_NaN();
-  /// The same over what phase noise explains: about 1 for a sound rig.
-  double disagreement_over_noise = std::numeric_limits<double>::quiet_NaN();
-  /// Median over the views of the median distance between the points of two cameras along their
-  /// rays, or, with a label, between their rays; NaN where no view has it. It checks the rig.
-  double camera_disagreement_mm = std::numeric_limits<double>::quiet_NaN();
-  /// The same over what phase noise explains.
-  double camera_disagreement_over_noise = std::numeric_limits<double>::quiet_NaN();
+  /// How well points agree that were measured twice: by two directions of fringes, by two cameras.
+  /// Empty for what no view measured. They check the rig.
+  std::vector<RigAgreement> agreements{};
   std::size_t cameras = 1;                            ///< of the rig
   std::optional<IndirectLightReport> indirect_light;  ///< empty: none was found
   /// Why the mesh must not be trusted, as one clause without a full stop; empty when it can be.

@@ -178,11 +178,13 @@ std::vector<Pattern> calibration_patterns(const Rig& rig, const PatternPlan& pla
   const double ratio = static_cast<double>(projector->height_px) / projector->width_px;
   for (std::size_t i = 0, count = patterns.size(); i < count; ++i) {
     Pattern across = patterns[i];
-    if (across.kind != PatternKind::Fringe) continue;
+    if (across.kind != PatternKind::Fringe && across.kind != PatternKind::Gray) continue;
     patterns[i].name = fmt::format("columns-{}", i);
     across.name = fmt::format("rows-{}", i);
     across.direction = FringeDirection::Horizontal;
     across.period_px *= ratio;
+    across.stripe_px *= ratio;
+    across.offset_px *= ratio;
     patterns.push_back(across);
   }
   patterns.push_back({.name = "white", .kind = PatternKind::White});

@@ -30,6 +30,13 @@ struct MotionFaults {
   double lost_step_rad = 0.0;
 };
 
+/// How a digital projector shows fringes.
+enum class DisplayedWaveform {
+  Sine,     ///< in levels
+  Binary,   ///< black and white stripes
+  Dithered  ///< black and white pixels, by an ordered dither of 8 x 8 pixels
+};
+
 /// Brightness and faults of the simulated rig. All faults except camera noise are off by default.
 struct SimulateOptions {
   std::uint64_t seed = 1;  ///< of all random numbers
@@ -43,19 +50,22 @@ struct SimulateOptions {
   double exposure = 1.0;         ///< relative; 1 puts the brightest diffuse pixel at 80 % of white
   double ambient = 0.0;          ///< ambient light on a white surface, as a share of white
   std::vector<LampSwitch> lamps_on;  ///< other lamps that are switched on during the capture
+  double camera_blur_px = 0.0;       ///< sigma of the blur of its lens, px
 
   // The projector.
-  double contrast = 0.9;           ///< gamma0 of the fringes, 0 to 1
-  double step_error = 0.0;         ///< relative error of every shift
-  double step_jitter_rad = 0.0;    ///< rms, independent per frame
-  double display_gamma = 1.0;      ///< of a pinhole projector without linearisation
-  double flicker = 0.0;            ///< rms relative error of the projector's light, per frame
+  double contrast = 0.9;         ///< gamma0 of the fringes, 0 to 1
+  double step_error = 0.0;       ///< relative error of every shift
+  double step_jitter_rad = 0.0;  ///< rms, independent per frame
+  double display_gamma = 1.0;    ///< of a pinhole projector without linearisation
+  double flicker = 0.0;          ///< rms relative error of the projector's light, per frame
+  DisplayedWaveform waveform = DisplayedWaveform::Sine;  ///< of a pinhole projector
   double projector_blur_px = 0.0;  ///< sigma of the blur of patterns, px of a pinhole projector
   double line_sigma_mm = 0.25;     ///< of the laser sheet's profile, across the plane
   double line_spill = 0.03;        ///< stray light of the laser sheet, as a share of its peak
 
   // The surface.
   double texture = 0.0;           ///< 0: white; 1: smooth patches from white to black
+  double checker_mm = 0.0;        ///< side of painted cubes of albedo 0.10 and 0.85; 0 for none
   double color = 0.0;             ///< 0: grey; below 1: strength of bands of changing hue
   std::optional<Board> board;     ///< printed on the part's plane z = 0, in black on white
   std::optional<Screen> screen;   ///< the part's plane z = 0 is a monitor that shows the patterns

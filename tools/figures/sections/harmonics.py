@@ -61,7 +61,7 @@ def under_gamma(phases, steps):
     phases.study.run("response", scan, "-o", response)
     return {
         "linear": linear,
-        "plain": phases.errors(scan),
+        "plain": phases.errors(scan, "--undo-response", "none"),
         "auto": phases.errors(scan, "--undo-response", "auto"),
         "filed": phases.errors(scan, "--undo-response", response),
     }
@@ -76,7 +76,7 @@ def blurred(phases):
     phases.study.run("response", scan, "-o", response)
     pooled.write_text(response.read_text().split("[[projector.response.waveform]]")[0])
     corrections = {
-        "none": (),
+        "none": ("--undo-response", "none"),
         "one response for all periods": ("--undo-response", pooled),
         "one waveform per period": ("--undo-response", response),
         "auto": ("--undo-response", "auto"),
@@ -94,7 +94,11 @@ def under_flicker(phases, steps, seed):
 
 def estimated_steps(phases):
     scan = phases.scan("--shifts", 12, "--display-gamma", 2.0)
-    return {"nominal": phases.errors(scan)[0], "estimated": phases.errors(scan, "--algorithm", "global-carre")[0]}
+    plain = ("--undo-response", "none")
+    return {
+        "nominal": phases.errors(scan, *plain)[0],
+        "estimated": phases.errors(scan, *plain, "--algorithm", "global-carre")[0],
+    }
 
 
 def mesh_ratio(phases, steps):
@@ -124,7 +128,7 @@ def report(text, results):
             failures.append(what)
 
     text.add(
-        f"The bust, one view, digital rig with half its pixels on a side; phases against those of an exact scan. `frangia simulate bust --display-gamma {GAMMA} --shifts N`, decoded as it is, with `--undo-response auto`, and with the rig.toml that `frangia response` writes. Wanted: error over sigma {LEAST} to {MOST}; corrected at most {MOST_CORRECTED} times the error of a linear projector.\n"
+        f"The bust, one view, digital rig with half its pixels on a side; phases against those of an exact scan. `frangia simulate bust --display-gamma {GAMMA} --shifts N`, decoded with `--undo-response none`, with `auto` (the default), and with the rig.toml that `frangia response` writes. Wanted: error over sigma {LEAST} to {MOST}; corrected at most {MOST_CORRECTED} times the error of a linear projector.\n"
     )
     text.table(
         "steps",

@@ -1,6 +1,8 @@
 #include "frangia/calibrate/board/board_image.h"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include "frangia/core/error.h"
@@ -44,6 +46,30 @@ void add_frame(const Frame& frame, double weight, Image<float>& sum) {
       frame);
 }
 
+/// The light that the frames of Gray codes share: every pixel is bright in one of them, and dark in
+/// one.
+Image<float> image_of_codes(std::span<const FrameStack> stacks, int width, int height) {
+  Image<float> least(width, height, std::numeric_limits<float>::infinity());
+  Image<float> most(width, height, 0.0F);
+  for (const FrameStack& stack : stacks) {
+    if (stack.pattern.kind != PatternKind::Gray || stack.exposure != 0) continue;
+    for (const Frame& frame : stack.frames) {
+      std::visit(
+          [&](const auto& image) {
+            for (std::size_t i = 0; i < image.pixels().size(); ++i) {
+              const auto counts = static_cast<float>(image.pixels()[i]);
+              least.pixels()[i] = std::min(least.pixels()[i], counts);
+              most.pixels()[i] = std::max(most.pixels()[i], counts);
+            }
+          },
+          frame);
+    }
+  }
+  for (std::size_t i = 0; i < most.pixels().size(); ++i)
+    most.pixels()[i] = 0.5F * (most.pixels()[i] + least.pixels()[i]);
+  return most;
+}
+
 }  // namespace
 
 Image<float> board_image(std::span<const FrameStack> stacks) {
@@ -58,8 +84,16 @@ Image<float> board_image(std::span<const FrameStack> stacks) {
     }
     if (stack.pattern.kind == PatternKind::Fringe && stack.exposure == 0) fringes.push_back(&stack);
   }
-  require(!fringes.empty(),
-          "scan.toml has no pattern of kind \"white\" or \"fringe\", so the board cannot be seen");
+  if (fringes.empty()) {
+    require(std::any_of(stacks.begin(),
+                        stacks.end(),
+                        [](const FrameStack& stack) {
+                          return stack.pattern.kind == PatternKind::Gray && stack.exposure == 0;
+                        }),
+            "scan.toml has no pattern of kind \"white\", \"fringe\" or \"gray\", so the board "
+            "cannot be seen");
+    return image_of_codes(stacks, image.width(), image.height());
+  }
   for (const FrameStack* stack : fringes) {
     const Eigen::VectorXd weights = mean_weights(stack->pattern.shifts_rad);
     for (std::size_t i = 0; i < stack->frames.size(); ++i) {

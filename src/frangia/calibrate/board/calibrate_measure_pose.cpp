@@ -39,15 +39,28 @@ void add_projector_pixels(std::span<const FrameStack> stacks,
   decode.order_jumps.max_share = 0.0;  // a board is flat: jumps show frames that do not fit
   decode.fill.max_px = 0;              // a point is fitted to measured pixels only
   // The rays serve the decoding of scans without absolute phase only.
-  const AbsolutePhase absolute =
-      decode_view(stacks_of(stacks, direction), known, {}, decode, run).directions.front().phase;
+  const DecodedDirection decoded =
+      decode_view(stacks_of(stacks, direction), known, {}, decode, run).directions.front();
+  const AbsolutePhase& absolute = decoded.phase;
   const double px_per_rad = absolute.pattern.period_px / kTwoPi;
   const int axis = direction == FringeDirection::Vertical ? 0 : 1;
+  // Pixels of a Gray code share the borders of their stripes: what the code counts as systematic is
+  // an error of the point.
+  const bool is_code = !decoded.check && !absolute.systematic_rad.empty();
+  const auto shared_of = [&](const BoardPoint& point) {
+    if (!is_code) return 0.0;
+    const Image<float>& shared = absolute.systematic_rad;
+    const int x =
+        std::clamp(static_cast<int>(std::lround(point.camera_px.x())), 0, shared.width() - 1);
+    const int y =
+        std::clamp(static_cast<int>(std::lround(point.camera_px.y())), 0, shared.height() - 1);
+    return std::isnan(shared(x, y)) ? 0.0 : static_cast<double>(shared(x, y));
+  };
   for (BoardPoint& point : points) {
     const PhaseAt phase =
         fit_phase_at(absolute.phase_rad, absolute.sigma_rad, point.camera_px, options.fit);
     point.projector_px[axis] = px_per_rad * phase.phase_rad;
-    point.projector_sigma_px[axis] = px_per_rad * phase.sigma_rad;
+    point.projector_sigma_px[axis] = px_per_rad * std::hypot(phase.sigma_rad, shared_of(point));
     point.projector_by_camera.row(axis) = px_per_rad * phase.gradient_rad_per_px.transpose();
   }
 }
@@ -83,7 +96,8 @@ void measure_light(std::span<const FrameStack> stacks,
     for (int x = box.left; x < box.right; x += kStride) {
       counts.push_back(image(x, y));
       const bool full = std::any_of(stacks.begin(), stacks.end(), [&](const FrameStack& stack) {
-        return stack.pattern.kind == PatternKind::Fringe && stack.exposure == 0 &&
+        const PatternKind kind = stack.pattern.kind;
+        return (kind == PatternKind::Fringe || kind == PatternKind::Gray) && stack.exposure == 0 &&
                std::any_of(stack.frames.begin(), stack.frames.end(), [&](const Frame& frame) {
                  return counts_at(frame, x, y) >= stack.white_level;
                });

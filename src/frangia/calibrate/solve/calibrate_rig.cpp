@@ -51,12 +51,10 @@ void require_direction(const Scan& scan, FringeDirection direction) {
   const std::vector<Pattern> patterns = patterns_of(scan, direction);
   const bool vertical = direction == FringeDirection::Vertical;
   const char* name = vertical ? "vertical" : "horizontal";
-  const bool fringes = std::any_of(patterns.begin(), patterns.end(), [](const Pattern& pattern) {
-    return pattern.kind == PatternKind::Fringe;
-  });
-  if (!fringes) {
+  if (patterns.empty()) {
     fail_calibration(
-        fmt::format("{}: there are no {} fringes; a board needs both directions, so add patterns "
+        fmt::format("{}: there are no {} fringes and no such Gray code; a board needs both "
+                    "directions, so add patterns "
                     "with direction = \"{}\" and capture the poses again",
                     (scan.folder / "scan.toml").string(),
                     name,

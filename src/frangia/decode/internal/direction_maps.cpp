@@ -85,13 +85,13 @@ DirectionMaps wrap_maps(const DirectionInput& input, DirectionMaps fitted, Wrapp
 
 bool allow_one_pass(const DirectionInput& input, const DirectionMaps& fitted) {
   const DecodeOptions& options = input.options;
-  const bool has_harmonics =
+  const bool corrects =
+      undoes_own_response(options) &&
       std::any_of(fitted.fits.begin(), fitted.fits.end(), [](const FittedAlgorithm& fit) {
-        return fit.waveform.largest_harmonic() > 0;
+        return own_correction(fit, fit.algorithm).has_value();
       });
   return !options.keep_maps && !options.own.any() && !options.recover_saturated &&
-         !options.response && options.waveforms.empty() &&
-         !(options.undo_own_response && has_harmonics) &&
+         !options.response && options.waveforms.empty() && !corrects &&
          std::all_of(fitted.fringes.begin(), fitted.fringes.end(), [](const FrameStack* stack) {
            return stack->pattern.exposure_count() == 1;
          });

@@ -34,14 +34,11 @@ std::optional<ResponseTable> correction_of(const Pattern& pattern,
                                            const DecodeOptions& options) {
   const PhaseAlgorithm algorithm =
       pattern.exposure_count() > 1 ? least_squares(fitted.shifts_rad) : fitted.algorithm;
-  if (options.undo_own_response) {
-    if (fitted.waveform.largest_harmonic() == 0) return {};
-    return response_table(fitted.waveform.waveform, algorithm, fitted.shifts_rad);
-  }
   if (const FringeWaveform* waveform = find_waveform(options.waveforms, pattern))
     return response_table(*waveform, algorithm, fitted.shifts_rad);
-  if (!options.response) return {};
-  return response_table(*options.response, algorithm, fitted.shifts_rad);
+  if (options.response) return response_table(*options.response, algorithm, fitted.shifts_rad);
+  if (!undoes_own_response(options)) return {};
+  return own_correction(fitted, algorithm);
 }
 
 /// Removes the effect of the projector's response from the last wrapped map, where the options ask
@@ -91,6 +88,11 @@ WrappedPhase own_wrapped(const FrameStack& stack,
 }
 
 }  // namespace
+
+bool undoes_own_response(const DecodeOptions& options) {
+  return options.undo_own_response && !options.response && options.waveforms.empty() &&
+         !options.own.wrap;
+}
 
 std::vector<FittedAlgorithm> fit_all(std::span<const FrameStack* const> fringes,
                                      const NoiseModel& noise,

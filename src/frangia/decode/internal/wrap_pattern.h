@@ -10,6 +10,9 @@
 
 namespace frangia {
 
+/// Whether the harmonics that the frames show are corrected.
+[[nodiscard]] bool undoes_own_response(const DecodeOptions& options);
+
 /// Fits the algorithms for the frames of all patterns, which share their waveforms.
 [[nodiscard]] std::vector<FittedAlgorithm> fit_all(std::span<const FrameStack* const> fringes,
                                                    const NoiseModel& noise,

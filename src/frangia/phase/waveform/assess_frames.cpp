@@ -75,8 +75,8 @@ std::string harmonic_finding(const FrameAssessment& assessment) {
     return text + ", which hardly affects the phase by this algorithm";
   return text + fmt::format(
                     " shifts the phase by {:.3f} rad rms: the projector or the camera is not "
-                    "linear; set `undo_response` to auto, measure the response with `frangia "
-                    "response`, or {}",
+                    "linear; measure the response with `frangia response` and give it as "
+                    "`undo_response`, or {}",
                     assessment.harmonic_error_rad,
                     assessment.frames < 6 ? "take 6 steps" : "set `algorithm` to least-squares");
 }
@@ -166,6 +166,24 @@ std::vector<std::string> findings(const FrameAssessment& assessment) {
         assessment.frames < 5 ? 5 : 8));
   }
   return out;
+}
+
+std::string describe_corrections(std::span<const FrameAssessment> assessments) {
+  std::size_t corrected = 0;
+  double largest = 0.0;
+  for (const FrameAssessment& assessment : assessments) {
+    if (!assessment.harmonics_corrected) continue;
+    ++corrected;
+    largest = std::max(largest, assessment.harmonic_share);
+  }
+  if (corrected == 0) return {};
+  return fmt::format(
+      "the response of the projector is corrected in the phase of {} {}: the frames show harmonics "
+      "of "
+      "up to {:.1f} % of the fringes (`undo_response`)",
+      corrected,
+      corrected == 1 ? "pattern" : "patterns",
+      100.0 * largest);
 }
 
 std::string describe(const FrameAssessment& assessment) {

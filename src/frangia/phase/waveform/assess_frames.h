@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -71,6 +72,9 @@ struct AssessmentOptions {
 
 /// Describes harmonics, flicker and an impossible contrast, one clause each, with what to do.
 [[nodiscard]] std::vector<std::string> findings(const FrameAssessment& assessment);
+
+/// One clause about the harmonics that are corrected in the phases of a view; empty where none are.
+[[nodiscard]] std::string describe_corrections(std::span<const FrameAssessment> assessments);
 
 /// Formats an assessment as one sentence.
 [[nodiscard]] std::string describe(const FrameAssessment& assessment);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 
 #include "frangia/core/angles.h"
 #include "frangia/core/error.h"
@@ -15,11 +16,12 @@ constexpr std::size_t kProjectedPhases =
     2880;  ///< projected phases per fringe at which the error is computed
 constexpr std::size_t kTableIntervals = 1024;  ///< intervals of the table
 
-/// The table for fringes whose light over the phase is `light_of`.
+/// The table for fringes whose light over the phase is `light_of`; empty where two phases measure
+/// alike.
 template <typename Light>
-ResponseTable table_of(const Light& light_of,
-                       const PhaseAlgorithm& algorithm,
-                       const std::vector<double>& shifts_rad) {
+std::optional<ResponseTable> table_of(const Light& light_of,
+                                      const PhaseAlgorithm& algorithm,
+                                      const std::vector<double>& shifts_rad) {
   std::vector<double> light(shifts_rad.size());
   const auto measured_phase = [&](double phase) {
     for (std::size_t k = 0; k < light.size(); ++k)
@@ -35,9 +37,7 @@ ResponseTable table_of(const Light& light_of,
     true_phase.push_back(phase);
     found.push_back(found.empty() ? phase + wrap_rad(seen - phase)
                                   : found.back() + wrap_rad(seen - found.back()));
-    require(found.size() == 1 || found.back() > found[found.size() - 2],
-            "the projector's response is too nonlinear for its fringes to determine the phase; "
-            "correct the projected patterns instead");
+    if (found.size() > 1 && !(found.back() > found[found.size() - 2])) return {};
   }
   ResponseTable table;
   for (std::size_t i = 0; i <= kTableIntervals; ++i) {
@@ -55,19 +55,33 @@ ResponseTable table_of(const Light& light_of,
   return table;
 }
 
+ResponseTable required(std::optional<ResponseTable> table) {
+  require(table.has_value(),
+          "the projector's response is too nonlinear for its fringes to determine the phase; "
+          "correct the projected patterns instead");
+  return *std::move(table);
+}
+
 }  // namespace
 
 ResponseTable response_table(const ResponseCurve& response,
                              const PhaseAlgorithm& algorithm,
                              const std::vector<double>& shifts_rad) {
-  return table_of([&](double phase) { return response.light_of(0.5 + 0.5 * std::cos(phase)); },
-                  algorithm,
-                  shifts_rad);
+  return required(
+      table_of([&](double phase) { return response.light_of(0.5 + 0.5 * std::cos(phase)); },
+               algorithm,
+               shifts_rad));
 }
 
 ResponseTable response_table(const FringeWaveform& waveform,
                              const PhaseAlgorithm& algorithm,
                              const std::vector<double>& shifts_rad) {
+  return required(find_response_table(waveform, algorithm, shifts_rad));
+}
+
+std::optional<ResponseTable> find_response_table(const FringeWaveform& waveform,
+                                                 const PhaseAlgorithm& algorithm,
+                                                 const std::vector<double>& shifts_rad) {
   return table_of([&](double phase) { return waveform.light_at(phase); }, algorithm, shifts_rad);
 }
 

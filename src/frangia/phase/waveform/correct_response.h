@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "frangia/phase/algorithm/phase_algorithm.h"
@@ -30,6 +31,12 @@ struct ResponseTable {
 [[nodiscard]] ResponseTable response_table(const FringeWaveform& waveform,
                                            const PhaseAlgorithm& algorithm,
                                            const std::vector<double>& shifts_rad);
+
+/// The same; empty where two phases measure alike.
+[[nodiscard]] std::optional<ResponseTable> find_response_table(
+    const FringeWaveform& waveform,
+    const PhaseAlgorithm& algorithm,
+    const std::vector<double>& shifts_rad);
 
 /// Returns the correction at a measured phase.
 ///

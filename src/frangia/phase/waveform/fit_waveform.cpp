@@ -4,10 +4,13 @@
 #include <cmath>
 #include <complex>
 #include <numbers>
+#include <optional>
 
+#include "frangia/core/angles.h"
 #include "frangia/phase/internal/fit_residuals.h"
 #include "frangia/phase/internal/fringe_bins.h"
 #include "frangia/phase/waveform/internal/fit_contrast.h"
+#include "frangia/phase/waveform/internal/hidden_harmonics.h"
 
 namespace frangia {
 namespace {
@@ -26,23 +29,24 @@ constexpr std::size_t kMaxSampledCounts = 1'600'000;  ///< pixels times frames
 constexpr double kMinContrastHarmonic = 0.008;
 
 /// Sets the lowest harmonic that leaves no residual, and the effect of flicker on few frames.
-void add_contrast_fit(const FringeBins& bins,
-                      const std::vector<double>& shifts_rad,
-                      const ResidualFit& residuals,
-                      const WaveformOptions& options,
-                      bool with_gains,
-                      WaveformFit& out) {
+/// Returns the third harmonic of three frames where their mean shows it.
+std::optional<std::complex<double>> add_contrast_fit(const FringeBins& bins,
+                                                     const std::vector<double>& shifts_rad,
+                                                     const ResidualFit& residuals,
+                                                     const WaveformOptions& options,
+                                                     bool with_gains,
+                                                     WaveformFit& out) {
   const auto hidden = std::find(residuals.observable.begin(), residuals.observable.end(), false);
-  if (hidden == residuals.observable.end()) return;
+  if (hidden == residuals.observable.end()) return {};
   const auto i = static_cast<std::size_t>(hidden - residuals.observable.begin());
   const ContrastFit fit = fit_contrast(bins, shifts_rad, out.waveform, static_cast<int>(i) + 2);
-  if (!fit.determined) return;
+  if (!fit.determined) return {};
   out.sigma[i] = fit.harmonic_sigma;
   const double amplitude = std::abs(fit.harmonic);
   if (amplitude > std::max(options.min_harmonic, kMinContrastHarmonic) &&
       amplitude > options.min_harmonic_sigmas * fit.harmonic_sigma)
     out.waveform.harmonics[i] = fit.harmonic;
-  if (!with_gains) return;
+  if (!with_gains) return fit.third;
   // Light that differed between the frames changes the contrast once per fringe, whatever residual
   // it leaves. Motion may do so, too, and shifts the phase alike.
   const double offset = std::abs(fit.offset);
@@ -52,6 +56,19 @@ void add_contrast_fit(const FringeBins& bins,
   // Three frames leave no residual.
   out.is_flicker =
       out.flicker_error_rad > 0.0 && (shifts_rad.size() == 3 || residuals.gains_explain);
+  return fit.third;
+}
+
+/// Whether the shifts divide a turn evenly, in any order.
+bool are_even(const std::vector<double>& shifts_rad) {
+  constexpr double kSame_rad = 1e-3;
+  const auto count = static_cast<double>(shifts_rad.size());
+  std::complex<double> sum = 0.0;
+  for (const double shift : shifts_rad) {
+    if (std::abs(wrap_rad(count * (shift - shifts_rad.front()))) > count * kSame_rad) return false;
+    sum += std::polar(1.0, shift);
+  }
+  return std::abs(sum) < count * kSame_rad;
 }
 
 }  // namespace
@@ -95,7 +112,8 @@ WaveformFit fit_waveform(const FrameStack& stack,
         amplitude > options.min_harmonic_sigmas * residuals.sigma[i])
       out.waveform.harmonics[i] = residuals.harmonics[i];
   }
-  add_contrast_fit(bins, shifts_rad, residuals, options, with_gains, out);
+  const auto third = add_contrast_fit(bins, shifts_rad, residuals, options, with_gains, out);
+  if (with_gains && are_even(shifts_rad)) add_hidden_harmonics(frames, third, out);
   if (!with_gains || frames < kMinGainFrames || !residuals.gains_explain) return out;
   if (std::any_of(residuals.gains.begin(), residuals.gains.end(), [](double gain) {
         return std::abs(gain) > kMaxGain;

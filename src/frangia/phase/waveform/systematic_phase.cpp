@@ -48,7 +48,25 @@ double harmonic_response(const FittedAlgorithm& fitted, std::size_t index) {
   return rms_error(fitted, probe, nullptr) / kProbe;
 }
 
+/// Square of the rms phase error by the uncertainty of the harmonics.
+double harmonic_variance(const FittedAlgorithm& fitted) {
+  double square = 0.0;
+  for (std::size_t i = 0; i < fitted.waveform.waveform.harmonics.size(); ++i) {
+    if (fitted.waveform.waveform.harmonics[i] == 0.0) continue;
+    square += std::pow(fitted.waveform.sigma[i] * harmonic_response(fitted, i), 2);
+  }
+  return square;
+}
+
 }  // namespace
+
+std::optional<ResponseTable> own_correction(const FittedAlgorithm& fitted,
+                                            const PhaseAlgorithm& algorithm) {
+  constexpr double kWins = 2.0;  // error over what the correction leaves uncertain
+  const double error = harmonic_phase_error(fitted, nullptr);
+  if (error < kNegligible_rad || error < kWins * std::sqrt(harmonic_variance(fitted))) return {};
+  return find_response_table(fitted.waveform.waveform, algorithm, fitted.shifts_rad);
+}
 
 double harmonic_phase_error(const FittedAlgorithm& fitted, const ResponseTable* table) {
   if (fitted.waveform.largest_harmonic() == 0) return 0.0;
@@ -56,11 +74,7 @@ double harmonic_phase_error(const FittedAlgorithm& fitted, const ResponseTable* 
 }
 
 SystematicPhase systematic_phase(const FittedAlgorithm& fitted, const ResponseTable* table) {
-  double square = std::pow(harmonic_phase_error(fitted, table), 2);
-  for (std::size_t i = 0; i < fitted.waveform.waveform.harmonics.size(); ++i) {
-    if (fitted.waveform.waveform.harmonics[i] == 0.0) continue;
-    square += std::pow(fitted.waveform.sigma[i] * harmonic_response(fitted, i), 2);
-  }
+  double square = std::pow(harmonic_phase_error(fitted, table), 2) + harmonic_variance(fitted);
   square += std::pow(fitted.waveform.flicker_error_rad, 2);
   square += std::pow(fitted.unexplained_rad, 2);
   const double differing = square;

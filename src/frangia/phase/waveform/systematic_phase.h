@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "frangia/phase/algorithm/fit_algorithm.h"
 #include "frangia/phase/waveform/correct_response.h"
 #include "frangia/phase/wrap/phase_map.h"
@@ -12,6 +14,12 @@ namespace frangia {
 /// @units    rad
 [[nodiscard]] double harmonic_phase_error(const FittedAlgorithm& fitted,
                                           const ResponseTable* table);
+
+/// The correction of the harmonics that the frames themselves show, for an algorithm of the same
+/// shifts. Empty where they hardly shift its phase, where their own uncertainty shifts it nearly as
+/// much, and where two phases measure alike.
+[[nodiscard]] std::optional<ResponseTable> own_correction(const FittedAlgorithm& fitted,
+                                                          const PhaseAlgorithm& algorithm);
 
 /// The systematic standard uncertainty of a phase and what it is made of.
 struct SystematicPhase {

@@ -94,16 +94,41 @@ MotionSums sum_agreement(const RigidMotions& motions,
   return sums;
 }
 
+/// In pairs: by a step of each independent change in either direction.
+std::vector<Rig> changed_rigs_of(const Rig& rig) {
+  const RigCovariance& known = rig.calibration->covariance;
+  const Eigen::MatrixXd factor = covariance_factor(known);
+  std::vector<Rig> changed;
+  for (Eigen::Index i = 0; i < factor.cols(); ++i) {
+    for (const double side : {kDifferenceStep, -kDifferenceStep})
+      changed.push_back(change_parameters(rig, known.parameters, side * factor.col(i)));
+  }
+  return changed;
+}
+
 }  // namespace
 
 ChangedRigs::ChangedRigs(const Rig& rig, const Pattern& pattern, std::size_t camera)
-    : rig_(rig), pattern_(pattern), camera_(camera) {
-  const RigCovariance& known = rig.calibration->covariance;
-  const Eigen::MatrixXd factor = covariance_factor(known);
-  for (Eigen::Index i = 0; i < factor.cols(); ++i) {
-    for (const double side : {kDifferenceStep, -kDifferenceStep})
-      changed_.push_back(change_parameters(rig, known.parameters, side * factor.col(i)));
+    : rig_(rig), pattern_(pattern), camera_(camera), changed_(changed_rigs_of(rig)) {}
+
+ChangedRays::ChangedRays(const Rig& rig) : rig_(rig), changed_(changed_rigs_of(rig)) {}
+
+Eigen::VectorXd ChangedRays::distances_of(const Eigen::Vector3d& point_mm,
+                                          std::size_t first,
+                                          std::size_t second) const {
+  const Eigen::Vector2d first_px = pixel_of(rig_, first, point_mm);
+  const Eigen::Vector2d second_px = pixel_of(rig_, second, point_mm);
+  const auto distance = [&](const Rig& rig) {
+    const RigRay one = ray_of(rig, first, first_px);
+    const RigRay other = ray_of(rig, second, second_px);
+    return one.direction.cross(other.direction).normalized().dot(other.origin - one.origin);
+  };
+  Eigen::VectorXd out(static_cast<Eigen::Index>(changed_.size() / 2));
+  for (Eigen::Index i = 0; i < out.size(); ++i) {
+    const auto pair = static_cast<std::size_t>(2 * i);
+    out[i] = (distance(changed_[pair]) - distance(changed_[pair + 1])) / (2.0 * kDifferenceStep);
   }
+  return out;
 }
 
 Displacements ChangedRigs::displacements_of(const Eigen::Vector3d& point_mm) const {

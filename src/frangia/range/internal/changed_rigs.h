@@ -38,6 +38,23 @@ class ChangedRigs {
   std::vector<Rig> changed_;  ///< in pairs: by a step in either direction
 };
 
+/// The rays of cameras by rigs that differ from the true one by one change of the parameters each.
+class ChangedRays {
+ public:
+  /// As `ChangedRigs`.
+  explicit ChangedRays(const Rig& rig);
+
+  /// The change of the signed distance between the rays of two cameras to a point, both of which
+  /// see it, for each change of the parameters, mm. Cameras count as in `rig_of_camera`.
+  [[nodiscard]] Eigen::VectorXd distances_of(const Eigen::Vector3d& point_mm,
+                                             std::size_t first,
+                                             std::size_t second) const;
+
+ private:
+  Rig rig_;
+  std::vector<Rig> changed_;  ///< in pairs: by a step in either direction
+};
+
 /// A rigid motion for each change of the parameters, small enough to be linear: a translation and a
 /// rotation vector about `center`, per `size_mm`.
 struct RigidMotions {

@@ -30,10 +30,12 @@ std::optional<IndirectLightReport> count_indirect_light(FusedSurface& fused,
     CameraPart& own = (*parts)[camera];
     const Scan scan = scan_of_camera(decoding.scan, camera);
     own.rays = rays_of(scan.rig.reference().model);
+    ShownFringes shown;
     own.part = indirect_part({scan, own.rays, decoding.options, decoding.plan},
                              lit_views(measured, decoding.scan, camera),
                              fused.mesh,
                              ShiftedPoints::Kept,
+                             shown,
                              run);
     if (own.part && (!report || own.part->report.largest_mm > report->largest_mm))
       report = own.part->report;

@@ -86,32 +86,30 @@ ViewExposure exposure_of(std::size_t index,
   return out;
 }
 
-/// Adds what the frames of a view show at some pixels.
-void add_samples(const DecodedView& decoded,
-                 const View& view,
-                 const LitSurface& surface,
-                 const Image<Eigen::Vector2f>& rays,
-                 std::vector<AlbedoSample>& out) {
+/// What the frames of a decoded view show at some pixels that have a point.
+std::vector<ShownFringes::AtPixel> fringes_of(const DecodedView& decoded,
+                                              const std::vector<Pattern>& patterns,
+                                              const Image<float>& depth_mm) {
   constexpr std::size_t kSamples = 2500;
   const auto lit = std::ranges::find(
-      decoded.directions, surface.patterns().back().direction, [](const DecodedDirection& one) {
+      decoded.directions, patterns.back().direction, [](const DecodedDirection& one) {
         return one.phase.pattern.direction;
       });
-  if (lit == decoded.directions.end()) return;
+  if (lit == decoded.directions.end()) return {};
   std::vector<const WrappedPhase*> maps;
-  for (const Pattern& pattern : surface.patterns()) {
+  for (const Pattern& pattern : patterns) {
     for (const WrappedPhase& map : lit->wrapped) {
       if (map.pattern.name == pattern.name) maps.push_back(&map);
     }
   }
-  if (maps.size() != surface.patterns().size()) return;
+  if (maps.size() != patterns.size()) return {};
   const AbsolutePhase& absolute = lit->phase;
-  const ViewLight light(surface, view, rays, LightUse::FewPixels);
-  for (const Eigen::Vector2i& at : sampled_pixels(view.range.depth_mm, kSamples)) {
+  std::vector<ShownFringes::AtPixel> out;
+  for (const Eigen::Vector2i& at : sampled_pixels(depth_mm, kSamples)) {
     const int x = at.x();
     const int y = at.y();
     if (std::isnan(absolute.phase_rad(x, y))) continue;
-    AlbedoSample sample;
+    ShownFringes::AtPixel sample{x, y, {}};
     for (const WrappedPhase* map : maps) {
       const float modulation = map->modulation_counts(x, y);
       if (std::isnan(map->phase_rad(x, y)) || !(modulation > 0.0F)) break;
@@ -122,8 +120,22 @@ void add_samples(const DecodedView& decoded,
            map->sigma_rad(x, y),
            static_cast<float>(map->phase_rad(x, y) - ratio * absolute.phase_rad(x, y))});
     }
-    if (sample.measured.size() != maps.size()) continue;
-    sample.predicted = light.at(x, y, static_cast<double>(view.range.depth_mm(x, y)));
+    if (sample.measured.size() == maps.size()) out.push_back(std::move(sample));
+  }
+  return out;
+}
+
+/// Adds what the frames of a view show, with what the surface predicts there.
+void add_samples(const std::vector<ShownFringes::AtPixel>& shown,
+                 const View& view,
+                 const LitSurface& surface,
+                 const Image<Eigen::Vector2f>& rays,
+                 std::vector<AlbedoSample>& out) {
+  const ViewLight light(surface, view, rays, LightUse::FewPixels);
+  for (const ShownFringes::AtPixel& at : shown) {
+    const float depth_mm = view.range.depth_mm(at.x, at.y);
+    if (std::isnan(depth_mm)) continue;
+    AlbedoSample sample{light.at(at.x, at.y, static_cast<double>(depth_mm)), at.measured};
     constexpr double kMost = 1.0;  // at grazing light the prediction is too sensitive
     if (sample.predicted.mean < kMost) out.push_back(std::move(sample));
   }
@@ -172,32 +184,46 @@ std::size_t index_in_scan(const Scan& scan, const std::string& folder) {
 void add_views(const ScanDecoding& decoding,
                const LitViews& lit,
                std::span<const ViewExposure> exposures,
+               const DirectionPlan& plan,
                const LitSurface& surface,
+               ShownFringes& shown,
                const Run& run,
                std::vector<AlbedoSample>& samples) {
-  const Scan& scan = decoding.scan;
-  const Image<Eigen::Vector2f>& rays = decoding.rays;
+  for (const ViewExposure& exposure : exposures) {
+    run.check();
+    const std::size_t index = lit.of_scan[exposure.view];
+    if (index == decoding.scan.views.size()) continue;
+    const View view = lit.views.load_points(exposure.view);
+    add_samples(shown.of_view(decoding, index, plan, view.range.depth_mm, run),
+                view,
+                surface,
+                decoding.rays,
+                samples);
+  }
+}
+
+}  // namespace
+
+const std::vector<ShownFringes::AtPixel>& ShownFringes::of_view(const ScanDecoding& decoding,
+                                                                std::size_t index,
+                                                                const DirectionPlan& plan,
+                                                                const Image<float>& depth_mm,
+                                                                const Run& run) {
+  const auto known = views_.find(index);
+  if (known != views_.end()) return known->second;
   DecodeOptions options = decoding.options;
   options.keep_maps = true;
   Run quiet = run;
   quiet.on_note = nullptr;
   quiet.on_warning = nullptr;
-  for (const ViewExposure& exposure : exposures) {
-    run.check();
-    const std::size_t view = exposure.view;
-    const std::size_t index = lit.of_scan[view];
-    if (index == scan.views.size()) continue;
-    const DecodedView decoded = decode_view(read_frames(scan, index, run),
-                                            decoding.plan,
-                                            scan.rig,
-                                            rays,
-                                            options_of_view(options, index),
-                                            quiet);
-    add_samples(decoded, lit.views.load_points(view), surface, rays, samples);
-  }
+  const DecodedView decoded = decode_view(read_frames(decoding.scan, index, run),
+                                          decoding.plan,
+                                          decoding.scan.rig,
+                                          decoding.rays,
+                                          options_of_view(options, index),
+                                          quiet);
+  return views_.emplace(index, fringes_of(decoded, plan.maps, depth_mm)).first->second;
 }
-
-}  // namespace
 
 LitViews lit_views(const MeasuredViews& measured, const Scan& scan, std::size_t camera) {
   LitViews out{measured.cameras.at(camera), {}, measured.coarsest.direction};
@@ -210,6 +236,7 @@ std::optional<IndirectPart> indirect_part(const ScanDecoding& decoding,
                                           const LitViews& lit,
                                           const Mesh& surface,
                                           ShiftedPoints points,
+                                          ShownFringes& shown,
                                           const Run& run) {
   constexpr double kMaterial = 0.01;   // share of the points of a view
   constexpr std::size_t kDecoded = 3;  // views whose frames determine the reflectance
@@ -242,7 +269,7 @@ std::optional<IndirectPart> indirect_part(const ScanDecoding& decoding,
   for (const auto& [begin, end] : {std::pair<std::size_t, std::size_t>{0, 1}, {1, most}}) {
     if (begin == end) break;
     const auto views = std::span(exposures).subspan(begin, end - begin);
-    add_views(decoding, lit, views, *source, run, samples);
+    add_views(decoding, lit, views, *plan, *source, shown, run, samples);
     found = estimate_albedo(samples, plan->maps);
     if (!found.significant) return std::nullopt;
   }

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <map>
 #include <optional>
 #include <vector>
 
@@ -9,6 +10,7 @@
 #include "frangia/core/run.h"
 #include "frangia/decode/scan_decoding.h"
 #include "frangia/geometry/mesh.h"
+#include "frangia/indirect_light/estimate_albedo.h"
 #include "frangia/indirect_light/indirect_light_report.h"
 #include "frangia/reconstruct/internal/measure_views.h"
 
@@ -25,6 +27,29 @@ struct LitViews {
 [[nodiscard]] LitViews lit_views(const MeasuredViews& measured,
                                  const Scan& scan,
                                  std::size_t camera = 0);
+
+/// What the frames of views show at some pixels. The views that several predictions ask for are
+/// decoded once.
+class ShownFringes {
+ public:
+  /// A pixel and what was measured there.
+  struct AtPixel {
+    int x = 0;
+    int y = 0;
+    std::vector<MeasuredFringe> measured;  ///< coarse to fine
+  };
+  /// Those of view `index` of the scan, of the fringes of a direction.
+  ///
+  /// @errors   as read_frames and decode_view
+  [[nodiscard]] const std::vector<AtPixel>& of_view(const ScanDecoding& decoding,
+                                                    std::size_t index,
+                                                    const DirectionPlan& plan,
+                                                    const Image<float>& depth_mm,
+                                                    const Run& run);
+
+ private:
+  std::map<std::size_t, std::vector<AtPixel>> views_;  ///< by their index in the scan
+};
 
 /// What becomes of the points that indirect light shifts.
 enum class ShiftedPoints {
@@ -52,12 +77,14 @@ struct IndirectPart {
 /// that is material, frames of up to three views are decoded again: contrast and phases give the
 /// reflectance (`estimate_albedo`). Nothing is returned when they show no indirect light.
 ///
-/// @shape    `surface` is the fused mesh of the views, object frame; `decoding`: of their camera
+/// @shape    `shown`: of the same camera; `surface` is the fused mesh of the views, object frame;
+/// `decoding`: of their camera
 /// @errors   as read_frames and decode_view; Error(Cancelled)
 [[nodiscard]] std::optional<IndirectPart> indirect_part(const ScanDecoding& decoding,
                                                         const LitViews& lit,
                                                         const Mesh& surface,
                                                         ShiftedPoints points,
+                                                        ShownFringes& shown,
                                                         const Run& run);
 
 }  // namespace frangia

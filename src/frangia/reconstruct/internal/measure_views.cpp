@@ -197,7 +197,9 @@ MeasuredViews measure_views(const Scan& scan,
     ViewSummary summary{
         scan.views[i].folder.string(), scan.views[i].angle_rad, scan.views[i].setup};
     const ViewFit& fit = decoded.front().fit;
-    summary.quality = view_quality(assessments_of(decoded.front().decoded));
+    const auto assessments = assessments_of(decoded.front().decoded);
+    summary.quality = view_quality(assessments);
+    if (i == 0) all.response = describe_corrections(assessments);
     if (!fit.fits()) {
       summary.left_out = true;
       summary.reason = fit.reason;
@@ -209,15 +211,12 @@ MeasuredViews measure_views(const Scan& scan,
     MeasuredView measured =
         fuse_view_cameras(scan.rig, decoded, decode.directions, mixed_pixels, run);
     if (measured.directions.pixels > 0) {
-      all.disagreements_mm.push_back(static_cast<float>(measured.directions.median_mm));
-      all.disagreements_over_sigma.push_back(
-          static_cast<float>(measured.directions.median_over_sigma));
+      all.first = leading.phase.pattern;
+      all.second = decoded.front().decoded.directions[fit.used.back()].phase.pattern;
+      all.direction_agreements.push_back(std::move(measured.directions));
     }
-    if (measured.between_cameras.pixels > 0) {
-      all.camera_disagreements_mm.push_back(static_cast<float>(measured.between_cameras.median_mm));
-      all.camera_disagreements_over_sigma.push_back(
-          static_cast<float>(measured.between_cameras.median_over_sigma));
-    }
+    if (measured.between_cameras.pixels > 0)
+      all.camera_agreements.push_back(std::move(measured.between_cameras));
     summary.points = count_points(measured);
     summary.sigma_mm = median_sigma_mm(measured.cameras.front().range);
     summary.left_out = summary.points == 0 && leading.unresolved.empty();

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <string>
 #include <vector>
 
 #include <Eigen/Core>
@@ -12,6 +13,7 @@
 #include "frangia/decode/view_summary.h"
 #include "frangia/fringe_order/resolve_by_views.h"
 #include "frangia/pattern/pattern.h"
+#include "frangia/range/depth_agreement.h"
 #include "frangia/range/remove_mixed_pixels.h"
 #include "frangia/registration/register_views.h"
 #include "frangia/views/view_store.h"
@@ -28,13 +30,12 @@ struct MeasuredViews {
   Pattern coarsest;                              ///< coarsest fringe pattern
   bool unwrapped_spatially = false;              ///< whole patches may then be wrong by fringes
   std::size_t points = 0;
-  /// Disagreement of the two directions of fringes, mm and over its noise, one per view that has
-  /// both.
-  std::vector<float> disagreements_mm;
-  std::vector<float> disagreements_over_sigma;
-  /// Disagreement of the cameras, mm and over its noise, one per view in which it is known.
-  std::vector<float> camera_disagreements_mm;
-  std::vector<float> camera_disagreements_over_sigma;
+  /// One per view in which points were measured by both directions of fringes, or by two cameras.
+  std::vector<DepthAgreement> direction_agreements;
+  std::vector<DepthAgreement> camera_agreements;
+  Pattern first;  ///< of the phases of the two directions
+  Pattern second;
+  std::string response;  ///< what is corrected in the phase of the first view; may be empty
   std::vector<ViewSummary> summaries;  ///< of all views of the scan, also of those left out
 
   [[nodiscard]] const ViewStore& reference() const { return cameras.front(); }  ///< camera 0

@@ -39,7 +39,13 @@ std::string summary_of(const Reconstruction& result, const std::vector<std::stri
     json["turntable"] = json_of_turntable(*result.registration);
   }
   json["untrusted_reason"] = result.untrusted_reason;
-  json["warnings"] = warnings;
+  json["warnings"] = nlohmann::ordered_json::array();
+  for (const RigAgreement& agreement : result.agreements) {
+    if (!agreement.is_consistent() && agreement.text() != result.untrusted_reason)
+      json["warnings"].push_back(agreement.text());
+  }
+  for (const std::string& warning : warnings)
+    json["warnings"].push_back(warning);
   json["views_of_scan"] = result.view_summaries.size();
   json["setups"] = nlohmann::ordered_json::array();
   for (const SetupJoin& join : result.setups) {

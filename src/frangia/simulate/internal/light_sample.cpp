@@ -45,6 +45,13 @@ double albedo_at(const Vector3d& position_mm, const SimulatedScene& scene) {
     return std::abs(point.z()) < kFace_mm ? board_albedo(*scene.options.board, point.head<2>())
                                           : 1.0;
   }
+  if (scene.options.checker_mm > 0.0) {
+    constexpr double kDark = 0.10;
+    constexpr double kBright = 0.85;
+    const Vector3d cell =
+        (scene.part_from_object * position_mm / scene.options.checker_mm).array().floor();
+    return static_cast<std::int64_t>(cell.sum()) % 2 == 0 ? kBright : kDark;
+  }
   const double texture = scene.options.texture;
   if (texture == 0.0) return 1.0;
   return 1.0 -

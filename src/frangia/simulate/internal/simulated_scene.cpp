@@ -51,6 +51,8 @@ void check(const SimulateOptions& options, const Rig& rig) {
   check_range("display gamma", options.display_gamma, 0.1, 10.0);
   check_range("line width", options.line_sigma_mm, 1e-3, 100.0);
   check_range("line spill", options.line_spill, 0.0, 1.0);
+  check_range("camera blur", options.camera_blur_px, 0.0, 20.0);
+  check_range("size of the checker", options.checker_mm, 0.0, kMany);
   check_range("texture", options.texture, 0.0, 1.0);
   check_range("gloss", options.gloss, 0.0, 1000.0);
   check_range("shininess", options.shininess, 1.0, kMany);
@@ -72,6 +74,11 @@ void check(const SimulateOptions& options, const Rig& rig) {
     throw Error(ErrorKind::Input,
                 "display gamma is a fault of a digital projector, but the rig has an angular one; "
                 "leave it at 1");
+  }
+  if (options.waveform != DisplayedWaveform::Sine && rig.projector.is_angular()) {
+    throw Error(ErrorKind::Input,
+                "binary and dithered patterns are those of a digital projector, but the rig has an "
+                "angular one; leave `waveform` at sine");
   }
   if (rig.projector.is_label) {
     throw Error(

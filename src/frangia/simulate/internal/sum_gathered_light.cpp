@@ -27,12 +27,10 @@ GatheredLightSum::GatheredLightSum(const Pattern& pattern,
       is_fringe_(pattern.kind == PatternKind::Fringe && shots.front().picture == nullptr) {
   if (!is_fringe_) return;
   constexpr int kPhases = 64;
-  const bool blurred = scene.options.projector_blur_px > 0.0 && pattern.period_px > 0.0;
   for (int i = 0; i < kPhases; ++i) {
     const double phase = kTwoPi * i / kPhases;
     const auto fringe = std::polar(1.0, phase);
-    const double shown =
-        blurred ? blurred_light(fringe, pattern.period_px, scene) : fringe_light(fringe, scene);
+    const double shown = shown_fringe(fringe, pattern.period_px, scene);
     for (std::size_t h = 0; h < kHarmonics; ++h) {
       amplitudes_[h] +=
           (h == 0 ? 1.0 : 2.0) / kPhases * shown * std::cos(static_cast<double>(h) * phase);

@@ -35,6 +35,33 @@ Eigen::Vector2d sample_offset(int column, int row, int across) {
   return cell + Eigen::Vector2d(cell.y(), -cell.x()) / across;
 }
 
+/// A number from 0 to 1 that fills the interval evenly, as a sequence of four does a cube: the
+/// powers of the root of x^5 = x + 1.
+double filling(int number, int dimension) {
+  constexpr double kRoot = 1.1673039782614187;
+  const double at = 0.5 + number * std::pow(kRoot, -(dimension + 1));
+  return at - std::floor(at);
+}
+
+/// Where a sample lies with a lens that blurs: anywhere in the pixel and in its Gaussian, with its
+/// mirror image, so that the middle of all samples is that of the pixel.
+Eigen::Vector2d blurred_offset(int number, double blur_px) {
+  const int pair = number / 2;
+  const double radius = blur_px * std::sqrt(-2.0 * std::log(1.0 - filling(pair, 2)));
+  const double angle = kTwoPi * filling(pair, 3);
+  const Eigen::Vector2d offset(filling(pair, 0) - 0.5 + radius * std::cos(angle),
+                               filling(pair, 1) - 0.5 + radius * std::sin(angle));
+  return number % 2 == 0 ? offset : Eigen::Vector2d(-offset);
+}
+
+/// Rays across a pixel: a blur needs enough for its Gaussian.
+int rays_across(const SimulateOptions& options) {
+  constexpr int kBlurred = 64;
+  const int wanted = options.camera_blur_px > 0.0 ? std::max(kBlurred, options.samples_per_px)
+                                                  : options.samples_per_px;
+  return static_cast<int>(std::ceil(std::sqrt(wanted)));
+}
+
 /// Converts light as a share of white to counts. Electrons are limited to the full well.
 int counts_of(double light,
               int white_level,
@@ -67,7 +94,7 @@ ViewRenderer::ViewRenderer(const SimulatedScene& scene,
     : scene_(scene),
       options_(scene.options),
       pose_(rig_from_object),
-      samples_across_(static_cast<int>(std::ceil(std::sqrt(options_.samples_per_px)))),
+      samples_across_(rays_across(options_)),
       samples_per_px_(static_cast<std::size_t>(samples_across_) *
                       static_cast<std::size_t>(samples_across_)) {
   if (options_.speckle > 0.0) {
@@ -96,7 +123,10 @@ LitRow ViewRenderer::sample_row(int y) const {
     }
     for (int row = 0; row < samples_across_; ++row) {
       for (int column = 0; column < samples_across_; ++column) {
-        const Eigen::Vector2d offset = sample_offset(column, row, samples_across_);
+        const Eigen::Vector2d offset =
+            options_.camera_blur_px > 0.0
+                ? blurred_offset(row * samples_across_ + column, options_.camera_blur_px)
+                : sample_offset(column, row, samples_across_);
         samples.push_back(sample_light(scene_, pose_, center + ray_from_px * offset));
       }
     }
@@ -165,11 +195,12 @@ void ViewRenderer::mean_light(const Pattern& pattern,
     }
     const std::complex<double> fringe =
         std::complex<double>(speckle.fringe) * std::polar(1.0, phase_at(pattern, at));
-    const bool blurred = options_.projector_blur_px > 0.0 && pattern.period_px > 0.0;
     for (std::size_t i = 0; i < shots.size(); ++i) {
       const std::complex<double> shift(shots[i].cos_shift, shots[i].sin_shift);
-      const double shown = blurred ? blurred_light(fringe * shift, pattern.period_px, scene_)
-                                   : fringe_light(fringe * shift, scene_);
+      const double shown =
+          options_.waveform == DisplayedWaveform::Dithered
+              ? dithered_light(pattern, at, shift * std::complex<double>(speckle.fringe), scene_)
+              : shown_fringe(fringe * shift, pattern.period_px, scene_);
       light[i] += other(shots[i]) + shots[i].projector * reflected * shown;
     }
   }

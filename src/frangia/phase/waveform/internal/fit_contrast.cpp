@@ -204,6 +204,7 @@ ContrastFit fit_contrast(const FringeBins& bins,
   const double mean = (bins.weight * bins.mean_over_modulation).sum() / bins.weight.sum();
   ThirdHarmonic third;
   if (order == 2) third = third_of(bins, mean);
+  out.third = third.value;
   ContrastModel model(shifts_rad, known, order, mean, third.value);
   constexpr double kProbe = 1e-4;
   Vector4 unknown = Vector4::Zero();

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <complex>
+#include <optional>
 #include <vector>
 
 #include "frangia/phase/internal/fringe_bins.h"
@@ -12,6 +13,8 @@ namespace frangia {
 struct ContrastFit {
   std::complex<double> harmonic = 0.0;  ///< relative to the fundamental
   double harmonic_sigma = 0.0;          ///< of its amplitude
+  /// The third harmonic of three frames, from the ripple of their mean; empty where none is seen.
+  std::optional<std::complex<double>> third{};
   /// Added to modulation times exp(i phase), relative to the modulation: the effect of unequal
   /// gains of the frames.
   std::complex<double> offset = 0.0;
