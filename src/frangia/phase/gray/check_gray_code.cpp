@@ -35,23 +35,44 @@ struct CodedPixel {
   int place = 0;  ///< along the line
 };
 
-class GrayCodeSample {
- public:
-  GrayCodeSample(const FrameStack& gray,
-                 const WrappedPhase& fringes,
-                 const GrayCodeCheckOptions& options)
-      : gray_(gray), fringes_(fringes), options_(options) {
-    const bool columns = gray.pattern.direction == FringeDirection::Horizontal;
-    const int across = columns ? fringes.status.width() : fringes.status.height();
-    const int along = columns ? fringes.status.height() : fringes.status.width();
-    const int stride = std::max(1, across / options.lines);
-    for (int line = stride / 2; line < across; line += stride) {
-      for (int place = 0; place < along; ++place) {
-        CodedPixel pixel{.line = line, .place = place};
-        if (read(columns ? line : place, columns ? place : line, pixel)) pixels.push_back(pixel);
+/// Samples lines of pixels across the stripes, without those at which a frame is neither bright nor
+/// dark.
+std::vector<CodedPixel> sample_code(const FrameStack& gray,
+                                    const WrappedPhase& fringes,
+                                    const GrayCodeCheckOptions& options) {
+  const bool columns = gray.pattern.direction == FringeDirection::Horizontal;
+  const int across = columns ? fringes.status.width() : fringes.status.height();
+  const int along = columns ? fringes.status.height() : fringes.status.width();
+  const int stride = std::max(1, across / options.lines);
+  std::vector<CodedPixel> pixels;
+  for (int line = stride / 2; line < across; line += stride) {
+    for (int place = 0; place < along; ++place) {
+      const int x = columns ? line : place;
+      const int y = columns ? place : line;
+      if (fringes.status(x, y) != PixelStatus::Measured) continue;
+      CodedPixel pixel{.phase_rad = fringes.phase_rad(x, y), .line = line, .place = place};
+      const double mean = fringes.mean_counts(x, y);
+      const double level = options.min_level * static_cast<double>(fringes.modulation_counts(x, y));
+      bool decided = true;
+      for (std::size_t k = 0; k < gray.frames.size() && decided; ++k) {
+        const double above = counts_at(gray.frames[k], x, y) - mean;
+        decided = !(std::abs(above) < level);
+        if (above > 0.0) pixel.bright |= std::uint64_t{1} << k;
       }
+      if (decided) pixels.push_back(pixel);
     }
   }
+  return pixels;
+}
+
+class GrayCodeSample {
+ public:
+  /// `frames`: number of frames of the code; `period_px`: of the fringes.
+  GrayCodeSample(std::vector<CodedPixel> coded,
+                 std::size_t frames,
+                 double period_px,
+                 const GrayCodeCheckOptions& options)
+      : pixels(std::move(coded)), frames_(frames), period_px_(period_px), options_(options) {}
 
   /// The least of the shares that agree with the fringes, that lie between neighbouring stripes,
   /// and whose stripes rise with the phase.
@@ -111,12 +132,12 @@ class GrayCodeSample {
     bool scattered = false;
   };
   [[nodiscard]] Start start_offset(const GrayTrial& trial) const {
-    const double period = fringes_.pattern.period_px;
     const Borders at = borders(trial);
     double cosine = 0.0;
     double sine = 0.0;
     for (std::size_t i = 0; i < at.columns.size(); ++i) {
-      const double found = static_cast<double>(at.phases_rad[i]) - kTwoPi * at.columns[i] / period;
+      const double found =
+          static_cast<double>(at.phases_rad[i]) - kTwoPi * at.columns[i] / period_px_;
       cosine += std::cos(found);
       sine += std::sin(found);
     }
@@ -140,7 +161,7 @@ class GrayCodeSample {
     const double most = 1.02 / trial.code.stripe_px;
     const double frequency = best_frequency(at.columns, at.phases_rad, most / kFinest, field);
     if (!(frequency > 0.0)) return 0.0;
-    const double declared = 1.0 / fringes_.pattern.period_px;
+    const double declared = 1.0 / period_px_;
     const double odds =
         log_odds_of_frequency(at.columns, at.phases_rad, frequency, declared, 5.0 * most * field);
     if (odds < std::log(100.0)) return 0.0;
@@ -155,18 +176,6 @@ class GrayCodeSample {
   std::vector<CodedPixel> pixels;
 
  private:
-  bool read(int x, int y, CodedPixel& pixel) const {
-    if (fringes_.status(x, y) != PixelStatus::Measured) return false;
-    pixel.phase_rad = fringes_.phase_rad(x, y);
-    const double mean = fringes_.mean_counts(x, y);
-    const double level = options_.min_level * static_cast<double>(fringes_.modulation_counts(x, y));
-    for (std::size_t k = 0; k < gray_.frames.size(); ++k) {
-      const double above = counts_at(gray_.frames[k], x, y) - mean;
-      if (std::abs(above) < level) return false;
-      if (above > 0.0) pixel.bright |= std::uint64_t{1} << k;
-    }
-    return true;
-  }
   [[nodiscard]] static std::uint32_t stripe_of(const GrayTrial& trial, const CodedPixel& pixel) {
     std::uint32_t code = 0;
     for (int bit = 0; bit < trial.code.bits; ++bit) {
@@ -179,14 +188,13 @@ class GrayCodeSample {
   }
   [[nodiscard]] double fringe_agreement(const GrayTrial& trial,
                                         const std::vector<std::uint32_t>& stripes) const {
-    const double period = fringes_.pattern.period_px;
-    const double limit = kPi * trial.code.stripe_px / period + options_.margin_rad;
+    const double limit = kPi * trial.code.stripe_px / period_px_ + options_.margin_rad;
     std::size_t agreeing = 0;
     for (std::size_t i = 0; i < pixels.size(); ++i) {
       const double column = (stripes[i] + 0.5) * trial.code.stripe_px - 0.5 - trial.code.offset_px;
       const double measured = static_cast<double>(pixels[i].phase_rad);
       const double phase = (trial.reversed ? -measured : measured) - trial.start_rad;
-      if (std::abs(wrap_rad(phase - kTwoPi * column / period)) <= limit) ++agreeing;
+      if (std::abs(wrap_rad(phase - kTwoPi * column / period_px_)) <= limit) ++agreeing;
     }
     return static_cast<double>(agreeing) / static_cast<double>(pixels.size());
   }
@@ -212,9 +220,9 @@ class GrayCodeSample {
   /// The least share, over the frames, of the borders of their stripes that lie between
   /// neighbouring stripes, without those at depth edges.
   [[nodiscard]] double border_agreement(const std::vector<std::uint32_t>& stripes) const {
-    std::vector<double> edges(gray_.frames.size());
-    std::vector<double> good(gray_.frames.size());
-    std::vector<double> bad(gray_.frames.size());
+    std::vector<double> edges(frames_);
+    std::vector<double> good(frames_);
+    std::vector<double> bad(frames_);
     for (std::size_t i = 1; i < pixels.size(); ++i) {
       const CodedPixel& a = pixels[i - 1];
       const CodedPixel& b = pixels[i];
@@ -258,8 +266,8 @@ class GrayCodeSample {
     return static_cast<double>(rising) / static_cast<double>(borders);
   }
 
-  const FrameStack& gray_;
-  const WrappedPhase& fringes_;
+  std::size_t frames_;
+  double period_px_;
   const GrayCodeCheckOptions& options_;
 };
 
@@ -340,7 +348,8 @@ SequenceCheck check_gray_code(const FrameStack& gray,
           "check_gray_code: the number of frames differs from the pattern");
   SequenceCheck out;
   out.patterns = {code.name, fringes.pattern.name};
-  const GrayCodeSample sample(gray, fringes, options);
+  const GrayCodeSample sample(
+      sample_code(gray, fringes, options), gray.frames.size(), fringes.pattern.period_px, options);
   if (sample.pixels.size() < options.min_pixels) return out;
   const double declared = sample.score(declared_trial(code));
   out.decided = true;
