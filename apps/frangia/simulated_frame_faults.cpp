@@ -123,7 +123,7 @@ std::vector<LampSwitch> lamps_of(const SimulatedFrameFaults& faults, const Scan&
   for (const std::string& text : faults.lamps_on) {
     const auto at = text.find(':');
     const auto view = whole_number(text.substr(0, at));
-    const auto frame = at == std::string::npos ? std::nullopt : whole_number(text.substr(at + 1));
+    const auto frame = whole_number(at == std::string::npos ? std::string() : text.substr(at + 1));
     if (!view || !frame || static_cast<std::size_t>(*view) >= plan.views.size() ||
         *frame >= frames) {
       throw Error(ErrorKind::Input,

@@ -41,9 +41,10 @@ SequenceSample::SequenceSample(std::span<const SequenceFrames> maps,
   for (const SequenceFrames& map : maps) {
     const bool columns = map.stack->pattern.direction == FringeDirection::Horizontal;
     patterns_.push_back(map.stack->pattern);
-    frames_.push_back(columns ? sample_columns(*map.stack, options.pixels)
-                              : sample_rows(*map.stack, options.pixels));
-    maps_.push_back(wrap_phase(frames_.back(), map.algorithm, noise, wrap));
+    FrameStack lines = columns ? sample_columns(*map.stack, options.pixels)
+                               : sample_rows(*map.stack, options.pixels);
+    maps_.push_back(wrap_phase(lines, map.algorithm, noise, wrap));
+    frames_.push_back(std::move(lines.frames));
   }
   const PhaseRange field = phase_range(patterns_.front(), projector);
   const double per_unit = patterns_.front().fringes_per_unit();
@@ -84,7 +85,7 @@ std::vector<float> SequenceSample::wrapped(const Pattern& pattern,
                                            std::size_t frames_of,
                                            std::span<const std::size_t> pixels) const {
   const PhaseAlgorithm algorithm = least_squares(pattern.shifts_rad);
-  const std::vector<Frame>& frames = frames_[frames_of].frames;
+  const std::vector<Frame>& frames = frames_[frames_of];
   std::vector<double> counts(frames.size());
   std::vector<float> phases;
   phases.reserve(pixels.size());
@@ -223,7 +224,7 @@ double SequenceSample::fit_residual(const Pattern& pattern, std::size_t frames_o
   const std::vector<double>& shifts = pattern.shifts_rad;
   if (shifts.size() < 4) return 0.0;
   const PhaseAlgorithm fit = least_squares(shifts);
-  const std::vector<Frame>& frames = frames_[frames_of].frames;
+  const std::vector<Frame>& frames = frames_[frames_of];
   std::vector<float> residuals;
   for (const std::size_t pixel : compared_) {
     double mean = 0.0;

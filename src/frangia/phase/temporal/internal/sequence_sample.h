@@ -73,7 +73,7 @@ class SequenceSample {
 
   const Projector& projector_;
   std::vector<Pattern> patterns_;
-  std::vector<FrameStack> frames_;  ///< sampled lines; a line is a row of these frames
+  std::vector<std::vector<Frame>> frames_;  ///< sampled lines; a line is a row of these frames
   std::vector<WrappedPhase> maps_;
   std::vector<std::size_t> compared_;  ///< pixels whose distances are computed
   std::vector<int> lines_;             ///< in which the ends of the field are looked for
