@@ -190,7 +190,7 @@ void print_hypotheses(Terminal& terminal) {
     for (const CauseRow& row : rows) {
       json["causes"].push_back({{"cause", row.cause},
                                 {"model", row.model},
-                                {"consequence", row.consequence},
+                                {"consequence", with_flags(row.consequence)},
                                 {"hypotheses", row.counts}});
     }
     for (const AlikeCauses& one : classes)
@@ -206,7 +206,7 @@ void print_hypotheses(Terminal& terminal) {
                row.cause,
                row.model,
                fmt::format("{}", fmt::join(row.counts, ", ")),
-               row.consequence);
+               with_flags(row.consequence));
   }
   print_text("\n| steps | causes whose frames are the same | classes |\n|---|---|---|\n");
   for (const AlikeCauses& one : classes)

@@ -109,7 +109,7 @@ TEST_F(TerminalProgram, NamesTheLimitThatRejectedAllPixels) {
   simulate("ball-bar --rig angular --views 1");
   const Answer answer =
       run_program("--quiet reconstruct " + path("scan") + " --max-sigma 1e-9 -o " + path("a.ply"));
-  EXPECT_EQ(answer.exit_code, 3);
+  EXPECT_EQ(answer.exit_code, 5);  // no view is left
   EXPECT_TRUE(shows(answer, "less certain than --max-sigma, 1e-09 rad")) << answer.output;
 }
 

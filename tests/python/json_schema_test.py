@@ -153,7 +153,7 @@ class Answers(unittest.TestCase):
         subprocess.run(["sha256sum", "--quiet", "-c", "acceptance/frames.sha256"], cwd=self.folder, check=True)
 
     def test_scans_with_directions_and_without_geometry(self):
-        self.run_quietly("simulate", "bust", "--rig", SMALL, "--views", "4", "-o", "laser")
+        self.run_quietly("simulate", "bust", "--rig", SMALL, "--views", "4", "--samples", "4", "-o", "laser")
         self.answer("reconstruct", "laser", "-o", "laser.ply")
         self.answer("decode", "laser", "-o", "laser-maps")
         (self.folder / "laser" / "rig.toml").unlink()

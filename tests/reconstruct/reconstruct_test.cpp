@@ -59,7 +59,7 @@ TEST(Reconstruct, ResolvesEveryFringeOrderOfThePapersRigByTheLaserSheet) {
 
 TEST(Reconstruct, GivesTheSameBytesOnOneThreadAndOnTwo) {
   const TemporaryFolder folder;
-  const Scan scan = small_scan(folder.path(), "bracket", "angular", 4);
+  const Scan scan = small_scan(folder.path(), "bust", "angular", 4);
   std::vector<Mesh> meshes;
   for (const std::size_t threads : {1U, 2U}) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
@@ -68,6 +68,8 @@ TEST(Reconstruct, GivesTheSameBytesOnOneThreadAndOnTwo) {
   ASSERT_EQ(meshes[0].vertices_mm.size(), meshes[1].vertices_mm.size());
   EXPECT_EQ(meshes[0].vertices_mm, meshes[1].vertices_mm);
   EXPECT_EQ(meshes[0].triangles, meshes[1].triangles);
+  ASSERT_FALSE(meshes[0].sigma_mm.empty());
+  EXPECT_FALSE(std::isnan(meshes[0].sigma_mm.front()));
   EXPECT_EQ(meshes[0].sigma_mm, meshes[1].sigma_mm);
 }
 

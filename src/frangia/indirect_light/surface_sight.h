@@ -14,6 +14,7 @@ namespace frangia {
 /// of them sees fills less than two hundredths of the hemisphere.
 class SurfaceSight {
  public:
+  /// @param scene        the surface, object frame
   /// @param step_off_mm  distance of ray origins from the surface
   SurfaceSight(const RayScene& scene, double step_off_mm);
 

@@ -181,7 +181,7 @@ SurfacePatches surface_patches(const Mesh& mesh,
   patches.deviation_mm.assign(patch_count, kMissing);
   patches.noise_mm.assign(patch_count, 0.0F);
   patches.systematic_mm.assign(patch_count, 0.0F);
-  const PatchFilter filter(mesh, deviations, reference, grid, patches);
+  const PatchFilter filter(mesh, deviations, reference, grid, patches, run);
   std::vector<std::optional<PatchMean>> means(patch_count);
   run.check();
   for (std::size_t i = 0; i < patch_count; ++i) {

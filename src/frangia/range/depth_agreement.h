@@ -14,13 +14,13 @@ namespace frangia {
 /// A point that was measured twice: by two directions of fringes or by two cameras.
 struct DepthPair {
   int x = 0;  ///< pixel of the camera on whose ray the two are compared
-  int y = 0;
+  int y = 0;  ///< its row
   Eigen::Vector3f point_mm = Eigen::Vector3f::Zero();  ///< in the frame of that camera
-  float apart_mm = 0.0F;       ///< the first minus the second, along the ray
-  float sigma_mm = 0.0F;       ///< noise of the difference
-  float systematic_mm = 0.0F;  ///< systematic part of the difference
-  float first_rad = kMissing;  ///< absolute phases of two directions; NaN between cameras
-  float second_rad = kMissing;
+  float apart_mm = 0.0F;        ///< the first minus the second, along the ray
+  float sigma_mm = 0.0F;        ///< noise of the difference
+  float systematic_mm = 0.0F;   ///< systematic part of the difference
+  float first_rad = kMissing;   ///< absolute phases of two directions; NaN between cameras
+  float second_rad = kMissing;  ///< of the second direction
 };
 
 /// How well two measurements of the same points agree. The medians leave wrong fringe orders at

@@ -9,10 +9,10 @@ namespace frangia {
 /// A place of the surface as the rig has it before it at two stations of the turntable. The normals
 /// are one direction of the part.
 struct SharedPlace {
-  Eigen::Vector3d first_mm;
-  Eigen::Vector3d first_normal;
-  Eigen::Vector3d second_mm;
-  Eigen::Vector3d second_normal;
+  Eigen::Vector3d first_mm;       ///< at the first station
+  Eigen::Vector3d first_normal;   ///< unit, towards the camera
+  Eigen::Vector3d second_mm;      ///< at the second station
+  Eigen::Vector3d second_normal;  ///< unit, towards the camera
 };
 
 /// What a scan measured, by some hundreds of places; all in the rig frame.

@@ -24,7 +24,7 @@ struct RemovedIslands {
 
 /// A fused mesh after its last steps.
 struct FinishedMesh {
-  Mesh mesh;
+  Mesh mesh;               ///< as it is written
   RemovedIslands removed;  ///< before holes were filled
 };
 

@@ -21,14 +21,14 @@ enum class MeasuredTwiceBy {
 /// How well points agree that were measured twice, over all views, and what explains it if they do
 /// not.
 struct RigAgreement {
-  MeasuredTwiceBy by = MeasuredTwiceBy::Directions;
+  MeasuredTwiceBy by = MeasuredTwiceBy::Directions;  ///< what measured the points twice
   /// Median over the views of the median distance along the rays, or, between cameras with a label,
   /// between the rays.
   double median_mm = kMissing;
   double over_noise = kMissing;   ///< the same over what phase noise explains
   double chi_squared = kMissing;  ///< for each degree of freedom; see `DepthAgreement`
-  double beyond = 0.0;  ///< share of the pixels that contradict; see `DepthAgreement::beyond`
-  Explanation explanation{};
+  double beyond = 0.0;        ///< share of the pixels that contradict; see `DepthAgreement::beyond`
+  Explanation explanation{};  ///< as described, the rig, or unexplained
 
   /// Whether noise, systematic parts and calibration explain the differences.
   [[nodiscard]] bool is_consistent() const { return chi_squared < kConsistent; }

@@ -37,7 +37,7 @@ struct KeptRig {
   int number = 0;           ///< from 1, the newest is the largest
   std::int64_t kept_s = 0;  ///< seconds since 1970
   std::string before;       ///< name of the change that it was kept for
-  RigFigures figures;
+  RigFigures figures;       ///< for the list
 };
 
 /// The rigs that a project had, the newest first. What cannot be read is left out.
@@ -59,9 +59,9 @@ constexpr std::size_t kMostKeptRigs = 30;  ///< of a project; each takes some 10
 
 /// A rig that is kept for any project.
 struct LibraryRig {
-  std::string name;
+  std::string name;         ///< that of its folder
   std::int64_t kept_s = 0;  ///< seconds since 1970
-  RigFigures figures;
+  RigFigures figures;       ///< for the list
 };
 
 /// Rigs outside of projects, each in a folder of its name. Names reach the file system only by

@@ -12,7 +12,7 @@ namespace frangia {
 
 /// Another lamp that is switched on while a view is captured.
 struct LampSwitch {
-  std::size_t view = 0;
+  std::size_t view = 0;   ///< number of the view in the plan
   std::size_t frame = 0;  ///< first frame with its light, counted over all frames of the view
   double light = 0.15;    ///< on a white surface, as a share of white
 };
@@ -20,14 +20,14 @@ struct LampSwitch {
 /// What moves during a simulated scan although its rig.toml and scan.toml say otherwise.
 struct MotionFaults {
   std::size_t slide_view = 0;  ///< first view after the part slid over the table; 0 for none
-  double slide_mm = 0.0;
+  double slide_mm = 0.0;       ///< by how much, in the plane of the table
   double drift_mm = 0.0;   ///< of the projector's place, evenly from the first view to the last; it
                            ///< turns by half a degree for each millimetre
   double wobble_mm = 0.0;  ///< standard deviation of the table's top in each direction, from view
                            ///< to view; it tilts by one degree for each millimetre
   double table_scale = 1.0;        ///< angles over those commanded
   std::size_t lost_step_view = 0;  ///< first view after the table lost steps; 0 for none
-  double lost_step_rad = 0.0;
+  double lost_step_rad = 0.0;      ///< angle that the table lacks from then on
 };
 
 /// How a digital projector shows fringes.
@@ -85,7 +85,7 @@ struct SimulateOptions {
   double axis_offset_mm = 0.0;           ///< distance of the true axis from that of rig.toml
   double axis_tilt_rad = 0.0;            ///< tilt of the true axis against that of rig.toml
   double turntable_top_radius_mm = 0.0;  ///< a disc with its top at z = 0; 0 for none
-  MotionFaults motion;
+  MotionFaults motion;                   ///< what moves unsaid
 };
 
 }  // namespace frangia

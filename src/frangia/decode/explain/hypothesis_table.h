@@ -16,7 +16,7 @@ struct CauseRow {
 
 /// Causes whose frames are the same for any phases, so that frames alone do not tell them apart.
 struct AlikeCauses {
-  int steps = 0;
+  int steps = 0;                    ///< number of equal steps of the set
   std::vector<std::string> causes;  ///< words; one word alone for different frames of one cause
   std::size_t classes = 0;          ///< classes of hypotheses with just these causes
 };

@@ -41,6 +41,7 @@ class PointFinder {
               const RayScene& reference,
               const PatchGrid& grid,
               const SurfacePatches& patches,
+              const Run& run,
               PatchFilter& out)
       : mesh_(mesh),
         deviations_(deviations),
@@ -49,13 +50,18 @@ class PointFinder {
         patches_(patches),
         normals_(vertex_normals(mesh)),
         reference_boundary_(boundary_flags(reference.mesh())),
+        run_(run),
         out_(out) {}
 
   void add_all() {
     find_most_noise();
+    find_most_parts();
     std::vector<double> thirds(mesh_.vertices_mm.size(), 0.0);
-    for (std::size_t t = 0; t < mesh_.triangles.size(); ++t)
+    constexpr std::size_t kChecked = 1024;  // triangles
+    for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
+      if (t % kChecked == 0) run_.check();
       add_triangle(t, thirds);
+    }
     for (std::uint32_t v = 0; v < thirds.size(); ++v) {
       if (!(thirds[v] > 0.0)) continue;
       add({deviations_.foot_mm[v],
@@ -69,6 +75,27 @@ class PointFinder {
  private:
   [[nodiscard]] bool is_compared(std::uint32_t vertex) const {
     return deviations_.status[vertex] == DeviationStatus::Compared;
+  }
+
+  [[nodiscard]] static float longest_edge(const std::array<Vector3f, 3>& at) {
+    return std::max({(at[1] - at[0]).norm(), (at[2] - at[1]).norm(), (at[0] - at[2]).norm()});
+  }
+
+  [[nodiscard]] std::array<Vector3f, 3> corners(std::size_t triangle) const {
+    std::array<Vector3f, 3> at;
+    for (std::size_t i = 0; i < 3; ++i)
+      at.at(i) = mesh_.vertices_mm[mesh_.triangles[triangle].at(i)];
+    return at;
+  }
+
+  /// Shares a bounded number of parts among the triangles that are larger than a patch: damaged
+  /// coordinates make them as many as the mesh has, and of any size.
+  void find_most_parts() {
+    constexpr double kParts = 2e6;  // each takes some 40 bytes
+    double large = 0.0;
+    for (std::size_t t = 0; t < mesh_.triangles.size(); ++t)
+      large += static_cast<double>(longest_edge(corners(t))) > patches_.diameter_mm ? 1.0 : 0.0;
+    most_parts_ = std::max(1.0, std::sqrt(kParts / std::max(1.0, large)));
   }
 
   /// What makes a vertex much noisier than most has to do with its place, as an edge or the end of
@@ -110,13 +137,10 @@ class PointFinder {
 
   void add_triangle(std::size_t number, std::vector<double>& thirds) {
     const Mesh::Triangle& triangle = mesh_.triangles[number];
-    std::array<Vector3f, 3> at;
-    for (std::size_t i = 0; i < 3; ++i)
-      at.at(i) = mesh_.vertices_mm[triangle.at(i)];
+    const std::array<Vector3f, 3> at = corners(number);
     const Vector3f cross = (at[1] - at[0]).cross(at[2] - at[0]);
     const auto area = 0.5 * static_cast<double>(cross.norm());
-    const float longest =
-        std::max({(at[1] - at[0]).norm(), (at[2] - at[1]).norm(), (at[0] - at[2]).norm()});
+    const float longest = longest_edge(at);
     const double step = patches_.diameter_mm;
     if (static_cast<double>(longest) <= step) {
       for (const std::uint32_t v : triangle)
@@ -124,9 +148,8 @@ class PointFinder {
       return;
     }
     if (mark_of(mesh_, number) == Mark::Synthesized || !(area > 0.0)) return;
-    constexpr double kMostParts = 1000.0;  // along an edge
     const int parts = static_cast<int>(
-        std::min(kMostParts, std::ceil(2.0 * static_cast<double>(longest) / step)));
+        std::min(most_parts_, std::ceil(2.0 * static_cast<double>(longest) / step)));
     const double share = area / (static_cast<double>(parts) * parts);
     const Vector3f normal = cross.normalized();
     for (int i = 0; i < parts; ++i) {
@@ -195,6 +218,8 @@ class PointFinder {
   std::vector<Vector3f> normals_;
   std::vector<std::uint8_t> reference_boundary_;
   double most_noise_mm_ = std::numeric_limits<double>::infinity();
+  const Run& run_;
+  double most_parts_ = 1.0;  ///< of a triangle, along an edge
   PatchFilter& out_;
 };
 
@@ -202,9 +227,10 @@ PatchFilter::PatchFilter(const Mesh& mesh,
                          const Deviations& deviations,
                          const RayScene& reference,
                          const PatchGrid& grid,
-                         const SurfacePatches& patches)
+                         const SurfacePatches& patches,
+                         const Run& run)
     : points_of_(patches.size()) {
-  PointFinder(mesh, deviations, reference, grid, patches, *this).add_all();
+  PointFinder(mesh, deviations, reference, grid, patches, run, *this).add_all();
 }
 
 std::pair<PatchMean, double> PatchFilter::average(std::size_t patch) const {

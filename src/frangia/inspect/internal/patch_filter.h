@@ -40,7 +40,8 @@ class PatchFilter {
               const Deviations& deviations,
               const RayScene& reference,
               const PatchGrid& grid,
-              const SurfacePatches& patches);
+              const SurfacePatches& patches,
+              const Run& run);
 
   /// Mean over the well measured points of a patch, and their area, mm2. A point that is less
   /// certain than the median of the patch counts by the square of the ratio, also in the area:

@@ -137,7 +137,9 @@ class FrameFit {
       if (hypothesis_.has_free_steps) effects(i, column + i) = kPriorStep_rad * slope;
       if (is_lit_by_lamp(hypothesis_, k)) {
         // The light of a lamp is alike at all pixels, or as their albedo, and falls off smoothly.
-        const double light = kPriorLamp * sample_.scale_counts(pixel);
+        // The albedo is that of the fitted fringes: the brightest count holds noise of the
+        // residual, which a lamp together with the gain of that frame would explain.
+        const double light = kPriorLamp * (values_(pixel, 0) + b);
         effects(i, column) = kPriorLamp * mean_scale_;
         effects(i, column + 1) = light;
         effects(i, column + 2) = light * sample_.x(pixel);
@@ -147,15 +149,15 @@ class FrameFit {
   }
 
   /// Fits mean, modulation and phase again to the frames without their nuisances, which shift the
-  /// phase where the steps are not equal.
+  /// phase where the steps are not equal. The modulation that the variance refers to stays:
+  /// nuisances that cancel each other would lower it, and so raise the density of the same
+  /// residuals.
   void refine_values(const Eigen::VectorXd& found, const std::vector<Eigen::MatrixXd>& effects) {
     for (Eigen::Index i = 0; i < pixels_; ++i) {
       values_.row(i) = (design_.inverse *
                         (shown_.row(i).transpose() - effects[static_cast<std::size_t>(i)] * found))
                            .transpose();
     }
-    modulation_ = (values_.col(1).array().square() + values_.col(2).array().square()).sqrt();
-    modulation_ = modulation_.min(sample_.scale_counts).max(sample_.variance.sqrt());
   }
 
   void find_waves() {

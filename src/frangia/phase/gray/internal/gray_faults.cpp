@@ -10,7 +10,7 @@
 namespace frangia {
 
 std::vector<SequenceFault> missing_frames(const GrayCodeSample& sample, const Pattern& code) {
-  constexpr double kContradicted = 0.02;  // wrong codes at edges of sound scans are fewer
+  constexpr double kContradicted = 0.1;  // wrong codes at edges and of saturated pixels are fewer
   std::vector<SequenceFault> out;
   for (std::size_t frame = 0; frame < static_cast<std::size_t>(code.frame_count()); ++frame) {
     const bool repeats = frame > 0 && sample.are_equal(frame, frame - 1);
