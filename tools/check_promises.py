@@ -30,7 +30,7 @@ def known_tests(root):
     known |= {path.stem for path in (root / "tests" / "faults").glob("*.py")}
     cmake = (root / "tests" / "CMakeLists.txt").read_text()
     known |= set(re.findall(r"add_test\(NAME ([\w.]+)", cmake))
-    for group in re.findall(r"foreach\(story ([^)]*)\)", cmake):
+    for group in re.findall(r"foreach\((?:story|name) ([^)]*)\)", cmake):
         known |= {f"app.{name}" for name in group.split()}
     return known | {"app.robust", "fuzz.replay"}
 
