@@ -59,7 +59,7 @@ TEST(Reconstruct, ResolvesEveryFringeOrderOfThePapersRigByTheLaserSheet) {
 
 TEST(Reconstruct, GivesTheSameBytesOnOneThreadAndOnTwo) {
   const TemporaryFolder folder;
-  const Scan scan = small_scan(folder.path(), "bust", "angular", 4);
+  const Scan scan = small_scan(folder.path(), "bracket", "digital", 4);
   std::vector<Mesh> meshes;
   for (const std::size_t threads : {1U, 2U}) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
