@@ -2,7 +2,7 @@
 //
 //   node accessible.mjs PROGRAM
 import path from 'node:path';
-import { axe, coarsenCamera, expect, launch, newHome, newLink, openPage, passed, PATIENCE, requireChromium, settled, startServer, stateOf, tell } from './harness.mjs';
+import { axe, coarsenCamera, expect, launch, newHome, newLink, openPage, passed, requireChromium, settled, startServer, tell, waitForState } from './harness.mjs';
 
 const program = path.resolve(process.argv[2]);
 requireChromium();
@@ -17,11 +17,7 @@ async function command(page, name, argument = {}) {
     });
     if (!answer.ok) throw new Error(`${name}: ${await answer.text()}`);
   }, [name, argument]);
-  const end = Date.now() + PATIENCE;
-  while ((await stateOf(page)).jobs.some((job) => ['waiting', 'running'].includes(job.state) && job.kind !== 'live')) {
-    expect(Date.now() < end, `${name} does not end`);
-    await page.waitForTimeout(100);
-  }
+  await waitForState(page, ({ jobs }) => !jobs.some((job) => ['waiting', 'running'].includes(job.state) && job.kind !== 'live'));
 }
 
 await tell(home, async () => {

@@ -209,3 +209,14 @@ export async function look(page, folder, name) {
 
 export const stateOf = (page) =>
   page.evaluate(async () => (await fetch('/api/state', { headers: { Authorization: `Bearer ${sessionStorage.getItem('frangia-key')}` } })).json());
+
+/** Asks the server for its state until it is as wanted, and returns it. */
+export async function waitForState(page, wanted) {
+  const end = Date.now() + PATIENCE;
+  for (;;) {
+    const state = await stateOf(page);
+    if (wanted(state)) return state;
+    expect(Date.now() < end, `the state does not come: ${wanted}; the jobs are ${JSON.stringify(state.jobs)}`);
+    await page.waitForTimeout(50);
+  }
+}

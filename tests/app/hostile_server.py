@@ -1,10 +1,8 @@
 """A server that hostile clients attack, with files around its projects that no request may reach."""
 import pathlib
 import random
-import tempfile
-import unittest
 
-from serve_client import Server
+from serve_client import ServerTest
 
 
 def below(folder):
@@ -15,22 +13,13 @@ def below(folder):
     }
 
 
-class HostileServer(unittest.TestCase):
+class HostileServer(ServerTest):
     @classmethod
     def setUpClass(cls):
-        cls.folder = tempfile.TemporaryDirectory()
-        cls.server = Server(cls.folder.name)
-        cls.server.login()
+        super().setUpClass()
         cls.secret = pathlib.Path(cls.folder.name) / "secret.txt"
         cls.secret.write_text("a secret")
         (pathlib.Path(cls.folder.name) / "evil").write_text("a secret")
-
-    @classmethod
-    def tearDownClass(cls):
-        code = cls.server.stop()
-        cls.folder.cleanup()
-        if code != 0:
-            raise AssertionError(f"the server ended with {code}")
 
     def setUp(self):
         self.server.wait()
@@ -38,9 +27,6 @@ class HostileServer(unittest.TestCase):
         self.server.command("create-project", name=name, part="plate", stations=3)
         self.server.wait()
         self.project = self.server.projects / name
-
-    def assert_serves(self):
-        self.assertEqual(self.server.ask("GET", "/api/state")[0], 200)
 
     def around(self):
         """Everything around the projects."""

@@ -187,37 +187,28 @@ class Malformed(HostileServer):
         self.assert_serves()
 
     def test_websockets_without_a_key_keep_nobody_out(self):
-        lines = []
-        try:
+        with contextlib.ExitStack() as lines:
             for _ in range(CONNECTIONS + 100):
                 line = self.server.upgrade()
                 self.assertIsInstance(line, socket.socket)
-                lines.append(line)
+                lines.enter_context(line)
             self.assert_serves()
             self.server.live().close()
-        finally:
-            for line in lines:
-                line.close()
 
     def test_clients_that_do_not_read_keep_nobody_out(self):
         page = self.server.ask("GET", "/", key=None)[2]
         self.assertGreater(len(page), 100)
-        lines = []
         request = f"GET / HTTP/1.1\r\nHost: {self.server.host}\r\n\r\n".encode() * 4000
-        try:
+        with contextlib.ExitStack() as lines:
             for _ in range(CONNECTIONS + 100):
-                line = socket.socket()
+                line = lines.enter_context(socket.socket())
                 line.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 4096)
                 line.connect(("127.0.0.1", self.server.port))
                 line.setblocking(False)
                 with contextlib.suppress(OSError):
                     line.send(request)  # more answers than the buffers of the system hold
-                lines.append(line)
             self.assert_serves()
             self.server.live().close()
-        finally:
-            for line in lines:
-                line.close()
 
 
 if __name__ == "__main__":

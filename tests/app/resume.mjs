@@ -5,7 +5,7 @@
 import { spawnSync } from 'node:child_process';
 import fs from 'node:fs';
 import path from 'node:path';
-import { coarsenCamera, createProject, expect, launch, look, newHome, newLink, openPage, passed, PATIENCE, requireChromium, startServer, stateOf, tell } from './harness.mjs';
+import { coarsenCamera, createProject, expect, launch, look, newHome, newLink, openPage, passed, requireChromium, startServer, tell, waitForState } from './harness.mjs';
 
 const [program, shots] = process.argv.slice(2).map((name) => path.resolve(name));
 requireChromium();
@@ -15,15 +15,6 @@ const STATIONS = 4;
 const EXPOSURE_MS = 1000;  // in real time until the server is killed: the scan would take a minute
 let server = await startServer(program, home);
 
-async function waitFor(page, wanted) {
-  const end = Date.now() + PATIENCE;
-  for (;;) {
-    const state = await stateOf(page);
-    if (wanted(state)) return state;
-    expect(Date.now() < end, `the state does not come: ${wanted}; it is ${JSON.stringify(state.jobs)}`);
-    await page.waitForTimeout(50);
-  }
-}
 const share = (state) => state.jobs.find((job) => job.kind === 'scan' && job.state === 'running')?.progress ?? 0;
 
 /** Contents of all frames of a scan folder, by name. */
@@ -52,13 +43,13 @@ await tell(home, async () => {
     if (!answer.ok) throw new Error(await answer.text());
   }, EXPOSURE_MS);
   await page.click('#scan');
-  await waitFor(page, (state) => share(state) > 0.02);
+  await waitForState(page, (state) => share(state) > 0.02);
   await page.context().close();
 
   // A new browser finds the scan going on. It watches, since the first one was the operator, and takes over by asking.
   page = await openPage(browser, newLink(program, home));
   await page.waitForSelector('#take-over');
-  const seen = share(await waitFor(page, (state) => share(state) > 0));
+  const seen = share(await waitForState(page, (state) => share(state) > 0));
   await look(page, shots, 'watching');
   const refused = await page.evaluate(async () => {
     const answer = await fetch('/api/commands/close-project', {
@@ -72,7 +63,7 @@ await tell(home, async () => {
   passed('the second browser has taken over');
 
   // SIGKILL in mid-scan. The server finds the project on the disk and goes on with the first missing frame.
-  await waitFor(page, (state) => share(state) > seen);
+  await waitForState(page, (state) => share(state) > seen);
   await server.end('SIGKILL');
   await page.waitForSelector('.notice.warn[role=alert]');
   await look(page, shots, 'lost');
@@ -87,7 +78,7 @@ await tell(home, async () => {
   expect(/Continue/.test(offer), `the app does not offer to continue: ${offer}`);
   await look(page, shots, 'resume');
   await page.click('#scan');
-  const done = await waitFor(page, (state) => state.project.scan_complete && state.jobs.every((job) => job.state !== 'running'));
+  const done = await waitForState(page, (state) => state.project.scan_complete && state.jobs.every((job) => job.state !== 'running'));
   expect(done.project.stations.every((station) => station.state === 'done'), 'a station is missing');
   const whole = spawnSync(program, ['scan', rig, '-o', path.join(home, 'whole'), '--views', String(STATIONS), '--exposure', String(EXPOSURE_MS)], { encoding: 'utf8' });
   expect(whole.status === 0, `frangia scan fails: ${whole.stderr}`);
@@ -100,21 +91,25 @@ await tell(home, async () => {
   const idle = (state) => state.jobs.every((job) => job.state !== 'running' && job.state !== 'waiting');
   await page.waitForSelector('#build:not([disabled])');
   await page.click('#build');
-  await waitFor(page, (state) => state.project.surface && idle(state));
+  await waitForState(page, (state) => state.project.surface && idle(state));
   let sent = 0;
+  let sentAgain;
+  const isSentAgain = new Promise((resolve) => { sentAgain = resolve; });
   await page.route('**/api/commands/edit', async (route) => {
-    if (sent++ > 0) return route.continue();
+    if (sent++ > 0) {
+      sentAgain();
+      return route.continue();
+    }
     await route.fetch();
     await route.abort('connectionreset');
   });
-  // The page goes to the new surface by itself, perhaps after this key.
-  while ((await page.locator('#undo').count()) === 0) {
-    await page.keyboard.press('6');
-    await page.waitForTimeout(50);
-  }
+  // The page goes to the new surface by itself.
+  await page.waitForFunction(() => document.querySelector('frangia-app').step === 'surface');
+  await page.keyboard.press('6');
+  await page.waitForSelector('#undo');
   await page.keyboard.press('i');
-  while (sent < 2) await page.waitForTimeout(50);
-  const edited = await waitFor(page, (state) => state.project.surface.steps.length > 0 && idle(state));
+  await isSentAgain;
+  const edited = await waitForState(page, (state) => state.project.surface.steps.length > 0 && idle(state));
   expect(edited.project.surface.steps.length === 1, 'an edit whose answer was lost is made twice');
   expect(edited.project.revision === 2, `the revision is ${edited.project.revision} after a surface and an edit`);
   passed('an edit whose answer was lost is made once');
@@ -122,14 +117,14 @@ await tell(home, async () => {
   // Built again, the surface is another version; the first one is there with its edit, which can be replayed.
   await page.keyboard.press('5');
   await page.getByText('Build again', { exact: true }).click();
-  const again = await waitFor(page, (state) => state.project.current_version === 2 && idle(state));
+  const again = await waitForState(page, (state) => state.project.current_version === 2 && idle(state));
   expect(again.project.surface.steps.length === 0, 'a new surface has edits');
   await page.waitForSelector('#replay:not([disabled])');
   await page.locator('#versions').scrollIntoViewIfNeeded();
   await look(page, shots, 'versions');
   await page.click('#replay');
-  await waitFor(page, (state) => state.project.surface.steps_done === 1 && idle(state));
+  await waitForState(page, (state) => state.project.surface.steps_done === 1 && idle(state));
   await page.click('[data-version="1"] button:not([disabled])');
-  await waitFor(page, (state) => state.project.current_version === 1 && state.project.surface.steps_done === 1 && idle(state));
+  await waitForState(page, (state) => state.project.current_version === 1 && state.project.surface.steps_done === 1 && idle(state));
   passed('the surfaces are versions with their edits');
 }, 'the scan survived');

@@ -4,7 +4,7 @@
 //   node rig.mjs PROGRAM FOLDER      FOLDER receives the screenshots
 import fs from 'node:fs';
 import path from 'node:path';
-import { coarsenCamera, expect, launch, look, newHome, newLink, openPage, passed, PATIENCE, reopen, requireChromium, startServer, stateOf, tell } from './harness.mjs';
+import { coarsenCamera, expect, launch, look, newHome, newLink, openPage, passed, reopen, requireChromium, startServer, stateOf, tell, waitForState } from './harness.mjs';
 
 const [program, shots] = process.argv.slice(2).map((name) => path.resolve(name));
 const here = import.meta.dirname ?? path.dirname(new URL(import.meta.url).pathname);
@@ -14,16 +14,7 @@ fs.mkdirSync(shots, { recursive: true });
 const server = await startServer(program, home);
 let browser;
 
-async function waitFor(page, wanted) {
-  const end = Date.now() + PATIENCE;
-  for (;;) {
-    const state = await stateOf(page);
-    if (wanted(state)) return state;
-    expect(Date.now() < end, `the state does not come: ${wanted}; it is ${JSON.stringify({ ...state, algorithms: 0, examples: 0, search: 0 }).slice(0, 2000)}`);
-    await page.waitForTimeout(50);
-  }
-}
-const idle = (page) => waitFor(page, (state) => state.jobs.every((job) => !['waiting', 'running'].includes(job.state)));
+const idle = (page) => waitForState(page, (state) => state.jobs.every((job) => !['waiting', 'running'].includes(job.state)));
 const notice = async (page) => (await page.locator('.notice').first().innerText()).replace(/\s+/g, ' ');
 
 async function create(page, name, source) {
@@ -51,7 +42,7 @@ await tell(home, async () => {
   await page.getByText('Create', { exact: true }).click();
   await page.waitForSelector('#find-devices');
   await page.click('#find-devices');
-  await waitFor(page, (state) => state.search !== null);
+  await waitForState(page, (state) => state.search !== null);
   await page.waitForSelector('select[data-table=camera]');
   await idle(page);
   expect(await page.locator('#set-devices').isDisabled(), 'no devices are chosen yet');
@@ -89,7 +80,7 @@ await tell(home, async () => {
   await page.waitForSelector('#find-axis:not([disabled])');
   await look(page, shots, 'axis-unknown');
   await page.click('#find-axis');
-  const found = await waitFor(page, (state) => state.project.axis !== null);
+  const found = await waitForState(page, (state) => state.project.axis !== null);
   expect(found.project.rig.turntable !== null, 'the axis is not in the rig');
   await idle(page);
   await look(page, shots, 'axis-found');
@@ -99,9 +90,9 @@ await tell(home, async () => {
     await page.click('#ask [data-answer="0"]');
   };
   await restore('Before the axis was found');
-  await waitFor(page, (state) => state.project.rig.turntable === null && state.project.axis === null);
+  await waitForState(page, (state) => state.project.rig.turntable === null && state.project.axis === null);
   await restore('Before a return');
-  await waitFor(page, (state) => state.project.rig.turntable !== null);
+  await waitForState(page, (state) => state.project.rig.turntable !== null);
   await page.locator('#rig-history').scrollIntoViewIfNeeded();
   await look(page, shots, 'rig-history');
   await page.getByText('Print a board', { exact: true }).click();
@@ -126,7 +117,7 @@ await tell(home, async () => {
   passed('the preview returns after the camera');
   await page.click('#auto-exposure');
   const before = (await stateOf(page)).project.capture.exposure_ms;
-  await waitFor(page, (state) => state.project.capture.exposure_ms !== before && state.project.live !== null);
+  await waitForState(page, (state) => state.project.capture.exposure_ms !== before && state.project.live !== null);
   passed(`the exposure is ${(await stateOf(page)).project.capture.exposure_ms.toFixed(1)} ms`);
 
   const enterExposures = async (text) => {
@@ -137,11 +128,11 @@ await tell(home, async () => {
   await page.waitForSelector('.notice');
   expect((await notice(page)).includes('no exposures'), `a text is taken for exposures: ${await notice(page)}`);
   await enterExposures('7');
-  await waitFor(page, (state) => state.project.capture.exposure_ms === 7);
+  await waitForState(page, (state) => state.project.capture.exposure_ms === 7);
 
   // The folder of the project is deleted under the server.
   await page.keyboard.press('4');
-  await waitFor(page, (state) => state.jobs.every((job) => job.state !== 'running'));
+  await waitForState(page, (state) => state.jobs.every((job) => job.state !== 'running'));
   fs.rmSync(path.join(home, 'projects', 'Uploaded'), { recursive: true });
   await page.click('#scan');
   await page.waitForSelector('.notice');

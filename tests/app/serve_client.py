@@ -10,7 +10,9 @@ import socket
 import struct
 import subprocess
 import sys
+import tempfile
 import time
+import unittest
 
 PROGRAM = sys.argv[1]
 SLOWDOWN = float(os.environ.get("FRANGIA_SLOWDOWN", "1"))  # above 1 with sanitizers
@@ -211,3 +213,23 @@ def read_frame(line):
         whole += exactly(line, length)
         if first & 0x80:
             return opcode, whole
+
+
+class ServerTest(unittest.TestCase):
+    """Tests of one server, which ends without an error after them."""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.TemporaryDirectory()
+        cls.server = Server(cls.folder.name)
+        cls.server.login()
+
+    @classmethod
+    def tearDownClass(cls):
+        code = cls.server.stop()
+        cls.folder.cleanup()
+        if code != 0:
+            raise AssertionError(f"the server ended with {code}")
+
+    def assert_serves(self):
+        self.assertEqual(self.server.ask("GET", "/api/state")[0], 200)

@@ -13,28 +13,12 @@ import sys
 import tempfile
 import unittest
 
-from serve_client import PROGRAM, SLOWDOWN, Server, frame, read_frame
+from serve_client import PROGRAM, SLOWDOWN, Server, ServerTest, frame, read_frame
 
 SCHEMA = pathlib.Path(sys.argv[2])
 
 
-class Serve(unittest.TestCase):
-    @classmethod
-    def setUpClass(cls):
-        cls.folder = tempfile.TemporaryDirectory()
-        cls.server = Server(cls.folder.name)
-        cls.server.login()
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.code = cls.server.stop()
-        cls.folder.cleanup()
-        if cls.code != 0:
-            raise AssertionError(f"the server ended with {cls.code}")
-
-    def assert_serves(self):
-        self.assertEqual(self.server.ask("GET", "/api/state")[0], 200)
-
+class Serve(ServerTest):
     def test_page_carries_its_security_headers(self):
         status, head, _ = self.server.ask("GET", "/", key=None)
         self.assertEqual(status, 200)

@@ -7,7 +7,7 @@
 import { spawnSync } from 'node:child_process';
 import fs from 'node:fs';
 import path from 'node:path';
-import { check, expect, launch, look as lookAt, newHome, openPage, passed, PATIENCE, requireChromium, settled, startServer, stateOf, tell } from './harness.mjs';
+import { check, expect, launch, look as lookAt, newHome, openPage, passed, requireChromium, settled, startServer, stateOf, tell, waitForState } from './harness.mjs';
 
 const [program, shots] = process.argv.slice(2).map((name) => path.resolve(name));
 requireChromium();
@@ -20,13 +20,6 @@ await tell(home, async () => {
   const page = await openPage(browser, url);
   const context = page.context();
   const look = (name) => lookAt(page, shots, name);
-  const waitForState = async (which, wanted) => {
-    const end = Date.now() + PATIENCE;
-    while (!wanted(await stateOf(which))) {
-      expect(Date.now() < end, `the state does not come: ${wanted}`);
-      await which.waitForTimeout(100);
-    }
-  };
   const idle = () => page.waitForFunction(() => !document.querySelector('.foot .bar'));
   const text = (selector) => page.locator(selector).first().innerText();
 

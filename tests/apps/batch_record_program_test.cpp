@@ -246,7 +246,7 @@ bool is_halted(pid_t process) {
          state == 'T';
 }
 
-/// The step that reconstructs outlives its batch; no other one writes beside it.
+/// The reconstructing process survives its killed batch; no other process writes the same results.
 TEST_F(BatchRecord, AnOrphanedStepKeepsOthersOut) {
   std::optional<testing::StartedProgram> batch;
   pid_t step = 0;

@@ -1,6 +1,6 @@
 import type { StepName } from './app_steps';
 
-/** Words of the server's refusals and failures, and the step where what they name is put right. */
+/** Words in the server's error messages, and the step of the app where the user can correct what they name. */
 const PLACES: readonly (readonly [RegExp, StepName])[] = [
   [
     /axis of the turntable|calibrate the rig|not calibrated|no rig|choose (them|a camera|what shows)|turntable|camera|display/i,

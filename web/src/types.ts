@@ -294,7 +294,7 @@ export interface LibraryRig extends RigFigures {
   name: string;
   kept_s: number;
 }
-/** What one view tells of light and focus. */
+/** Light and focus before a scan, measured in one view. */
 export interface ScanCheck {
   at_s: number;
   contrast: number;

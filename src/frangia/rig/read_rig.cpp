@@ -144,7 +144,7 @@ std::string read_camera_name(TomlReader& reader) {
   return name;
 }
 
-/// The reference camera, and those beside it, of distinct names.
+/// Reads the reference camera and the further cameras, whose names must differ.
 std::vector<PosedCamera> read_cameras(TomlReader& reader, RigContent content, const Run& run) {
   TomlReader reference = reader.table("camera");
   std::vector<PosedCamera> cameras{{read_camera(reference, content, run)}};

@@ -11,7 +11,7 @@
 
 namespace frangia {
 
-/// What one view tells of light and focus before a scan.
+/// Light and focus before a scan, measured in one view.
 struct ScanCheck {
   std::int64_t at_s = 0;   ///< when it was captured, seconds since 1970
   double contrast = 0.0;   ///< of the finest fringes, 0 to 1: light and focus together

@@ -26,14 +26,6 @@ bool is_file(const std::filesystem::path& path) {
   return std::filesystem::is_regular_file(path, ignored);
 }
 
-std::int64_t modified_s(const std::filesystem::path& path) {
-  std::error_code error;
-  const auto time = std::filesystem::last_write_time(path, error);
-  if (error) return 0;
-  const auto system = std::chrono::file_clock::to_sys(time);
-  return std::chrono::duration_cast<std::chrono::seconds>(system.time_since_epoch()).count();
-}
-
 std::int64_t newest_s(const ProjectFolder& project) {
   std::int64_t newest = 0;
   for (const auto& path :
@@ -114,6 +106,14 @@ ProjectEntry entry_of(const std::filesystem::path& folder) {
 }
 
 }  // namespace
+
+std::int64_t modified_s(const std::filesystem::path& path) {
+  std::error_code error;
+  const auto time = std::filesystem::last_write_time(path, error);
+  if (error) return 0;
+  const auto system = std::chrono::file_clock::to_sys(time);
+  return std::chrono::duration_cast<std::chrono::seconds>(system.time_since_epoch()).count();
+}
 
 std::filesystem::path ProjectFolder::cloud(std::size_t station) const {
   return in_derived(std::filesystem::path("clouds") / fmt::format("{:03}.bin", station));

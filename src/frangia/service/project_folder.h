@@ -134,6 +134,9 @@ class ProjectLibrary {
   std::filesystem::path root_;
 };
 
+/// When a file or folder was last written, in seconds since 1970; 0 if that cannot be read.
+[[nodiscard]] std::int64_t modified_s(const std::filesystem::path& path);
+
 /// Checks the name of a new project.
 ///
 /// @errors   Error(Input) that says what a name may hold

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
-#include <chrono>
 #include <optional>
 #include <system_error>
 #include <utility>
@@ -32,14 +31,6 @@ constexpr std::array kChanges = {RigChange::Geometry,
 bool holds_file(const std::filesystem::path& path) {
   std::error_code ignored;
   return std::filesystem::is_regular_file(std::filesystem::symlink_status(path, ignored));
-}
-
-std::int64_t kept_at_s(const std::filesystem::path& file) {
-  std::error_code error;
-  const auto time = std::filesystem::last_write_time(file, error);
-  if (error) return 0;
-  const auto system = std::chrono::file_clock::to_sys(time);
-  return std::chrono::duration_cast<std::chrono::seconds>(system.time_since_epoch()).count();
 }
 
 /// Where a rig and what belongs to it are.
@@ -117,7 +108,7 @@ RigFigures figures_of(const std::filesystem::path& file) {
     figures.date = rig.calibration->date;
     figures.poses = rig.calibration->poses;
     figures.point_sigma_mm = rig.calibration->point_sigma_mm;
-  } catch (const Error&) {  // NOLINT(bugprone-empty-catch): whoever takes it reads what is wrong
+  } catch (const Error&) {  // NOLINT(bugprone-empty-catch): restoring the rig reports the error
   }
   return figures;
 }
@@ -213,7 +204,7 @@ std::vector<KeptRig> kept_rigs(const ProjectFolder& project) {
     for (const int number : numbers_of(project)) {
       const auto file = project.in_derived(inner_of(number) / "rig.toml");
       kept.push_back({.number = number,
-                      .kept_s = kept_at_s(file),
+                      .kept_s = modified_s(file),
                       .before = change_before(project, number),
                       .figures = figures_of(file)});
     }
@@ -243,7 +234,7 @@ std::vector<LibraryRig> RigLibrary::list() const {
   for (const auto& entry : std::filesystem::directory_iterator(root_, error)) {
     const auto file = entry.path() / "rig.toml";
     if (entry.is_symlink() || !entry.is_directory(error) || !holds_file(file)) continue;
-    rigs.push_back({entry.path().filename().string(), kept_at_s(file), figures_of(file)});
+    rigs.push_back({entry.path().filename().string(), modified_s(file), figures_of(file)});
   }
   std::sort(rigs.begin(), rigs.end(), [](const LibraryRig& a, const LibraryRig& b) {
     return a.kept_s != b.kept_s ? a.kept_s > b.kept_s : a.name < b.name;

@@ -1,6 +1,6 @@
 """How often parts at, within and beyond their tolerance are called in, out and undecided; noise and systematic errors are drawn.
 
-Beside them, parts that are simulated as scanned in two setups, and reconstructed.
+Also measures parts that are simulated in two setups and reconstructed.
 """
 import numpy
 

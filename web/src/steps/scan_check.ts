@@ -18,7 +18,7 @@ interface Line {
   state: 'done' | 'poor' | 'bad' | '';
   label: string;
   text: string;
-  /** Where it is put right. */
+  /** The step where the user can correct it. */
   step?: StepName;
 }
 

@@ -281,7 +281,8 @@ DecodedDirection remedied(const DirectionInput& input, DecodedDirection view) {
 
 DecodedDirection decode_direction(const DirectionInput& all) {
   JudgedFrames judged = judge_direction(all);
-  // What is wrong with the frames is said once; what follows from it is no cause of its own.
+  // The verdict on the frames is the only warning of a view that it leaves out: what later checks
+  // would find follows from it.
   Run run = all.run;
   if (leaves_out_view(judged.verdicts)) run.on_warning = nullptr;
   const DirectionInput input{judged.stacks.empty() ? all.stacks : judged.stacks,

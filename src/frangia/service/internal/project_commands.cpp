@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <chrono>
 #include <filesystem>
 
 #include <fmt/format.h>
@@ -46,14 +45,6 @@ std::shared_ptr<FolderLock> lock_of(const ProjectFolder& project) {
   }
 }
 
-std::int64_t written_s(const std::filesystem::path& file) {
-  std::error_code error;
-  const auto time = std::filesystem::last_write_time(file, error);
-  if (error) return 0;
-  const auto system = std::chrono::file_clock::to_sys(time);
-  return std::chrono::duration_cast<std::chrono::seconds>(system.time_since_epoch()).count();
-}
-
 /// Writes the rig.toml of a new project.
 struct NewRig {
   std::string part;      ///< of the simulated rig, unless one of the others is given
@@ -79,7 +70,7 @@ void read_rig_of(const ProjectFolder& folder, OpenProject& project) {
   project.rig_fault.clear();
   project.devices.clear();
   project.can_scan = names_devices(folder) && folder.scan != folder.folder;
-  project.residuals_s = written_s(folder.residuals());
+  project.residuals_s = modified_s(folder.residuals());
   project.kept_rigs = kept_rigs(folder);
   std::error_code ignored;
   if (!std::filesystem::exists(folder.rig(), ignored)) return;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <charconv>
-#include <chrono>
 #include <string_view>
 #include <utility>
 
@@ -125,12 +124,7 @@ SurfaceVersions versions_in_place(const ProjectFolder& project) {
   const VersionFiles files = files_of(project, version);
   std::error_code error;
   if (!std::filesystem::is_regular_file(files.surface(), error)) return {};
-  const auto time = std::filesystem::last_write_time(files.surface(), error);
-  if (!error) {
-    const auto since = std::chrono::file_clock::to_sys(time).time_since_epoch();
-    version.built_s =
-        std::max<std::int64_t>(0, std::chrono::duration_cast<std::chrono::seconds>(since).count());
-  }
+  version.built_s = std::max<std::int64_t>(0, modified_s(files.surface()));
   try {
     const EditScript script = read_edit_script(files.edits);
     version.steps = script.steps.size();
