@@ -10,5 +10,5 @@ PYBIND11_MODULE(_frangia, module) {
   bound::bind_phase(module);
   bound::bind_mesh(module);
   bound::bind_scan(module);
-  bound::bind_pipeline(module);
+  bound::bind_reconstruct(module);
 }

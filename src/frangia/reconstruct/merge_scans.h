@@ -28,7 +28,7 @@ struct MergeScansOptions {
   bool register_poses = true;         ///< refine the poses
   /// Share of a scan's compared points in front of another scan's surface, or behind it, beyond
   /// which the result is not trustworthy. Scans that fit stay below 0.04
-  /// (tests/pipeline/merge_scans_test).
+  /// (tests/reconstruct/merge_scans_test).
   double max_contradiction = 0.1;
   /// Median distance between scans beyond which the result is not trustworthy: the larger of this
   /// many standard deviations of a scan's points ...

@@ -64,7 +64,7 @@ def measure(study, case, seed):
     scan = study.digital(SUBJECT, "binocular", "--views", VIEWS, *FAULTS.get(fault, ()))
     change = METHODS[what] if fault in FAULTS else lambda text: turned(text, float(what))
     mesh, folder = study.work / "mesh.ply", changed(study, scan, change)
-    process = study.process("--json", "reconstruct", folder, "-o", mesh, allowed=(0, NOT_TRUSTWORTHY))
+    process = study.process("--json", "reconstruct", folder, "--undo-response", "none", "-o", mesh, allowed=(0, NOT_TRUSTWORTHY))
     error = (
         study.run("inspect", mesh, "--reference", folder / "truth.ply", "--scan", scan)
         if process.returncode == 0
@@ -76,7 +76,7 @@ def measure(study, case, seed):
 def report(text, results):
     failures = []
     text.add(
-        f"`frangia simulate {SUBJECT} --rig binocular --samples 4 --views {VIEWS}`: the digital rig with a second camera on the other side of the projector, three fringe periods of four steps; then `frangia reconstruct` with the rig.toml of each row. Completeness is that of the surface that the cameras of the row can measure; gamma is not corrected. Wanted: two cameras below one; under gamma a label much better than one camera; error over sigma {LEAST} to {MOST}, and at most {MOST} under gamma, whose systematic part is an upper bound.\n"
+        f"`frangia simulate {SUBJECT} --rig binocular --samples 4 --views {VIEWS}`: the digital rig with a second camera on the other side of the projector, three fringe periods of four steps; then `frangia reconstruct` with the rig.toml of each row. Completeness is that of the surface that the cameras of the row can measure; gamma is not corrected (`--undo-response none`). Wanted: two cameras below one; under gamma a label much better than one camera; error over sigma {LEAST} to {MOST}, and at most {MOST} under gamma, whose systematic part is an upper bound.\n"
     )
     text.table(
         "fault",

@@ -136,9 +136,11 @@ std::vector<SigmaTerm> calibration_part(const ViewStore& views,
     std::shared_ptr<const Image<Eigen::Vector2f>> rays;
   };
   const auto cameras = std::make_shared<std::vector<OfCamera>>();
-  for (std::size_t camera = 0; camera < rig.cameras.size(); ++camera)
-    cameras->push_back(
-        {{rig, pattern, volume, camera}, views.rays(rig.cameras[camera].camera.model)});
+  for (std::size_t camera = rig.cameras.size(); camera-- > 0;) {
+    // The store keeps the rays of one camera. Fusion begins with those of the reference camera.
+    cameras->insert(cameras->begin(),
+                    {{rig, pattern, volume, camera}, views.rays(rig.cameras[camera].camera.model)});
+  }
   return {{UncertaintyTerm::Calibration, [cameras](const View& view, std::size_t camera) {
              const OfCamera& own = cameras->at(camera);
              return own.uncertainty.along_rays_mm(view.range.depth_mm, *own.rays);

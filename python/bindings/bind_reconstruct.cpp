@@ -157,7 +157,7 @@ void bind_results(py::module_& module) {
 
 }  // namespace
 
-void bind_pipeline(py::module_& module) {
+void bind_reconstruct(py::module_& module) {
   bind_results(module);
   module.def(
       "plan_decoding",
