@@ -269,8 +269,8 @@ void DecodedScan::add(const ViewResult& result) {
     views_->push_back(json_of_view(scan_, result, figures));
     return;
   }
-  for (const FrameAssessment& assessment : assessments_of(result.decoded)) {
-    if (needs_attention(assessment) && !leaves_out_direction(result.decoded))
+  for (const FrameAssessment& assessment : assessments_of_used(result.decoded)) {
+    if (needs_attention(assessment))
       terminal_.run().warn(fmt::format("{}: {}", name, describe(assessment)));
   }
   if (terminal_.quiet) return;

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdint>
 #include <random>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -64,6 +65,15 @@ TEST(ExchangedFrames, AreDecidedByTheGrayCode) {
   EXPECT_FALSE(check->consistent);
   ASSERT_EQ(check->fits.size(), 1U) << describe(*check);
   EXPECT_EQ(check->fits[0].what, "frames 1 and 2 exchanged");
+  std::vector<std::string> warnings;
+  frangia::Run run;
+  run.on_warning = [&](const std::string& sentence) { warnings.push_back(sentence); };
+  const DecodedView again = decode_view(stacks, rig, {.accept_remedy = true}, run);
+  ASSERT_TRUE(again.directions.front().check);
+  EXPECT_TRUE(again.directions.front().check->consistent)
+      << describe(*again.directions.front().check);
+  ASSERT_EQ(warnings.size(), 1U);
+  EXPECT_NE(warnings[0].find("decoded with the shifts that fit"), std::string::npos) << warnings[0];
 }
 
 }  // namespace

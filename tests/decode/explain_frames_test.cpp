@@ -78,6 +78,24 @@ TEST(ExplainFrames, FindsSoundFramesToBeAsDescribed) {
   }
 }
 
+TEST(ExplainFrames, NamesALampOnAPartThatIsNarrowerThanTheBlocksOfAnImageAreApart) {
+  const FrameExplanation found =
+      explained({.width = 960, .height = 400, .shadow = 0.0}, 6, [](RenderedFrames& f) {
+        for (std::size_t k = 0; k < f.frames.size(); ++k) {
+          for (std::size_t i = 0; i < f.frames[k].size(); ++i) {
+            const std::size_t x = i % 960;
+            double& light = f.frames[k][i];
+            if (x < 430 || x >= 530)
+              light = 6.0;
+            else if (k >= 3)
+              light += 40.0;
+          }
+        }
+      });
+  EXPECT_EQ(name_of(found.best.cause), name_of(FrameCause::Lamp)) << describe(found.explanation);
+  EXPECT_EQ(found.best.lamp_on, 3U);
+}
+
 TEST(ExplainFrames, NamesABlackFrame) {
   for (const int steps : {3, 4, 6})
     expect_named(kBlack, steps, FrameCause::Lost, "frame 1 is black");
@@ -193,6 +211,23 @@ TEST(JudgeFrames, ReturnsTheShiftsOfUnevenSteps) {
   EXPECT_EQ(verdict.explanation.best.cause, FrameCause::Steps) << verdict.finding;
   ASSERT_EQ(verdict.remedy_rad.size(), shown_deg.size()) << verdict.finding;
   EXPECT_NEAR(deg_from_rad(verdict.remedy_rad[2] - verdict.remedy_rad[1]), 68.0, 1.5);
+}
+
+TEST(JudgeFrames, TakesNoFrameForExact) {
+  // The first frame is off: the start of the fringes moves by a sixth of it.
+  const std::vector<double> shown_deg{8.0, 60.0, 120.0, 180.0, 240.0, 300.0};
+  RenderedFrames frames({.seed = 27}, shown_deg);
+  FrameStack stack = frames.stack();
+  for (std::size_t k = 0; k < shown_deg.size(); ++k)
+    stack.pattern.shifts_rad[k] = kTwoPi * static_cast<double>(k) / 6.0;
+  const std::vector<double> stated = stack.pattern.shifts_rad;
+  const FrameVerdict verdict = judge_frames(stack, frames.noise());
+  ASSERT_EQ(verdict.remedy_rad.size(), shown_deg.size()) << verdict.finding;
+  double mean = 0.0;
+  for (std::size_t k = 0; k < stated.size(); ++k)
+    mean += deg_from_rad(verdict.remedy_rad[k] - stated[k]) / 6.0;
+  EXPECT_NEAR(mean, 0.0, 0.1);
+  EXPECT_NEAR(deg_from_rad(verdict.remedy_rad[1] - verdict.remedy_rad[0]), 52.0, 1.5);
 }
 
 TEST(ExplainFrames, NamesAllHypothesesThatFourFramesDoNotTellApart) {

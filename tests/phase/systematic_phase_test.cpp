@@ -35,7 +35,7 @@ PhaseErrors errors_of(const DisplayScene& scene, int frames, bool correct = fals
   const FittedAlgorithm fitted = fit_algorithm("auto", stack, noise);
   WrappedPhase map = wrap_phase(stack, fitted.algorithm, noise);
   std::optional<ResponseTable> table;
-  if (correct) table = own_correction(fitted, fitted.algorithm);
+  if (correct) table = own_correction(fitted);
   if (table) correct_response(*table, map);
   PhaseErrors out;
   out.systematic_rad = systematic_phase(fitted, table ? &*table : nullptr).rad;
@@ -134,7 +134,7 @@ TEST(SystematicPhase, IsNotCorrectedWhereNothingIsToBeWon) {
   const FittedAlgorithm fitted =
       fit_algorithm("auto", display_frames({.gamma = 1.8}, shifts), noise);
   EXPECT_GT(fitted.waveform.largest_harmonic(), 0);  // six steps do not see the second harmonic
-  EXPECT_FALSE(own_correction(fitted, fitted.algorithm));
+  EXPECT_FALSE(own_correction(fitted));
 }
 
 TEST(SystematicPhase, FlickerOfTwelveFramesIsCompensated) {

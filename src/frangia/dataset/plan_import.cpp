@@ -129,7 +129,7 @@ void check_views(const ImportPlan& plan) {
   }
 }
 
-/// Decides by which orientation the images of a camera are turned, and says so.
+/// Decides by which orientation the images of a camera are turned, and notes it.
 void orient_images(ImportPlan& plan, std::size_t index, const Run& run) {
   ImportedCamera& camera = plan.cameras[index];
   ImageInfo& image = camera.image;

@@ -20,10 +20,13 @@ std::vector<FrameAssessment> assessments_of(const DecodedView& view) {
   return all;
 }
 
-bool leaves_out_direction(const DecodedView& view) {
-  return std::any_of(view.directions.begin(), view.directions.end(), [](const auto& direction) {
-    return leaves_out_view(direction.frames);
-  });
+std::vector<FrameAssessment> assessments_of_used(const DecodedView& view) {
+  std::vector<FrameAssessment> used;
+  for (const DecodedDirection& direction : view.directions) {
+    if (!leaves_out_view(direction.frames))
+      used.insert(used.begin(), direction.assessments.begin(), direction.assessments.end());
+  }
+  return used;
 }
 
 std::string misfit_of(const DecodedView& view) {

@@ -49,8 +49,9 @@ struct DecodedView {
 /// The assessments of all directions, each coarse to fine, those of the first direction last.
 [[nodiscard]] std::vector<FrameAssessment> assessments_of(const DecodedView& view);
 
-/// Whether the frames of a direction are at fault, so that nothing is measured with them.
-[[nodiscard]] bool leaves_out_direction(const DecodedView& view);
+/// The same without the directions whose frames are at fault, so that nothing is measured with
+/// them.
+[[nodiscard]] std::vector<FrameAssessment> assessments_of_used(const DecodedView& view);
 
 /// What the patterns of the directions do not fit, as `describe` says it; empty if all fits.
 [[nodiscard]] std::string misfit_of(const DecodedView& view);

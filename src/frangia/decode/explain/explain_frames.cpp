@@ -202,8 +202,8 @@ FrameExplanation explain_frames(const FrameStack& stack, const NoiseModel& noise
   }
   out.best = candidates[winner].hypothesis;
   const Eigen::VectorXd& errors_rad = candidates[winner].score.step_errors_rad;
-  for (Eigen::Index k = 0; k < errors_rad.size(); ++k)  // a common part is no error of a step
-    out.best.shifts_rad[static_cast<std::size_t>(k)] += errors_rad(k) - errors_rad(0);
+  for (Eigen::Index k = 0; k < errors_rad.size(); ++k)  // without their mean, which is a phase
+    out.best.shifts_rad[static_cast<std::size_t>(k)] += errors_rad(k) - errors_rad.mean();
   const FrameScore& score = candidates[winner].score;
   out.are_fringes = score.unexplained < kNoFringes;
   if (score.excess > kNoiseTolerance / (1.0 + kNoiseTolerance)) {

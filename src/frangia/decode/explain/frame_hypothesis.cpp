@@ -11,8 +11,8 @@
 namespace frangia {
 namespace {
 
-/// Fewer frames do not tell a lamp from harmonics. As many do not tell a movement or free steps
-/// from a lost frame.
+/// A lamp that stays on needs this many frames to be told from harmonics; a movement and uneven
+/// steps need one more to be told from a lost frame.
 constexpr std::size_t kMinFramesOfLamp = 5;
 
 FrameHypothesis as_described(const Pattern& pattern) {
@@ -155,8 +155,9 @@ std::optional<FrameHypothesis> both_of(const FrameHypothesis& a, const FrameHypo
     return one.cause == FrameCause::Late || one.cause == FrameCause::Exchanged;
   };
   // The order of what is late and exchanged would matter.
-  if (common || (ordered(a) && ordered(b)) || (a.lamp_on && b.lamp_on)) return std::nullopt;
-  if (a.moved_at || b.moved_at || a.has_free_steps || b.has_free_steps) return std::nullopt;
+  if (common || (ordered(a) && ordered(b))) return std::nullopt;
+  for (const FrameHypothesis* one : {&a, &b})
+    if (one->lamp_on || one->moved_at || one->has_free_steps) return std::nullopt;
   FrameHypothesis out = ordered(b) ? b : a;
   const FrameHypothesis& other = ordered(b) ? a : b;
   out.frames.insert(out.frames.end(), other.frames.begin(), other.frames.end());
@@ -164,10 +165,6 @@ std::optional<FrameHypothesis> both_of(const FrameHypothesis& a, const FrameHypo
     if (other.cause == FrameCause::Repeated) out.shifts_rad[k] = out.shifts_rad[k - 1];
     out.gains[k] = other.gains[k];
     out.free[k] = other.free[k];
-  }
-  if (other.lamp_on) {
-    out.lamp_on = other.lamp_on;
-    out.lamp_off = other.lamp_off;
   }
   out.faults += other.faults;
   out.parameters += other.parameters;
@@ -197,9 +194,7 @@ std::string describe(const FrameHypothesis& hypothesis) {
     const std::size_t frame = hypothesis.frames[i];
     const FrameCause cause = hypothesis.free[frame]           ? FrameCause::Lost
                              : hypothesis.gains[frame] != 1.0 ? FrameCause::Gain
-                             : hypothesis.lamp_on.value_or(frame + 1) == frame
-                                 ? FrameCause::Lamp
-                                 : FrameCause::Repeated;
+                                                              : FrameCause::Repeated;
     text += ", and " + clause_of(cause, frame, hypothesis);
   }
   return text;

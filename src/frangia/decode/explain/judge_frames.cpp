@@ -37,7 +37,6 @@ std::vector<std::size_t> useless_frames(const FrameHypothesis& fault) {
     case FrameCause::Unexplained:
       return {};
   }
-  if (fault.faults > 1 && fault.lamp_on) return {};
   return fault.frames;
 }
 

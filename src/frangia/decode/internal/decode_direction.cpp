@@ -254,37 +254,55 @@ const SequenceFault* remedy_of(const DecodedDirection& view) {
   return &check.fits.front();
 }
 
-/// Decodes again with the shifts that fit, and returns that if the same check passes.
-DecodedDirection remedied(const DirectionInput& input, DecodedDirection view) {
-  const SequenceFault* fault = remedy_of(view);
-  if (fault == nullptr) return view;
-  if (!input.options.accept_remedy) {
-    view.check->finding =
-        describe(*view.check) + "; `accept_remedy` decodes with the shifts that fit";
-    return view;
-  }
+/// The direction decoded again with the shifts that fit, if the same check passes.
+std::optional<DecodedDirection> remedied(const DirectionInput& input, const SequenceFault& fault) {
   std::vector<FrameStack> stacks(input.stacks.begin(), input.stacks.end());
   for (FrameStack& stack : stacks) {
-    const bool concerned = stack.pattern.name == fault->patterns.front() &&
-                           stack.pattern.shifts_rad.size() == fault->shifts_rad.size();
-    if (concerned) stack.pattern.shifts_rad = fault->shifts_rad;
+    const bool concerned = stack.pattern.name == fault.patterns.front() &&
+                           stack.pattern.shifts_rad.size() == fault.shifts_rad.size();
+    if (concerned) stack.pattern.shifts_rad = fault.shifts_rad;
   }
   DirectionInput changed = input;  // its references are those of `input`
   changed.stacks = stacks;
   DecodedDirection again = decode_as_planned(changed);
-  if (!again.check->consistent) return view;
-  input.run.warn(describe(*view.check) + "; decoded with the shifts that fit");
+  if (!again.check->consistent) return {};
   return again;
+}
+
+/// Applies or offers the shifts that fit where those of scan.toml do not.
+void apply_remedy(const DirectionInput& input,
+                  DecodedDirection& view,
+                  std::vector<FrameVerdict>& verdicts,
+                  const Run& run) {
+  const SequenceFault* fault = remedy_of(view);
+  if (fault == nullptr) return;
+  if (!input.options.accept_remedy) {
+    view.check->finding =
+        describe(*view.check) + "; `accept_remedy` decodes with the shifts that fit";
+    return;
+  }
+  const std::string pattern = fault->patterns.front();
+  std::optional<DecodedDirection> again = remedied(input, *fault);
+  if (!again) return;
+  run.warn(describe(*view.check) + "; decoded with the shifts that fit");
+  view = *std::move(again);
+  // Other patterns decided which frames of the pattern were exchanged, which its own do not tell.
+  for (FrameVerdict& verdict : verdicts) {
+    const FrameExplanation& found = verdict.explanation;
+    if (found.pattern == pattern && found.best.cause == FrameCause::Exchanged)
+      verdict.action = FrameAction::Use;
+  }
 }
 
 }  // namespace
 
 DecodedDirection decode_direction(const DirectionInput& all) {
   JudgedFrames judged = judge_direction(all);
-  // The verdict on the frames is the only warning of a view that it leaves out: what later checks
-  // would find follows from it.
+  // The verdict reports the fault of these frames; warnings of later stages would be its
+  // consequences.
   Run run = all.run;
-  if (leaves_out_view(judged.verdicts)) run.on_warning = nullptr;
+  if (leaves_out_view(judged.verdicts) && !all.options.accept_inconsistent)
+    run.on_warning = nullptr;
   const DirectionInput input{judged.stacks.empty() ? all.stacks : judged.stacks,
                              all.plan,
                              all.rig,
@@ -293,7 +311,8 @@ DecodedDirection decode_direction(const DirectionInput& all) {
                              run,
                              judged.noise,
                              std::move(judged.unexplained_rad)};
-  DecodedDirection view = remedied(input, decode_as_planned(input));
+  DecodedDirection view = decode_as_planned(input);
+  apply_remedy(input, view, judged.verdicts, all.run);
   view.frames = std::move(judged.verdicts);
   view.check = report_frames(view.frames, std::move(view.check), all.run);
   return view;

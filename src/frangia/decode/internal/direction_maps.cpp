@@ -88,7 +88,7 @@ bool allow_one_pass(const DirectionInput& input, const DirectionMaps& fitted) {
   const bool corrects =
       undoes_own_response(options) &&
       std::any_of(fitted.fits.begin(), fitted.fits.end(), [](const FittedAlgorithm& fit) {
-        return own_correction(fit, fit.algorithm).has_value();
+        return own_correction(fit).has_value();
       });
   return !options.keep_maps && !options.own.any() && !options.recover_saturated &&
          !options.response && options.waveforms.empty() && !corrects &&

@@ -32,22 +32,32 @@ FittedAlgorithm fit(const FrameStack& taken,
 std::optional<ResponseTable> correction_of(const Pattern& pattern,
                                            const FittedAlgorithm& fitted,
                                            const DecodeOptions& options) {
-  const PhaseAlgorithm algorithm =
-      pattern.exposure_count() > 1 ? least_squares(fitted.shifts_rad) : fitted.algorithm;
+  const PhaseAlgorithm& algorithm = fitted.algorithm;
   if (const FringeWaveform* waveform = find_waveform(options.waveforms, pattern))
     return response_table(*waveform, algorithm, fitted.shifts_rad);
   if (options.response) return response_table(*options.response, algorithm, fitted.shifts_rad);
   if (!undoes_own_response(options)) return {};
-  return own_correction(fitted, algorithm);
+  return own_correction(fitted);
+}
+
+/// The algorithm of a map that was merged from several exposures; its shifts are those that were
+/// fitted.
+FittedAlgorithm algorithm_of(const Pattern& pattern, const FittedAlgorithm& fitted) {
+  FittedAlgorithm used = fitted;
+  if (pattern.exposure_count() == 1) return used;
+  used.algorithm = least_squares(fitted.shifts_rad);
+  used.algorithm.name = fitted.algorithm.name;
+  return used;
 }
 
 /// Removes the effect of the projector's response from the last wrapped map, where the options ask
 /// for it, and sets its systematic uncertainty.
-void finish_wrapped(const FittedAlgorithm& fitted,
+void finish_wrapped(const FittedAlgorithm& of_frames,
                     const DecodeOptions& options,
                     DecodedDirection& out) {
   WrappedPhase& map = out.wrapped.back();
   if (options.own.wrap && !map.systematic_rad.empty()) return;
+  const FittedAlgorithm fitted = algorithm_of(map.pattern, of_frames);
   const auto table = correction_of(map.pattern, fitted, options);
   if (table) correct_response(*table, map);
   const ResponseTable* applied = table ? &*table : nullptr;

@@ -60,12 +60,11 @@ double harmonic_variance(const FittedAlgorithm& fitted) {
 
 }  // namespace
 
-std::optional<ResponseTable> own_correction(const FittedAlgorithm& fitted,
-                                            const PhaseAlgorithm& algorithm) {
+std::optional<ResponseTable> own_correction(const FittedAlgorithm& fitted) {
   constexpr double kWins = 2.0;  // error over what the correction leaves uncertain
   const double error = harmonic_phase_error(fitted, nullptr);
   if (error < kNegligible_rad || error < kWins * std::sqrt(harmonic_variance(fitted))) return {};
-  return find_response_table(fitted.waveform.waveform, algorithm, fitted.shifts_rad);
+  return find_response_table(fitted.waveform.waveform, fitted.algorithm, fitted.shifts_rad);
 }
 
 double harmonic_phase_error(const FittedAlgorithm& fitted, const ResponseTable* table) {

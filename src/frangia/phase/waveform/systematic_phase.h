@@ -15,11 +15,10 @@ namespace frangia {
 [[nodiscard]] double harmonic_phase_error(const FittedAlgorithm& fitted,
                                           const ResponseTable* table);
 
-/// The correction of the harmonics that the frames themselves show, for an algorithm of the same
-/// shifts. Empty where they hardly shift its phase, where their own uncertainty shifts it nearly as
-/// much, and where two phases measure alike.
-[[nodiscard]] std::optional<ResponseTable> own_correction(const FittedAlgorithm& fitted,
-                                                          const PhaseAlgorithm& algorithm);
+/// The correction of the harmonics that the frames themselves show. Empty where they hardly shift
+/// its phase, where their own uncertainty shifts it nearly as much, and where two phases measure
+/// alike.
+[[nodiscard]] std::optional<ResponseTable> own_correction(const FittedAlgorithm& fitted);
 
 /// The systematic standard uncertainty of a phase and what it is made of.
 struct SystematicPhase {

@@ -46,8 +46,7 @@ void report_assessments(const Scan& scan,
                         std::size_t view,
                         const DecodedView& decoded,
                         const Run& run) {
-  if (leaves_out_direction(decoded)) return;  // the warning names the frames at fault
-  for (const FrameAssessment& assessment : assessments_of(decoded)) {
+  for (const FrameAssessment& assessment : assessments_of_used(decoded)) {
     const std::string folder = scan.views[view].folder.string();
     const bool varies = assessment.vibration_suspected || assessment.flicker_error_rad > 0.0;
     if (varies || (view == 0 && needs_attention(assessment))) {

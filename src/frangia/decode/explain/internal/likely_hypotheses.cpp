@@ -73,7 +73,8 @@ bool show_whole_fringe(const FrameSample& sample, const FrameHypothesis& hypothe
     const auto dark = sample.counts.col(static_cast<Eigen::Index>(k)) < kDark * sample.scale_counts;
     if (dark.cast<double>().mean() < kLeast) return false;
   }
-  // Nor is a frame lost that is the brightest at most pixels, unless it outshines them all.
+  // A lost frame is not the brightest one at most pixels. A white frame does not count, because
+  // `scale_counts` leaves it out.
   constexpr double kBright = 0.9;
   constexpr double kMost = 0.5;
   Eigen::ArrayXd brightest = Eigen::ArrayXd::Zero(sample.counts.rows());
@@ -89,8 +90,11 @@ FrameSample thinned(const FrameSample& sample) {
   constexpr int kEvery = 8;
   std::vector<Eigen::Index> kept;
   FrameSample out;
+  // By the order in which blocks occur: by their number, whole columns of blocks would be left out.
+  int rank = 0;
   for (std::size_t i = 0; i < sample.blocks.size(); ++i) {
-    if (sample.blocks[i] % kEvery != 0) continue;
+    if (i > 0 && sample.blocks[i] != sample.blocks[i - 1]) ++rank;
+    if (rank % kEvery != 0) continue;
     kept.push_back(static_cast<Eigen::Index>(i));
     out.blocks.push_back(sample.blocks[i]);
   }
@@ -124,12 +128,13 @@ std::vector<FrameHypothesis> likeliest_of_each(const FrameSample& sample,
   return out;
 }
 
-/// The hypotheses with one fault, those that fit roughly best first.
+/// The hypotheses with one fault: by rough score, best first, then the likeliest lamp, movement and
+/// uneven steps, which form no pairs.
 std::vector<FrameHypothesis> likely_singles(const FrameSample& sample,
                                             const FrameMoments& moments,
                                             const Pattern& pattern) {
   std::vector<std::pair<double, FrameHypothesis>> ranked;
-  std::vector<FrameHypothesis> others;  // the quick score does not know what they explain
+  std::vector<FrameHypothesis> others;  // `rough_score` does not model them
   std::vector<FrameHypothesis> all = frame_hypotheses(pattern);
   const FrameHypothesis declared = all.front();
   for (FrameHypothesis& one : all) {

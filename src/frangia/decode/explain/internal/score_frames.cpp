@@ -63,8 +63,8 @@ class FrameFit {
     for (std::size_t i = 0; i < design_.shown.size(); ++i)
       shown_.col(static_cast<Eigen::Index>(i)) = sample.counts.col(design_.shown[i]).matrix();
     rest_ = shown_ * design_.rest;
-    if (hypothesis
-            .moves_texture) {  // the slopes of the fringes, with less noise than those of a frame
+    // The slopes of the fitted fringes have less noise than those of a frame.
+    if (hypothesis.moves_texture) {
       const auto of_fringes = [&](const Eigen::ArrayXXd& slopes) -> Eigen::MatrixXd {
         return slopes(Eigen::all, design_.shown).matrix() * design_.span * design_.span.transpose();
       };
@@ -273,14 +273,13 @@ class FrameFit {
     return -static_cast<double>(design_.span.cols()) * (sample_.scale_counts * kBroad).log().sum();
   }
 
-  /// Normal density of one value per pixel that is alike in counts, or relative to the scale.
-  [[nodiscard]] double log_density_alike(const Eigen::ArrayXd& counts) const {
+  /// Normal density of one value per pixel that is alike in counts, or relative to the scale, where
+  /// its variance is `in_scale`.
+  [[nodiscard]] double log_density_alike(const Eigen::ArrayXd& counts, double in_scale) const {
     const auto n = static_cast<double>(pixels_);
     const double noise = sample_.variance.mean();
     const double in_counts =
         std::max((counts - counts.mean()).square().mean(), std::min(noise, 1.0 / 12.0));
-    const Eigen::ArrayXd relative = counts / sample_.scale_counts;
-    const double in_scale = std::max((relative - relative.mean()).square().mean(), 1e-8);
     return std::max(log_normal(n * in_counts, in_counts, n),
                     log_normal(n * in_scale, in_scale, n) - sample_.scale_counts.log().sum());
   }
@@ -293,7 +292,7 @@ class FrameFit {
       const Eigen::ArrayXd counts = sample_.counts.col(static_cast<Eigen::Index>(k));
       const Eigen::ArrayXd relative = counts / sample_.scale_counts;
       const double in_scale = std::max((relative - relative.mean()).square().mean(), 1e-8);
-      sum += std::max({log_density_alike(counts),
+      sum += std::max({log_density_alike(counts, in_scale),
                        log_density_of_mean(counts),
                        log_density_of_torn(k, relative.mean(), in_scale)});
     }

@@ -17,8 +17,8 @@ namespace frangia {
 
 inline constexpr int kBorderGap = 3;  ///< px between the two sides of a border
 
-/// A border is a depth edge where the step of the phase across it differs by this much from the step
-/// that the slope of the phase next to it predicts.
+/// A border is a depth edge where the step of the phase across it differs by this much from the
+/// step that the slope of the phase next to it predicts.
 inline constexpr double kSmooth_rad = 0.8;
 /// Depth edges whose phases agree by chance, relative to those that are recognized.
 inline constexpr double kByChance = kSmooth_rad / (kPi - kSmooth_rad);
@@ -91,7 +91,9 @@ class GrayCodeSample {
       const bool agrees = agrees_with_fringes(declared, pixels[i], stripe_of(declared, pixels[i]));
       if (!agrees && agrees_with_fringes(opposite, pixels[i], stripe_of(opposite, pixels[i])))
         wrong += 1.0;
-      if (i == 0 || pixels[i].line != pixels[i - 1].line || !is_smooth(i)) continue;
+      if (i == 0 || pixels[i].line != pixels[i - 1].line ||
+          pixels[i].place - pixels[i - 1].place > kBorderGap || !is_smooth(i))
+        continue;
       const int step = step_along_phase(declared, i);
       if (step == 0) continue;
       borders += 1.0;

@@ -93,7 +93,10 @@ void add_square_wave(std::size_t frames, double third, WaveformFit& fit) {
               return apparent_third(frames, at, std::max(1.0, fit.mean_over_modulation));
             });
   fit.waveform.harmonics.assign(index_of(kHighest) + 1, 0.0);
+  const bool is_fitted = index_of(3) < fit.sigma.size() && std::isfinite(fit.sigma[index_of(3)]);
+  const double third_sigma = is_fitted ? fit.sigma[index_of(3)] : 0.0;
   fit.sigma.assign(index_of(kHighest) + 1, 0.0);
+  fit.sigma[index_of(3)] = third_sigma;
   for (int order = 3; order <= kHighest; order += 2) {
     fit.waveform.harmonics[index_of(order)] = square_harmonic(order, blur);
     if (order > 3) fit.sigma[index_of(order)] = kShare * std::abs(square_harmonic(order, blur));

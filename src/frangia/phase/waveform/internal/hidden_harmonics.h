@@ -12,8 +12,8 @@ namespace frangia {
 ///
 /// A square wave with any blur has odd harmonics alone, and the third one gives its blur and so all
 /// others. Any other response of a projector is near a power law, whose fourth harmonic follows
-/// from the second. Half of what is added so, and what the third harmonic of three frames says
-/// against a power law, is their standard deviation.
+/// from the second. The standard deviation of an added odd harmonic is a quarter of it; that of the
+/// fourth follows from the second and from how far the third departs from a power law.
 ///
 /// @shape    `third`: of three frames, from the ripple of their mean
 void add_hidden_harmonics(std::size_t frames,
