@@ -86,6 +86,28 @@ TEST(FuseDirections, CountsADisagreementWholeUnlessTheCalibrationExplainsIt) {
   EXPECT_TRUE(fused.systematic_mm.empty());
 }
 
+TEST(FuseDirections, CountsADisagreementWhereOneDirectionAloneMeasured) {
+  constexpr double kApart_mm = 0.3;
+  const FlatView view;
+  for (const auto fusion : {DirectionFusion::LeastSquares, DirectionFusion::Best}) {
+    RangeGrid fused = noisy_wall(0.02, 0.0, 1);
+    RangeGrid second = noisy_wall(0.019, 0.0, 2, kApart_mm);
+    for (int y = 0; y < 60; ++y) {
+      for (int x = 0; x < 20; ++x) {
+        fused.remove(x, y);
+        second.remove(79 - x, y);
+      }
+    }
+    Image<PixelStatus> status = view.status;
+    static_cast<void>(fuse_directions(second, view.rays, {.fusion = fusion}, fused, status));
+    ASSERT_FALSE(fused.systematic_mm.empty());
+    for (int y = 0; y < 60; ++y) {
+      for (int x = 0; x < 80; ++x)
+        EXPECT_NEAR(fused.systematic_mm(x, y), kApart_mm, 0.15 * kApart_mm) << x << " " << y;
+    }
+  }
+}
+
 TEST(FuseDirections, CountsNothingForSoundDirectionsWhoseNoiseIsStatedTooSmall) {
   const FlatView view;
   RangeGrid fused = noisy_wall(0.02, 0.0, 1);

@@ -96,11 +96,12 @@ MeasuredView fuse_grids(const Rig& rig,
   std::vector<RangeGrid> ranges;
   for (const std::size_t i : common.indices)
     ranges.push_back(std::move(view.cameras[i].range));
-  const FuseCamerasOptions options{
-      .calibration = between_cameras(rig,
-                                     common.cameras.front().phases.front()->pattern,
-                                     common.indices[0],
-                                     common.indices[1])};
+  const FuseCamerasOptions options{.calibration = [&](std::size_t own, std::size_t other) {
+    return between_cameras(rig,
+                           common.cameras.front().phases.front()->pattern,
+                           common.indices[own],
+                           common.indices[other]);
+  }};
   view.between_cameras = fuse_cameras(common.cameras, ranges, options, run);
   for (std::size_t k = 0; k < ranges.size(); ++k)
     view.cameras[common.indices[k]].range = std::move(ranges[k]);
@@ -142,21 +143,30 @@ MeasuredView fuse_view_cameras(const Rig& rig,
                                const Run& run) {
   if (rig.projector.is_label) return match_cameras(rig, cameras, mixed_pixels, run);
   MeasuredView out;
+  std::vector<Image<float>> unexplained;  // between the directions of each camera
   for (std::size_t i = 0; i < cameras.size(); ++i) {
     out.cameras.push_back({empty_grid(cameras[i].rays), {}});
     DecodedCamera& camera = cameras[i];
-    if (!camera.fit.fits()) continue;
+    if (!camera.fit.fits()) {
+      unexplained.emplace_back();
+      continue;
+    }
     TriangulatedView triangulated =
         triangulate_view(camera.decoded, camera.fit, camera.rig, camera.rays, directions);
     out.cameras[i] = without_mixed_pixels(camera, std::move(triangulated.range), mixed_pixels);
-    if (i == 0) out.directions = triangulated.disagreement;
+    unexplained.push_back(triangulated.disagreement.unexplained_mm);
+    if (i == 0) out.directions = std::move(triangulated.disagreement);
   }
   if (cameras.size() == 1) return out;
   for (std::size_t i = 0; i < cameras.size(); ++i)
     remove_unused_phases(out.cameras[i].range, cameras[i].decoded);
   const CommonPhases common = common_phases(rig, cameras);
   if (common.cameras.empty()) return out;
-  return fuse_grids(rig, common, std::move(out), run);
+  out = fuse_grids(rig, common, std::move(out), run);
+  // The phases that all cameras share say nothing of what the two directions left unexplained.
+  for (const std::size_t i : common.indices)
+    add_unexplained(unexplained[i], out.cameras[i].range);
+  return out;
 }
 
 }  // namespace frangia

@@ -117,6 +117,7 @@ Image<float> CalibrationUncertainty::along_rays_mm(const Image<float>& depth_mm,
             down * displacements_mm_.middleCols<3>(3 * node(x, upper + 1, z));
       }
     }
+    Eigen::VectorXf moved(components);
     for (int x = 0; x < width; ++x) {
       const float depth = depth_mm(x, y);
       if (std::isnan(depth)) continue;
@@ -126,12 +127,15 @@ Image<float> CalibrationUncertainty::along_rays_mm(const Image<float>& depth_mm,
       const int near = std::min(static_cast<int>(place.z()), kNodes[2] - 2);
       const auto right = static_cast<float>(place.x() - left);
       const auto far = static_cast<float>(place.z() - near);
-      const auto moved_at = [&](int column, int layer) -> Eigen::VectorXf {
-        return nodes.middleCols<3>(3 * (column * kNodes[2] + layer)) * by;
-      };
-      const Eigen::VectorXf moved =
-          (1.0F - right) * ((1.0F - far) * moved_at(left, near) + far * moved_at(left, near + 1)) +
-          right * ((1.0F - far) * moved_at(left + 1, near) + far * moved_at(left + 1, near + 1));
+      moved.setZero();
+      for (const int column : {0, 1}) {
+        for (const int layer : {0, 1}) {
+          const float share =
+              (column == 0 ? 1.0F - right : right) * (layer == 0 ? 1.0F - far : far);
+          const int corner = (left + column) * kNodes[2] + near + layer;
+          moved.noalias() += nodes.middleCols<3>(3 * corner) * (share * by);
+        }
+      }
       out(x, y) = moved.norm();
     }
   });

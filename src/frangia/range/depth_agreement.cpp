@@ -59,13 +59,15 @@ DepthAgreement measure_agreement(std::span<const DepthPair> pairs,
   out.by_calibration = out.chi_squared < kConsistent;
   if (out.by_calibration) return out;
   std::vector<float> combined;
-  std::erase_if(out.samples, [&](DepthPair& pair) {
+  std::vector<DepthPair> samples;
+  for (DepthPair pair : out.samples) {
     const auto of_rig = static_cast<float>(calibration(pair.point_mm.cast<double>()));
+    if (std::isnan(of_rig)) continue;
     pair.systematic_mm = std::hypot(pair.systematic_mm, of_rig);
-    if (std::isnan(of_rig)) return true;
     combined.push_back(std::hypot(pair.sigma_mm, pair.systematic_mm));
-    return false;
-  });
+    samples.push_back(pair);
+  }
+  out.samples = std::move(samples);
   if (combined.empty()) return out;
   out.chi_squared = chi_squared_of(out.samples, combined);
   out.beyond = share_beyond(out.samples, combined);

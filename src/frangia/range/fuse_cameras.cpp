@@ -130,16 +130,40 @@ class CameraFusion {
     }
   }
 
+  /// What one camera compares with another one.
+  struct PairOfCameras {
+    std::size_t own;
+    std::size_t other;
+    std::vector<DepthPair> pairs;
+  };
+
+  /// Compares with the uncertainty of the calibration, too: the two cameras that agree worst
+  /// decide.
+  void ask_calibration(std::span<const PairOfCameras> by_cameras, Consistency& out) const {
+    std::optional<DepthAgreement> worst;
+    for (const auto& [own, other, pairs] : by_cameras) {
+      if (pairs.empty()) continue;
+      const DifferenceUncertainty calibration = options_.calibration(own, other);
+      if (!calibration) return;
+      DepthAgreement known = measure_agreement(pairs, calibration);
+      if (!worst || known.chi_squared > worst->chi_squared) worst = std::move(known);
+    }
+    if (!worst) return;
+    out.disagreement.chi_squared = worst->chi_squared;
+    out.disagreement.beyond = worst->beyond;
+    out.disagreement.by_calibration = worst->by_calibration;
+  }
+
   /// Compares the cameras on every fourth row.
   [[nodiscard]] Consistency compare() const {
     constexpr int kRows = 4;
     std::vector<DepthPair> pairs;
-    std::vector<DepthPair> of_first;  // the first camera against the second
+    std::vector<PairOfCameras> by_cameras;
     for (std::size_t own = 0; own < cameras_.size(); ++own) {
       const Image<float>& depth = ranges_[own].depth_mm;
       const int rows = depth.height() / kRows;
       std::vector<std::vector<DepthPair>> found(static_cast<std::size_t>(rows));
-      std::vector<std::vector<DepthPair>> found_first(static_cast<std::size_t>(rows));
+      std::vector<std::vector<std::size_t>> others(static_cast<std::size_t>(rows));
       parallel_rows(rows, [&](int row) {
         const int y = kRows * row;
         for (int x = 0; x < depth.width(); ++x) {
@@ -157,27 +181,27 @@ class CameraFusion {
                                  .sigma_mm = static_cast<float>(apart.sigma_mm),
                                  .systematic_mm = static_cast<float>(apart.systematic_mm)};
             found[static_cast<std::size_t>(row)].push_back(pair);
-            if (own == 0 && other == 1) found_first[static_cast<std::size_t>(row)].push_back(pair);
+            others[static_cast<std::size_t>(row)].push_back(other);
           }
         }
       });
       run_.check();
-      for (const auto& row : found)
-        pairs.insert(pairs.end(), row.begin(), row.end());
-      for (const auto& row : found_first)
-        of_first.insert(of_first.end(), row.begin(), row.end());
+      for (std::size_t other = own + 1; other < cameras_.size(); ++other)
+        by_cameras.push_back({own, other, {}});
+      for (std::size_t row = 0; row < found.size(); ++row) {
+        pairs.insert(pairs.end(), found[row].begin(), found[row].end());
+        for (std::size_t i = 0; i < found[row].size(); ++i) {
+          for (PairOfCameras& two : by_cameras)
+            if (two.own == own && two.other == others[row][i]) two.pairs.push_back(found[row][i]);
+        }
+      }
     }
     Consistency out;
     static_cast<DepthAgreement&>(out.disagreement) = measure_agreement(pairs);
     if (pairs.empty()) return out;
     out.typical_mm = out.disagreement.median_mm / kMedianOfNormal;
     const double ratio2 = out.disagreement.chi_squared;
-    if (options_.calibration && ratio2 >= kConsistent && !of_first.empty()) {
-      const DepthAgreement known = measure_agreement(of_first, options_.calibration);
-      out.disagreement.chi_squared = known.chi_squared;
-      out.disagreement.beyond = known.beyond;
-      out.disagreement.by_calibration = known.by_calibration;
-    }
+    if (options_.calibration && ratio2 >= kConsistent) ask_calibration(by_cameras, out);
     if (ratio2 > 1.0 && !out.disagreement.by_calibration)
       out.excess_mm = out.typical_mm * std::sqrt(1.0 - 1.0 / ratio2);
     return out;

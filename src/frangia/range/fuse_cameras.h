@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -24,7 +25,7 @@ struct FuseCamerasOptions {
   double max_sigmas = 8.0;
   /// Uncertainty of the difference between the first camera and the second by that of the
   /// calibration; empty where it is not known.
-  DifferenceUncertainty calibration{};
+  std::function<DifferenceUncertainty(std::size_t own, std::size_t other)> calibration{};
 };
 
 /// Improves the range grids of all cameras of a view by the phases of the other cameras.

@@ -31,6 +31,10 @@ Difference difference_of(const RangePixel& a,
           std::hypot(static_cast<double>(a.sigma_mm), static_cast<double>(b.sigma_mm))};
 }
 
+float known_or_zero(float part) {
+  return std::isnan(part) ? 0.0F : part;
+}
+
 /// Both measurements of a pixel; `apart_mm` is NaN where one is missing.
 DepthPair pair_at(const RangeGrid& first,
                   const RangeGrid& second,
@@ -40,15 +44,15 @@ DepthPair pair_at(const RangeGrid& first,
   const RangePixel a = first.pixel(x, y);
   const RangePixel b = second.pixel(x, y);
   const Difference found = difference_of(a, b, rays);
-  const auto known = [](float part) { return std::isnan(part) ? 0.0F : part; };
-  return {.x = x,
-          .y = y,
-          .point_mm = a.depth_mm * rays(x, y).homogeneous(),
-          .apart_mm = static_cast<float>(found.mm),
-          .sigma_mm = static_cast<float>(found.sigma_mm),
-          .systematic_mm = std::hypot(known(a.systematic_mm), known(b.systematic_mm)),
-          .first_rad = a.phase_rad,
-          .second_rad = b.phase_rad};
+  return {
+      .x = x,
+      .y = y,
+      .point_mm = a.depth_mm * rays(x, y).homogeneous(),
+      .apart_mm = static_cast<float>(found.mm),
+      .sigma_mm = static_cast<float>(found.sigma_mm),
+      .systematic_mm = std::hypot(known_or_zero(a.systematic_mm), known_or_zero(b.systematic_mm)),
+      .first_rad = a.phase_rad,
+      .second_rad = b.phase_rad};
 }
 
 /// The pixels of some rows that both directions measured.
@@ -76,10 +80,8 @@ constexpr int kBlock = 16;  // pixels
 /// The median is certain to 1.25 sigma over the root of the pixels however well the noise of a
 /// pixel is known, so that it shows the smooth part, which averaging does not reduce.
 double unexplained2_of(std::span<const DepthPair> members, bool with_rest) {
-  constexpr std::size_t kLeast = 32;     // pixels that make a median
   constexpr double kMedianError = 1.25;  // of a median over that of a mean
   constexpr double kSignificant = 4.0;   // standard errors
-  if (members.size() < kLeast) return 0.0;
   std::vector<float> apart;
   double variance = 0.0;
   double systematic2 = 0.0;
@@ -103,7 +105,8 @@ double unexplained2_of(std::span<const DepthPair> members, bool with_rest) {
 }
 
 /// What of the disagreement the known uncertainties do not explain, for each block of pixels; empty
-/// if nothing is left.
+/// if nothing is left. A block that hardly any pixel of both directions measured has the median of
+/// the others: a wrong rig moves its points as far.
 Image<float> unexplained_part(const RangeGrid& first,
                               const RangeGrid& second,
                               const Image<Eigen::Vector2f>& rays,
@@ -111,7 +114,8 @@ Image<float> unexplained_part(const RangeGrid& first,
   if (found.pixels == 0 || found.by_calibration) return {};
   // What is not smooth counts only where it exceeds what an estimate of the noise may be wrong by.
   const bool with_rest = found.chi_squared >= kConsistent;
-  Image<float> out(rays.width() / kBlock + 1, rays.height() / kBlock + 1, 0.0F);
+  constexpr std::size_t kLeast = 32;  // pixels that make a median
+  Image<float> out(rays.width() / kBlock + 1, rays.height() / kBlock + 1, kMissing);
   parallel_rows(out.height(), [&](int row) {
     std::vector<DepthPair> members;
     for (int column = 0; column < out.width(); ++column) {
@@ -122,12 +126,18 @@ Image<float> unexplained_part(const RangeGrid& first,
           if (!std::isnan(pair.apart_mm)) members.push_back(pair);
         }
       }
+      if (members.size() < kLeast) continue;
       out(column, row) = static_cast<float>(std::sqrt(unexplained2_of(members, with_rest)));
     }
   });
-  const bool counts =
-      std::any_of(out.pixels().begin(), out.pixels().end(), [](float part) { return part > 0.0F; });
-  return counts ? out : Image<float>();
+  std::vector<float> known;
+  for (const float part : out.pixels())
+    if (!std::isnan(part)) known.push_back(part);
+  if (std::none_of(known.begin(), known.end(), [](float part) { return part > 0.0F; })) return {};
+  const float typical = median(std::move(known));
+  for (float& part : out.pixels())
+    if (std::isnan(part)) part = typical;
+  return out;
 }
 
 /// The point of both planes of light.
@@ -146,16 +156,30 @@ RangePixel combined(const RangePixel& a, const RangePixel& b, DirectionFusion fu
       (weight_a + weight_b));
   out.sigma_mm = static_cast<float>(1.0 / std::sqrt(weight_a + weight_b));
   // Errors of the rig are common to both directions: they do not average out.
-  const double systematic_a =
-      std::isnan(a.systematic_mm) ? 0.0 : static_cast<double>(a.systematic_mm);
-  const double systematic_b =
-      std::isnan(b.systematic_mm) ? 0.0 : static_cast<double>(b.systematic_mm);
+  const auto systematic_a = static_cast<double>(known_or_zero(a.systematic_mm));
+  const auto systematic_b = static_cast<double>(known_or_zero(b.systematic_mm));
   out.systematic_mm = static_cast<float>((weight_a * systematic_a + weight_b * systematic_b) /
                                          (weight_a + weight_b));
   return out;
 }
 
 }  // namespace
+
+void add_unexplained(const Image<float>& unexplained_mm, RangeGrid& range) {
+  if (unexplained_mm.empty()) return;
+  const Image<float>& depth_mm = range.depth_mm;
+  range.differing_share = 0.0F;  // the rig is that of all views
+  if (range.systematic_mm.empty())
+    range.systematic_mm = Image<float>(depth_mm.width(), depth_mm.height(), 0.0F);
+  parallel_rows(depth_mm.height(), [&](int y) {
+    for (int x = 0; x < depth_mm.width(); ++x) {
+      if (std::isnan(depth_mm(x, y))) continue;
+      float& systematic = range.systematic_mm(x, y);
+      systematic =
+          combined_sigma(known_or_zero(systematic), unexplained_mm(x / kBlock, y / kBlock));
+    }
+  });
+}
 
 DirectionDisagreement fuse_directions(const RangeGrid& second,
                                       const Image<Eigen::Vector2f>& rays,
@@ -166,9 +190,8 @@ DirectionDisagreement fuse_directions(const RangeGrid& second,
           "fuse_directions: the range grids differ in size");
   require(same_size(first.depth_mm, rays), "fuse_directions: range grid and rays differ in size");
   DirectionDisagreement out{measure_agreement(pairs_of(first, second, rays), options.calibration)};
-  const Image<float> unexplained = unexplained_part(first, second, rays, out);
-  if (!unexplained.empty()) first.differing_share = 0.0F;  // the rig is that of all views
-  if (first.systematic_mm.empty() && (!second.systematic_mm.empty() || !unexplained.empty()))
+  out.unexplained_mm = unexplained_part(first, second, rays, out);
+  if (first.systematic_mm.empty() && !second.systematic_mm.empty())
     first.systematic_mm = Image<float>(first.depth_mm.width(), first.depth_mm.height(), 0.0F);
   const double typical_mm = out.pixels == 0 ? 0.0 : out.median_mm / kMedianOfNormal;
   std::vector<std::size_t> removed(static_cast<std::size_t>(status.height()));
@@ -177,6 +200,7 @@ DirectionDisagreement fuse_directions(const RangeGrid& second,
       const RangePixel a = first.pixel(x, y);
       RangePixel b = second.pixel(x, y);
       if (std::isnan(b.depth_mm)) continue;
+      b.systematic_mm = known_or_zero(b.systematic_mm);
       if (std::isnan(a.depth_mm)) {
         b.phase_rad = kMissing;
         first.set(b);
@@ -190,16 +214,12 @@ DirectionDisagreement fuse_directions(const RangeGrid& second,
         ++removed[static_cast<std::size_t>(y)];
         continue;
       }
-      RangePixel both = combined(a, b, options.fusion);
-      if (!unexplained.empty()) {
-        both.systematic_mm =
-            combined_sigma(both.systematic_mm, unexplained(x / kBlock, y / kBlock));
-      }
-      first.set(both);
+      first.set(combined(a, b, options.fusion));
     }
   });
   for (const std::size_t row : removed)
     out.removed += row;
+  add_unexplained(out.unexplained_mm, first);
   return out;
 }
 

@@ -238,10 +238,14 @@ std::string RigAgreement::text() const {
                                 median_mm,
                                 over_noise);
   if (is_consistent()) return out + ": the rig is consistent";
+  if (!contradicts()) {
+    out += ": more than noise and calibration explain; the difference is in sigma";
+    if (!explanation.remedy.empty()) out += "; " + explanation.remedy;
+    return out;
+  }
   out = fmt::format(
       "{} contradict each other: they are {:.4g} mm apart (median), {:.1f} times their noise, and "
-      "{:.0f} % of "
-      "the pixels are beyond {:.0f} standard deviations of all that is known; {}",
+      "{:.0f} % of the pixels are beyond {:.0f} standard deviations of all that is known; {}",
       subject_of(by),
       median_mm,
       over_noise,
