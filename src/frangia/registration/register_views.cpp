@@ -259,10 +259,10 @@ RegistrationReport register_views(ViewStore& views,
   if (!explained.rigs.empty() && explained.explanation.decided) {
     correct_drift(work, given, explained.rigs);
   }
-  // The reason why nothing is trusted says the last of them.
-  const bool is_told =
-      explanation.best == PoseCause::ViewMoved || explanation.best == PoseCause::Unexplained;
-  if (!explanation.text.empty() && !is_told) {
+  // A view that moved is reported when it is left out, and `untrusted_reason` reports Unexplained.
+  const bool is_reported = explanation.best == PoseCause::Unexplained ||
+                           (explanation.best == PoseCause::ViewMoved && !report.outliers.empty());
+  if (!explanation.text.empty() && !is_reported) {
     run.warn(explanation.remedy.empty() ? explanation.text
                                         : explanation.text + "; " + explanation.remedy);
   }

@@ -34,7 +34,8 @@ std::vector<double> scaled(const std::vector<double>& angles_rad, double factor)
   return all;
 }
 
-/// Largest error of the steps per turn that are stated, but for another number of teeth or poles.
+/// Largest relative error of the stated steps per turn that is searched. Half, double and reversed
+/// angles are tried besides.
 constexpr double kMostWrong = 0.12;
 
 /// Factors of the commanded angles: half, double and the other direction, and those of a table

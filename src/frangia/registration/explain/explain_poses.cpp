@@ -206,7 +206,6 @@ ExplainedPoses explain_poses(const Registration& work,
   const ScoredCause winner = round.causes[first];
   PoseExplanation& explanation = all.explanation;
   measure(explanation, work, round, winner);
-  all.spread = spread_of_causes(round, winner, work).of_views();
   if (winner.cause == PoseCause::AsStated || explanation.effect_mm < noticeable_mm(round)) {
     explanation = {};
     const auto stated = std::find_if(round.causes.begin(), round.causes.end(), [](const auto& c) {
@@ -228,6 +227,8 @@ ExplainedPoses explain_poses(const Registration& work,
     }
   }
   if (moves_views(winner.cause)) all.corrected = correct_poses(round, winner, work, dense);
+  if (!all.corrected && all.spread.empty())
+    all.spread = spread_of_causes(round, winner, work).of_views();
   const auto names = [&](std::size_t view) { return work.name_of(view); };
   explanation.text = describe(explanation, names);
   explanation.remedy = remedy_of(explanation, work.options.wrong_rig);

@@ -36,7 +36,7 @@ BundleSums sum(const Bundle& bundle, const SurfelLists& surfels) {
                     bundle.model,
                     bundle.state,
                     bundle.pairs,
-                    {bundle.gate_mm, free_space_margin_mm(bundle), bundle.left_out});
+                    {bundle.gate_mm, free_space_margin_mm(bundle)});
 }
 
 void optimize_bundle(Bundle& bundle,

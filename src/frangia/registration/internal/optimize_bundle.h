@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstddef>
-#include <optional>
 #include <vector>
 
 #include <Eigen/Core>
@@ -20,13 +19,12 @@ struct Bundle {
   FastCameraModel model;
   TableState given;
   TableState state;
-  Eigen::VectorXd prior_sigma;            ///< of each unknown
-  double gate_mm = 0.0;                   ///< pairs farther apart do not count
-  double min_gate_mm = 0.0;               ///< the noise of the surfels allows no narrower gate
-  double systematic_mm = 0.0;             ///< error that all pairs of two views have in common
-  int iterations = 0;                     ///< of all optimizations
-  std::optional<std::size_t> left_out{};  ///< a view that is not compared
-  ViewPairs pairs{};                      ///< the views that are compared
+  Eigen::VectorXd prior_sigma;  ///< of each unknown
+  double gate_mm = 0.0;         ///< pairs farther apart do not count
+  double min_gate_mm = 0.0;     ///< the noise of the surfels allows no narrower gate
+  double systematic_mm = 0.0;   ///< error that all pairs of two views have in common
+  int iterations = 0;           ///< of all optimizations
+  ViewPairs pairs{};            ///< the views that are compared
 };
 
 /// One list of surfels a view.

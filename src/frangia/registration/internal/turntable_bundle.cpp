@@ -97,7 +97,6 @@ struct BundleAccumulator {
       bool observed = false;
       bool matched = false;
       for (std::size_t i = 0; i < others.size(); ++i) {
-        if (others[i] == options.left_out) continue;
         const double distance = add_pair(surfel, transfers[i], i);
         observed = observed || !std::isnan(distance);
         matched = matched || distance < options.gate_mm;
@@ -216,7 +215,6 @@ BundleSums sum_bundle(std::span<const std::vector<SurfelMap::Surfel>> surfels,
   const BundleViews views{maps, model, state, pairs};
   std::vector<Chunk> chunks;
   for (std::size_t view = 0; view < surfels.size(); ++view) {
-    if (view == options.left_out) continue;
     for (std::size_t first = 0; first < surfels[view].size(); first += kSurfelsPerChunk)
       chunks.push_back({view, first});
   }

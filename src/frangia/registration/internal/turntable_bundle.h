@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstddef>
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -61,7 +60,6 @@ struct BundleSums {
 struct BundleOptions {
   double gate_mm = 0.0;               ///< pairs farther apart do not belong to one surface
   double free_space_margin_mm = 0.0;  ///< a point violates free space from this distance on
-  std::optional<std::size_t> left_out = std::nullopt;  ///< a view that is not compared
 };
 
 /// Compares the surfels of each view with the surfels of its paired views that they project onto.

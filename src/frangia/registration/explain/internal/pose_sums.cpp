@@ -62,7 +62,6 @@ class PoseAccumulator {
     bool observed = false;
     bool matched = false;
     for (std::size_t i = 0; i < rig_from_object_.size(); ++i) {
-      if (bundle_.left_out == bundle_.pairs[from_][i]) continue;
       const double distance = add_pair(surfel, point, facing, i);
       observed = observed || !std::isnan(distance);
       matched = matched || distance < bundle_.gate_mm;
@@ -248,7 +247,6 @@ PoseSums sum_poses(const Bundle& bundle, const SurfelLists& surfels, const Posed
   };
   std::vector<Place> places;
   for (std::size_t view = 0; view < surfels.size(); ++view) {
-    if (bundle.left_out == view) continue;
     for (std::size_t first = 0; first < surfels[view].size(); first += kPosesPerChunk)
       places.push_back({view, first});
   }

@@ -98,17 +98,21 @@ PoseSpread spread_of_causes(const PoseRound& scored,
   double sum = 0.0;
   for (const ScoredCause& cause : scored.causes)
     sum += std::exp(cause.log_odds - most);
-  const auto add = [&](double log_odds, const auto& motion) {
-    const double probability = std::exp(log_odds - most) / sum;
+  const auto probability_of = [&](double log_odds) { return std::exp(log_odds - most) / sum; };
+  const auto add = [&](double probability, const auto& motion) {
     if (probability < kLeast) return;
     others.conservativeResize(Eigen::NoChange, others.cols() + 1);
     others.rightCols<1>() = std::sqrt(probability) * (motion() - own);
   };
   for (std::size_t i = 0; i < scored.causes.size(); ++i) {
     const ScoredCause& cause = scored.causes[i];
-    if (cause.cause != winner.cause) add(cause.log_odds, [&] { return scored.motions[i]; });
-    for (const CauseHypothesis& other : cause.others)
-      add(other.log_odds, [&] { return scored.posterior(other).motion; });
+    double rest = probability_of(cause.log_odds);  // of its best hypothesis
+    for (const CauseHypothesis& other : cause.others) {
+      const double own_share = probability_of(other.log_odds);
+      rest -= own_share;
+      add(own_share, [&] { return scored.posterior(other).motion; });
+    }
+    if (cause.cause != winner.cause) add(rest, [&] { return scored.motions[i]; });
   }
   PoseSpread spread{of_views_alone(others, scored, work)};
   const double shift_mm = left_mm(scored, own);
