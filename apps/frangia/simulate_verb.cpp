@@ -2,6 +2,7 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -101,6 +102,29 @@ void simulate_artifacts(const SimulateArguments& arguments,
   print_result(simulate_artifact(plan, options, run), "truth-rig.toml", terminal);
 }
 
+/// Refuses faults of a scan of a part where poses or artifacts of a calibration are rendered.
+void refuse_faults_of_parts(const SimulateArguments& arguments) {
+  const SimulatedFrameFaults& frames = arguments.frame_faults;
+  const MotionFaults& motion = arguments.options.motion;
+  const std::pair<const char*, bool> faults[] = {{"lose_frame", !frames.lost.empty()},
+                                                 {"repeat_frame", !frames.repeated.empty()},
+                                                 {"lamp_on", !frames.lamps_on.empty()},
+                                                 {"video_levels", frames.video_levels},
+                                                 {"slide_part", !arguments.slide_part.empty()},
+                                                 {"lost_step", !arguments.lost_step.empty()},
+                                                 {"drift", motion.drift_mm != 0.0},
+                                                 {"wobble", motion.wobble_mm != 0.0},
+                                                 {"table_scale", motion.table_scale != 1.0}};
+  for (const auto& [name, is_set] : faults) {
+    if (is_set) {
+      throw Error(ErrorKind::Input,
+                  fmt::format("`{}` is a fault of the scan of a part; leave it out where "
+                              "`calibration` is set",
+                              name));
+    }
+  }
+}
+
 void refuse_label_of_one_camera(const SimulateArguments& arguments, const Rig& rig) {
   if (!arguments.label || rig.cameras.size() > 1) return;
   throw Error(ErrorKind::Input, "`label` needs a rig with two cameras, such as `--rig binocular`");
@@ -145,6 +169,7 @@ void simulate(SimulateArguments arguments, Terminal& terminal) {
   options.axis_tilt_rad = rad_from_deg(arguments.axis_tilt_deg);
 
   const std::string& kind = arguments.calibration;
+  if (!kind.empty()) refuse_faults_of_parts(arguments);
   if (kind == "screen" || kind == "plate" || kind == "ball-bar") {
     simulate_artifacts(arguments, options, run, terminal);
     return;

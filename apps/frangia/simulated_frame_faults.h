@@ -22,10 +22,14 @@ struct SimulatedFrameFaults {
 /// Adds the options of the faults to the verb.
 void add_frame_faults(CLI::App& verb, SimulatedFrameFaults& faults);
 
-/// Refuses faults that a planned scan cannot have. Errors as below.
+/// Refuses faults that a planned scan cannot have.
+///
+/// @errors   Error(Input) for a view, pattern or frame that the scan does not have
 void check_frame_faults(const SimulatedFrameFaults& faults, const Scan& plan);
 
-/// The lamps that are switched on, for the renderer. Errors as below.
+/// The lamps that are switched on, for the renderer.
+///
+/// @errors   Error(Input) for a view or frame that the scan does not have
 [[nodiscard]] std::vector<LampSwitch> lamps_of(const SimulatedFrameFaults& faults,
                                                const Scan& plan);
 

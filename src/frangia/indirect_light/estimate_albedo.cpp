@@ -131,11 +131,9 @@ bool predicts_left_out(std::span<const AlbedoSample> samples, std::span<const Pa
   const ResidualSums first(halves[0], patterns);
   const ResidualSums second(halves[1], patterns);
   // A half that sees no lit surface decides nothing.
-  const bool by_first = first.affected == 0.0 || second.affected == 0.0 ||
-                        second.improvement(first.best()) > kMaterial;
-  const bool by_second = first.affected == 0.0 || second.affected == 0.0 ||
-                         first.improvement(second.best()) > kMaterial;
-  return by_first && by_second;
+  if (first.affected == 0.0 || second.affected == 0.0) return true;
+  return second.improvement(first.best()) > kMaterial &&
+         first.improvement(second.best()) > kMaterial;
 }
 
 }  // namespace

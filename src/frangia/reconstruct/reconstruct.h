@@ -83,7 +83,9 @@ struct Reconstruction {
 ///
 /// @units    mm, object frame
 /// @missing  a view without a lit pixel is left out with a warning
-/// @errors   Error(Numeric) when no view has a measured pixel, and the errors of all stages
+/// @errors   Error(Numeric) when no view has a measured pixel, Error(Input) when the fringe orders
+/// are
+///           unknown or the points form no surface, and the errors of all stages
 [[nodiscard]] Reconstruction reconstruct(const Scan& scan,
                                          const ReconstructOptions& options = {},
                                          const Run& run = {});

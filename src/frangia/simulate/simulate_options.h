@@ -85,7 +85,7 @@ struct SimulateOptions {
   double axis_offset_mm = 0.0;           ///< distance of the true axis from that of rig.toml
   double axis_tilt_rad = 0.0;            ///< tilt of the true axis against that of rig.toml
   double turntable_top_radius_mm = 0.0;  ///< a disc with its top at z = 0; 0 for none
-  MotionFaults motion;                   ///< what moves unsaid
+  MotionFaults motion;                   ///< motion that the files do not state
 };
 
 }  // namespace frangia

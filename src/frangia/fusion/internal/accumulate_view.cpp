@@ -98,6 +98,7 @@ struct ViewSampler {
     const int x = static_cast<int>(u + 0.5F);
     const int y = static_cast<int>(v + 0.5F);
     const float all = systematic.all_mm(x, y);
+    if (std::isnan(all)) return {};
     if (systematic.differing_mm.empty()) return {all, 0.0F};
     const float differing = systematic.differing_mm(x, y);
     return {std::sqrt(std::max(0.0F, all * all - differing * differing)), differing};

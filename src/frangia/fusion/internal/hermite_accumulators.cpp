@@ -37,11 +37,13 @@ HermiteAccumulator::PlaneSum& HermiteAccumulators::make_secondary(std::size_t i)
 }
 
 void HermiteAccumulators::keep_weights() {
+  constexpr std::size_t kMost = 100'000;  // crossings
   noted_.resize(secondary_.size());
+  noted_stride_ = all_.size() / kMost + 1;
 }
 
 void HermiteAccumulators::note_weight(std::size_t i, bool first, std::size_t view, float weight) {
-  if (noted_.empty()) return;
+  if (noted_.empty() || i % noted_stride_ != 0) return;
   noted_[i / kChunk].push_back(
       {static_cast<std::uint32_t>(i), static_cast<std::uint16_t>(view), first, weight});
 }
@@ -69,7 +71,8 @@ ViewWeights HermiteAccumulators::view_weights(const EdgeCrossings& crossings) co
       last = i;
     }
   }
-  return {crossings.voxel_mm, places, std::move(views)};
+  const double spacing_mm = crossings.voxel_mm * std::sqrt(static_cast<double>(noted_stride_));
+  return {spacing_mm, places, std::move(views)};
 }
 
 float HermiteAccumulators::systematic_mm(std::size_t i) const {

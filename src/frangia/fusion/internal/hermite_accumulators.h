@@ -58,7 +58,8 @@ class HermiteAccumulators {
   /// Creates empty accumulators; `with_systematic` adds the sums of systematic parts.
   explicit HermiteAccumulators(std::size_t count, bool with_systematic = false);
 
-  /// Keeps the weight of each view from now on.
+  /// Keeps the weight of each view from now on: at all crossings, or, where there are many, at an
+  /// even choice of at most 100 000, because the weights vary slowly over the surface.
   void keep_weights();
   /// Notes the weight of a view at the first or the second face near a crossing.
   void note_weight(std::size_t i, bool first, std::size_t view, float weight);
@@ -124,6 +125,7 @@ class HermiteAccumulators {
     float weight;
   };
   std::vector<std::vector<NotedWeight>> noted_;  ///< one vector for each `kChunk`; empty: not kept
+  std::size_t noted_stride_ = 1;                 ///< every how many crossings weights are kept
   std::vector<std::vector<HermiteAccumulator::PlaneSum>>
       secondary_;  ///< one vector for each `kChunk` crossings
 };

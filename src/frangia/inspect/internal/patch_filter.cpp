@@ -57,11 +57,8 @@ class PointFinder {
     find_most_noise();
     find_most_parts();
     std::vector<double> thirds(mesh_.vertices_mm.size(), 0.0);
-    constexpr std::size_t kChecked = 1024;  // triangles
-    for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
-      if (t % kChecked == 0) run_.check();
+    for (std::size_t t = 0; t < mesh_.triangles.size(); ++t)
       add_triangle(t, thirds);
-    }
     for (std::uint32_t v = 0; v < thirds.size(); ++v) {
       if (!(thirds[v] > 0.0)) continue;
       add({deviations_.foot_mm[v],
@@ -153,6 +150,7 @@ class PointFinder {
     const double share = area / (static_cast<double>(parts) * parts);
     const Vector3f normal = cross.normalized();
     for (int i = 0; i < parts; ++i) {
+      run_.check();
       for (int j = 0; j < parts - i; ++j) {
         add_part(triangle, normal, (i + 1.0 / 3.0) / parts, (j + 1.0 / 3.0) / parts, share);
         if (j + 1 < parts - i)

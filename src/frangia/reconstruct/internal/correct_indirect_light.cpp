@@ -208,32 +208,36 @@ std::optional<IndirectLightReport> correct_indirect_light(FusedSurface& fused,
   Lighting lighting{
       decoding, before.corrects ? shifted_points(decoding.plan) : ShiftedPoints::Kept, shown};
   std::optional<IndirectLightReport> report;
-  ViewStore as_measured;
+  ViewStore uncorrected;  // but for the correction before the registration
   for (int pass = 0; pass < kPasses; ++pass) {
     const FusionOptions coarse = coarse_fusion(measured, decoding.rays, fusion);
     auto indirect = predict(measured, fused.mesh, lighting, coarse, run);
     if (!indirect) break;
     double moved = 0.0;
     if (lighting.points == ShiftedPoints::Moved) {
-      if (pass == 0) as_measured = copy_of(measured.reference());
-      const Corrected done = correct_all(measured, as_measured, *indirect, run);
+      if (pass == 0) uncorrected = copy_of(measured.reference());
+      const Corrected done = correct_all(measured, uncorrected, *indirect, run);
       moved = done.moved;
       if (done.is_rougher()) {
-        measured.reference() = std::move(as_measured);
+        measured.reference() = std::move(uncorrected);
         lighting.points = ShiftedPoints::Kept;
         indirect = part_of(measured, fused.mesh, lighting, run);
-        if (!indirect) break;
         moved = 0.0;
       }
     }
-    report = indirect->report;
     fusion.terms = others;
-    fusion.terms.push_back({UncertaintyTerm::IndirectLight,
-                            [part = indirect->systematic_mm](
-                                const View& view, std::size_t /*camera*/) { return part(view); }});
+    report.reset();
+    if (indirect) {
+      report = indirect->report;
+      fusion.terms.push_back(
+          {UncertaintyTerm::IndirectLight,
+           [part = indirect->systematic_mm](const View& view, std::size_t /*camera*/) {
+             return part(view);
+           }});
+    }
     const CameraViews one{measured.reference(), decoding.scan.rig.reference().model};
     fused = fuse_with_weights({&one, 1}, fusion, run);
-    if (moved < kFew) break;
+    if (!indirect || moved < kFew) break;
   }
   if (!report) return report;
   report->corrected = lighting.points == ShiftedPoints::Moved;

@@ -30,9 +30,9 @@ struct EarlyIndirectLight {
 
 /// Corrects the views by the indirect light that the fused surface predicts, and fuses them again;
 /// twice, because the corrected surface predicts better, unless the first correction is small. A
-/// correction that makes the views rougher is taken back, and all of the predicted error is
-/// counted. `fusion` gets the systematic part of the prediction. Warns where indirect light
-/// matters; returns nothing where there is none.
+/// correction that makes the views rougher is taken back, up to that before the registration, and
+/// all of the predicted error is counted. `fusion` gets the systematic part of the prediction.
+/// Warns where indirect light matters; returns nothing where there is none.
 ///
 /// @errors   as fuse_views and indirect_part
 [[nodiscard]] std::optional<IndirectLightReport> correct_indirect_light(

@@ -70,6 +70,9 @@ void check(const SimulateOptions& options, const Rig& rig) {
   check_range("drift", options.motion.drift_mm, -100.0, 100.0);
   check_range("wobble", options.motion.wobble_mm, 0.0, 10.0);
   check_range("scale of the table", options.motion.table_scale, -10.0, 10.0);
+  check_range("lost step", options.motion.lost_step_rad, -kPi, kPi);
+  if (options.checker_mm > 0.0 && options.texture > 0.0)
+    throw Error(ErrorKind::Input, "painted squares replace the texture: leave `texture` at 0");
   if (options.display_gamma != 1.0 && rig.projector.is_angular()) {
     throw Error(ErrorKind::Input,
                 "display gamma is a fault of a digital projector, but the rig has an angular one; "

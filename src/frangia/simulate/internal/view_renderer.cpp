@@ -35,8 +35,8 @@ Eigen::Vector2d sample_offset(int column, int row, int across) {
   return cell + Eigen::Vector2d(cell.y(), -cell.x()) / across;
 }
 
-/// A number from 0 to 1 that fills the interval evenly, as a sequence of four does a cube: the
-/// powers of the root of x^5 = x + 1.
+/// Element `number` of the four-dimensional R sequence, 0 to 1.
+/// @source Roberts 2018, "The unreasonable effectiveness of quasirandom sequences"
 double filling(int number, int dimension) {
   constexpr double kRoot = 1.1673039782614187;
   const double at = 0.5 + number * std::pow(kRoot, -(dimension + 1));
