@@ -68,7 +68,7 @@ TEST(ExchangedFrames, AreDecidedByTheGrayCode) {
   std::vector<std::string> warnings;
   frangia::Run run;
   run.on_warning = [&](const std::string& sentence) { warnings.push_back(sentence); };
-  const DecodedView again = decode_view(stacks, rig, {.accept_remedy = true}, run);
+  const DecodedView again = decode_view(stacks, rig, {}, {.accept_remedy = true}, run);
   ASSERT_TRUE(again.directions.front().check);
   EXPECT_TRUE(again.directions.front().check->consistent)
       << describe(*again.directions.front().check);
