@@ -17,8 +17,8 @@ namespace frangia {
 
 inline constexpr int kBorderGap = 3;  ///< px between the two sides of a border
 
-/// A border is a depth edge where the step of the phase across it differs by this much from the step
-/// that the slope of the phase next to it predicts.
+/// A border is a depth edge where the step of the phase across it differs by this much from the
+/// step that the slope of the phase next to it predicts.
 inline constexpr double kSmooth_rad = 0.8;
 /// Depth edges whose phases agree by chance, relative to those that are recognized.
 inline constexpr double kByChance = kSmooth_rad / (kPi - kSmooth_rad);
