@@ -1,7 +1,10 @@
 #include "service/live_service.h"
 
 #include <algorithm>
+#include <atomic>
 #include <fstream>
+#include <memory>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -160,6 +163,7 @@ TEST_F(LiveServiceTest, MovesTheRigUntilTheScanBegins) {
   ASSERT_EQ(kept.size(), 1U);
   EXPECT_EQ(kept[0].at("before"), "geometry");
   command("restore-rig", {{"number", kept[0].at("number")}});
+  ASSERT_TRUE(wait([&] { return !busy(); }));
   EXPECT_NEAR(project().at("rig").at("turntable").at("distance_mm").get<double>(), distance, 1e-9);
   const Rig simulated = read_rig(folder_.path() / "live" / "true-rig.toml");
   EXPECT_NEAR(simulated.turntable->point_mm.norm(), distance, 1e-9)
@@ -193,10 +197,45 @@ TEST_F(LiveServiceTest, MovesNoRigThatIsCalibratedAndKeepsItForOtherProjects) {
   EXPECT_TRUE(project().at("check").is_null()) << "it was of other settings";
 
   command("keep-rig", {{"name", "Bench"}});
+  ASSERT_TRUE(wait([&] { return !busy(); }));
   command("create-project", {{"name", "second"}, {"kept_rig", "Bench"}, {"stations", 2}});
   ASSERT_TRUE(wait([&] { return !busy(); }));
   EXPECT_EQ(project().at("rig").at("calibration").at("point_sigma_mm"), 0.02);
   EXPECT_TRUE(project().at("can_scan").get<bool>());
+}
+
+TEST_F(LiveServiceTest, KeepsNoCheckOfOtherSettings) {
+  command("close-project");
+  std::atomic<bool> changes = false;
+  Service* service = nullptr;
+  ServiceOptions changing = options();
+  changing.capture.hold_devices = [&]() -> std::shared_ptr<void> {
+    if (changes.exchange(false))
+      static_cast<void>(service->command("set-capture", R"({"exposure_ms": 3.0})"));
+    return nullptr;
+  };
+  Service other(std::move(changing), [] {});
+  service = &other;
+  const auto of = [&](const char* part) { return Json::parse(other.state()).at(part); };
+  const auto finish = [&] {
+    ASSERT_TRUE(wait([&] {
+      const Json jobs = of("jobs");
+      return std::all_of(jobs.begin(), jobs.end(), [](const Json& job) {
+        return job.at("state") != "waiting" && job.at("state") != "running";
+      });
+    }));
+  };
+  static_cast<void>(other.command("open-project", R"({"name": "live"})"));
+  finish();
+  changes = true;
+  static_cast<void>(other.command("check-scan", "{}"));
+  finish();
+  EXPECT_EQ(of("jobs").back().at("state"), "done");
+  EXPECT_EQ(of("project").at("capture").at("exposure_ms"), 3.0);
+  EXPECT_TRUE(of("project").at("check").is_null());
+  static_cast<void>(other.command("check-scan", "{}"));
+  finish();
+  EXPECT_FALSE(of("project").at("check").is_null());
 }
 
 }  // namespace

@@ -21,7 +21,8 @@ export interface Job {
     | 'reference'
     | 'compare'
     | 'export'
-    | 'copy';
+    | 'copy'
+    | 'rig';
   state: JobState;
   progress: number;
   stage: string;

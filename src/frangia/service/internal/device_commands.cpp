@@ -101,7 +101,9 @@ nlohmann::ordered_json Service::Implementation::start_check_scan(CommandArgument
     run_device_test(project.folder, run);
     if (!project.rig) return;
     const ScanCheck found = check_scan(project.folder, project.capture, options_.capture, run);
-    change([&](OpenProject& now) { now.check = found; });
+    change([&](OpenProject& now) {
+      if (now.capture == project.capture) now.check = found;  // otherwise it is of other settings
+    });
   });
 }
 

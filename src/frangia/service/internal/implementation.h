@@ -202,6 +202,9 @@ class Service::Implementation {
   JobQueue queue_;                       ///< last: its thread uses everything else
 };
 
+/// Whether devices captured frames of the scan of a project; not so for one that was opened.
+[[nodiscard]] bool was_captured(const ProjectFolder& project);
+
 /// Reads the rig of a project, its devices and the settings of the capture into `project`. A
 /// damaged file is reported by the step that needs it.
 void read_rig_of(const ProjectFolder& folder, OpenProject& project);

@@ -59,7 +59,7 @@ struct OpenProject {
   std::shared_ptr<FolderLock> lock;  ///< against other programs; null where nobody may write
   bool can_scan = false;             ///< its rig names devices
   bool scan_complete = false;        ///< scan.toml exists
-  bool scan_begun = false;           ///< frames were captured: settings are fixed
+  bool scan_begun = false;           ///< it has frames, captured or opened: settings are fixed
   CaptureSettings capture;
   std::optional<Rig> rig;        ///< a calibrated one
   std::optional<Rig> start;      ///< of one that is not calibrated: what is known before
