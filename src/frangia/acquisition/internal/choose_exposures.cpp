@@ -8,7 +8,7 @@ namespace frangia {
 
 ChosenExposures choose_exposures(Scan& plan,
                                  CaptureDevices& devices,
-                                 const CameraInfo& camera,
+                                 const ExposureRange& range,
                                  TableMover& table,
                                  CaptureManifest& manifest,
                                  const CaptureOptions& options,
@@ -24,8 +24,6 @@ ChosenExposures choose_exposures(Scan& plan,
                                 plan.folder.string(),
                                 CaptureManifest::kFileName));
       }
-      const ExposureRange range{
-          options.camera.exposure_ms, camera.min_exposure_ms, camera.max_exposure_ms};
       manifest.add_exposures(survey_exposures(plan, devices, table, options, range, run));
     }
     chosen.fringes_ms = manifest.exposures_ms();
