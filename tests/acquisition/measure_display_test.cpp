@@ -93,6 +93,9 @@ TEST_F(MeasureDisplay, FindsTheFaultsThatTheRigWasGiven) {
     EXPECT_NEAR(found.response.light_of(level), std::pow(level, 2.2), 0.02);
   EXPECT_NEAR(found.camera_fps, 1000.0 / found.exposure_ms, 0.1);
   EXPECT_TRUE(found.findings.empty()) << found.findings.front();
+
+  plan_.rig.projector.response = found.response;  // which the display compensates from now on
+  EXPECT_NEAR(measured().response.light_of(0.5), std::pow(0.5, 2.2), 0.02);
 }
 
 TEST_F(MeasureDisplay, SeesFramesThatAreLateByOne) {
@@ -108,10 +111,14 @@ TEST_F(MeasureDisplay, SeesFramesThatAreLateByOne) {
   EXPECT_NEAR(corrected.latency_s, 0.0, 0.001);
 }
 
-TEST_F(MeasureDisplay, TellsABlurredPictureFromASharpOne) {
-  const double sharp = measured().sharpness;
-  devices_["camera"] += "camera_blur_px = 1.5\n";
-  EXPECT_LT(measured().sharpness, 0.8 * sharp);
+TEST_F(MeasureDisplay, TellsABlurredPictureFromASharpOneAndWhereBlackIsCutOff) {
+  const DisplayMeasurement sharp = measured();
+  EXPECT_TRUE(sharp.findings.empty()) << sharp.findings.front();
+  devices_["camera"] += "camera_blur_px = 1.5\ncontrast = 1.0\n";
+  const DisplayMeasurement blurred = measured();
+  EXPECT_LT(blurred.sharpness, 0.8 * sharp.sharpness);
+  EXPECT_GT(blurred.dark_zeros, 0.5);
+  EXPECT_NE(blurred.findings.back().find("level of black"), std::string::npos);
 }
 
 TEST_F(MeasureDisplay, RefusesWhatItCannotSee) {

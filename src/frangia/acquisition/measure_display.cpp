@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include <fmt/format.h>
 
@@ -22,8 +23,7 @@ constexpr double kLow = 0.5;             ///< of white: least light of the brigh
 constexpr double kAim = 0.65;            ///< what is looked for
 constexpr double kHigh = 0.75;           ///< most
 constexpr double kBrightest = 0.94;      ///< most, where a raster of exposures wants it
-/// Share of a flash's light that is taken for none: a tenth of what harms fringes of 8 bits by
-/// noise.
+/// Share of a flash's light that is taken for none: noise and what lamps leave stay below.
 constexpr double kLeft = 0.03;
 constexpr double kFollowed = 0.15;  ///< largest residual of flashes that are followed
 
@@ -59,7 +59,7 @@ class Measurer {
     run_.report(0.1);
     find_white_level();
     run_.report(0.2);
-    run_.stage("room light");
+    run_.stage("light");
     look_at_room();
     run_.report(0.4);
     run_.stage("latency");
@@ -68,6 +68,7 @@ class Measurer {
     run_.stage("response");
     find_response();
     find_sharpness();
+    judge_black();
     run_.report(1.0);
     return std::move(found_);
   }
@@ -101,16 +102,7 @@ class Measurer {
           "the display lights too few pixels of the camera; put a white sheet of paper where both "
           "look, and make it brighter than the room");
     }
-    found_.dark_zeros = share_of_zeros(dark);
-  }
-
-  static double share_of_zeros(const Frame& frame) {
-    std::size_t zeros = 0;
-    for (int y = 0; y < height_of(frame); ++y)
-      for (int x = 0; x < width_of(frame); ++x)
-        zeros += counts_at(frame, x, y) == 0 ? 1U : 0U;
-    return static_cast<double>(zeros) /
-           (static_cast<double>(width_of(frame)) * static_cast<double>(height_of(frame)));
+    found_.dark_zeros = lit_.zeros_of(dark);
   }
 
   /// Pixels that would have half as much again as white, had they room, show where they stop.
@@ -200,7 +192,8 @@ class Measurer {
     std::vector<double> light;
     const std::size_t length = kFlashCode.size();
     double first_s = 0.0;
-    for (std::size_t k = 0; k < length * static_cast<std::size_t>(codes + 1); ++k) {
+    const std::size_t first = length - kMostUnderWay;
+    for (std::size_t k = first; k < length * static_cast<std::size_t>(codes + 1); ++k) {
       const CompleteFrame taken = probe_.take(flash_, kFlashCode[k % length] ? 1 : 0);
       if (k < length) continue;
       if (k == length) first_s = taken.timestamp_s;
@@ -239,21 +232,13 @@ class Measurer {
     const auto in_time = [&](const FlashLag& lag) {
       return lag.frames == 0 && lag.share < kLeft && lag.residual < kFollowed;
     };
-    double late_s = 0.0;
-    double good_s = kLongestDelay_s;
-    if (in_time(flashes(0.0, 1))) good_s = 0.0;
-    constexpr double kResolution_s = 0.0005;
-    while (good_s - late_s > kResolution_s) {
-      const double middle_s = 0.5 * (late_s + good_s);
-      (in_time(flashes(middle_s, 1)) ? good_s : late_s) = middle_s;
-    }
-    found_.latency_s = good_s;
+    found_.latency_s = least_delay_s(in_time);
     // A display that shows a picture at its next refresh may take one more.
     const double refresh_s = 1e-3 * devices_.display->info().refresh_period_ms;
     double margin_s = std::max(0.001, 0.1 * refresh_s);
     constexpr int kTries = 4;
     for (int i = 0;; ++i, margin_s *= 3.0) {
-      found_.delay_s = std::ceil(1e3 * (good_s + margin_s)) / 1e3;
+      found_.delay_s = std::ceil(1e3 * (found_.latency_s + margin_s)) / 1e3;
       if (in_time(flashes(found_.delay_s, 3))) break;
       if (i == kTries) {
         fail(
@@ -261,6 +246,27 @@ class Measurer {
             "enhancement of the projector, and all that is automatic in the camera");
       }
     }
+  }
+
+  /// Halves the interval of delays. Where an exposure saw both pictures, its share of the one
+  /// before tells how much longer it has to wait.
+  double least_delay_s(const std::function<bool(const FlashLag&)>& in_time) {
+    constexpr double kResolution_s = 0.0005;
+    double late_s = 0.0;
+    double good_s = kLongestDelay_s;
+    double next_s = 0.0;
+    bool told = false;
+    while (good_s - late_s > kResolution_s) {
+      const FlashLag lag = flashes(next_s, 1);
+      const bool good = in_time(lag);
+      (good ? good_s : late_s) = next_s;
+      const double told_s = next_s + 1e-3 * found_.exposure_ms * lag.share + 0.5 * kResolution_s;
+      if (good && told) break;
+      told = !good && lag.frames == 0 && lag.share > kLeft && lag.residual < kFollowed &&
+             told_s < good_s;
+      next_s = told ? told_s : 0.5 * (late_s + good_s);
+    }
+    return good_s;
   }
 
   void find_response() {
@@ -303,6 +309,15 @@ class Measurer {
                       kFine_px,
                       100.0 * found_.sharpness));
     }
+  }
+
+  void judge_black() {
+    constexpr double kMostZeros = 0.05;
+    if (found_.dark_zeros <= kMostZeros) return;
+    found_.findings.push_back(fmt::format(
+        "{:.0f} % of the lit pixels have 0 counts in the dark, where noise is cut off; raise "
+        "the camera's level of black",
+        100.0 * found_.dark_zeros));
   }
 
   /// Amplitude of fringes at each pixel, counts.

@@ -33,7 +33,7 @@ struct DisplayMeasurement {
   ResponseCurve response;   ///< of the display: light over level
   double sharpness = 0.0;   ///< contrast of fringes of 12 px over that of coarse ones, 0 to 1
   int white_level = 255;    ///< counts from which on the sensor is saturated
-  double dark_zeros = 0.0;  ///< share of pixels at 0 counts while the display is dark
+  double dark_zeros = 0.0;  ///< share of lit pixels at 0 counts while the display is dark
 
   std::vector<std::string>
       findings;  ///< what to correct, one sentence each; empty when all is good

@@ -1,5 +1,6 @@
 #include "frangia/acquisition/internal/display_probe.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace frangia {
@@ -31,6 +32,14 @@ LitPixels::LitPixels(const Frame& dark, const Frame& bright, int white_level, do
 
 double LitPixels::mean_of(const Frame& frame) const {
   return mean_over(at_, frame);
+}
+
+double LitPixels::zeros_of(const Frame& frame) const {
+  const auto width = static_cast<std::size_t>(width_of(frame));
+  const auto zeros = std::count_if(at_.begin(), at_.end(), [&](std::size_t i) {
+    return counts_at(frame, static_cast<int>(i % width), static_cast<int>(i / width)) == 0;
+  });
+  return at_.empty() ? 0.0 : static_cast<double>(zeros) / static_cast<double>(at_.size());
 }
 
 double LitPixels::share_of(const Frame& frame) const {

@@ -22,6 +22,8 @@ class LitPixels {
   [[nodiscard]] std::size_t size() const { return at_.size(); }
   /// 0 for the dark frame, 1 for the bright one.
   [[nodiscard]] double share_of(const Frame& frame) const;
+  /// Share of the pixels that have 0 counts in a frame.
+  [[nodiscard]] double zeros_of(const Frame& frame) const;
   /// Light of the bright frame over the dark one, mean counts.
   [[nodiscard]] double light_counts() const { return bright_ - dark_; }
   /// Mean of a frame over the pixels, counts.

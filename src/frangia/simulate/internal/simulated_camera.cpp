@@ -103,6 +103,7 @@ Rig true_rig(DeviceSettings& settings, const Rig& known) {
       truth.reference().model.height_px != known.reference().model.height_px)
     settings.fail("true_rig", "has a camera of another size; correct [camera] size_px");
   truth.reference().white_level = known.reference().white_level;
+  truth.projector.response = known.projector.response;  // which its display compensates
   return truth;
 }
 
