@@ -69,6 +69,21 @@ await tell(home, async () => {
   await idle(page);
   await look(page, shots, 'chosen-devices');
 
+  // Display and camera are fitted to each other, with what the rig lacks in words.
+  const rigFile = path.join(home, 'projects', 'Uploaded', 'rig.toml');
+  fs.writeFileSync(rigFile, fs.readFileSync(rigFile, 'utf8').replace('[devices.fringes]\n', '[devices.fringes]\nlatency_ms = 40\n'));
+  await reopen(page, 'Uploaded');
+  await page.keyboard.press('2');
+  await page.click('#measure-display:not([disabled])');
+  const fitted = await waitForState(page, (state) => state.project.display !== null);
+  const { latency_s: latency, delay_s: delay } = fitted.project.display;
+  expect(Math.abs(latency - 0.04) < 0.002, `the latency is ${latency} s, not 0.04`);
+  expect(fs.readFileSync(rigFile, 'utf8').includes(`delay_s = ${delay}`), 'the rig does not keep the delay');
+  await idle(page);
+  await page.locator('#display').scrollIntoViewIfNeeded();
+  await look(page, shots, 'display-measured');
+  passed(`the latency of the display is ${(1000 * latency).toFixed(0)} ms`);
+
   // Without the axis of its turntable the rig scans no stations, and the page leads to where it is found.
   const rig = path.join(home, 'projects', 'Uploaded', 'rig.toml');
   const complete = fs.readFileSync(rig, 'utf8');

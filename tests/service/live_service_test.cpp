@@ -4,12 +4,17 @@
 #include <atomic>
 #include <fstream>
 #include <memory>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 
+#include "frangia/devices/device_settings.h"
+#include "frangia/rig/read_rig.h"
 #include "frangia/rig/write_rig.h"
 
+#include "support/small_scan.h"
 #include "support/text_of.h"
 
 namespace frangia {
@@ -202,6 +207,41 @@ TEST_F(LiveServiceTest, MovesNoRigThatIsCalibratedAndKeepsItForOtherProjects) {
   ASSERT_TRUE(wait([&] { return !busy(); }));
   EXPECT_EQ(project().at("rig").at("calibration").at("point_sigma_mm"), 0.02);
   EXPECT_TRUE(project().at("can_scan").get<bool>());
+}
+
+TEST_F(LiveServiceTest, MeasuresTheDisplayAndKeepsInTheRigWhatItFound) {
+  const auto file = folder_.path() / "live" / "rig.toml";
+  command("close-project");
+  for (const auto& one : {file, folder_.path() / "live" / "true-rig.toml"}) {  // quicker
+    Rig coarse = read_rig(one);
+    testing::make_coarser(coarse.reference().model, 8);
+    write_rig(one, coarse, Durability::Buffered, one);
+  }
+  std::string rig = testing::text_of(file);
+  const std::string table = "[devices.fringes]\n";
+  ASSERT_NE(rig.find(table), std::string::npos) << rig;
+  rig.replace(rig.find(table), table.size(), table + "latency_ms = 40\n");
+  std::ofstream(file) << rig;
+  command("open-project", {{"name", "live"}});
+  ASSERT_TRUE(wait([&] { return !busy(); }));
+  EXPECT_TRUE(project().at("display").is_null());
+  command("measure-display");
+  ASSERT_TRUE(wait([&] { return !busy(); }));
+  const Json found = project().at("display");
+  ASSERT_FALSE(found.is_null()) << service_.state();
+  EXPECT_NEAR(found.at("latency_s").get<double>(), 0.04, 0.001);
+  EXPECT_NEAR(found.at("half_light").get<double>(), 0.5, 0.02);
+  const std::vector<DeviceSettings> devices = read_device_settings(file);
+  const auto fringes = std::find_if(
+      devices.begin(), devices.end(), [](const auto& one) { return one.device() == "fringes"; });
+  ASSERT_NE(fringes, devices.end());
+  EXPECT_EQ(DeviceSettings(*fringes).number("delay_s"), found.at("delay_s").get<double>());
+  EXPECT_TRUE(read_rig(file).projector.response);
+  EXPECT_EQ(project().at("kept_rigs")[0].at("before"), "devices");
+  command("restore-rig", {{"number", project().at("kept_rigs")[0].at("number")}});
+  ASSERT_TRUE(wait([&] { return !busy(); }));
+  EXPECT_EQ(testing::text_of(file), rig);
+  EXPECT_TRUE(project().at("display").is_null()) << "it was of the other rig";
 }
 
 TEST_F(LiveServiceTest, KeepsNoCheckOfOtherSettings) {

@@ -11,6 +11,7 @@
 #include "frangia/rig/read_rig.h"
 #include "frangia/service/choose_devices.h"
 #include "frangia/service/internal/implementation.h"
+#include "frangia/service/measure_project_display.h"
 
 namespace frangia {
 namespace {
@@ -87,6 +88,26 @@ nlohmann::ordered_json Service::Implementation::start_test_devices(CommandArgume
   require(project.can_scan, "this project has no rig with devices");
   return started("devices",
                  [this, folder = project.folder](const Run& run) { run_device_test(folder, run); });
+}
+
+/// Fits display and camera to each other; also before the rig is calibrated.
+nlohmann::ordered_json Service::Implementation::start_measure_display(CommandArguments& arguments) {
+  arguments.check_all_read();
+  const OpenProject project = opened();
+  require(project.can_scan, "this project has no rig with devices");
+  require(!project.scan_begun,
+          "the scan has begun with this rig; create a project for another one");
+  require_idle();
+  return started("display", [this, project](const Run& run) {
+    run.stage("devices");
+    const DisplayMeasurement found =
+        measure_project_display(project.folder, project.capture, options_.capture, run);
+    change([&](OpenProject& now) {
+      now.display = found;
+      now.check.reset();
+    });
+    reload_rig(project.folder);
+  });
 }
 
 /// Tests the devices and, with a calibrated rig, looks at one view: all that a scan needs.

@@ -83,6 +83,7 @@ class Service::Implementation {
   Json start_set_devices(CommandArguments& arguments);
   Json start_test_devices(CommandArguments& arguments);
   Json start_check_scan(CommandArguments& arguments);
+  Json start_measure_display(CommandArguments& arguments);
   Json start_find_exposure(CommandArguments& arguments);
   Json set_rig(CommandArguments& arguments);
   Json restore_rig_before(CommandArguments& arguments);

@@ -95,6 +95,7 @@ void Service::Implementation::forget_verdicts() {
     now.wizard.reset();
     now.axis.reset();
     now.check.reset();
+    now.display.reset();
   });
 }
 
