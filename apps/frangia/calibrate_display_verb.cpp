@@ -37,8 +37,10 @@ void print_figures(const DisplayMeasurement& found) {
   }
   if (found.exposure_step_ms > 0.0)
     print_text("exposures of whole {:.4g} ms see even light\n", found.exposure_step_ms);
-  print_text("half of full drive gives {:.1f} % of full light\n",
-             100.0 * found.response.light_of(0.5));
+  if (found.response) {
+    print_text("half of full drive gives {:.1f} % of full light\n",
+               100.0 * found.response->light_of(0.5));
+  }
   print_text("fringes of 12 px keep {:.0f} % of their contrast\n", 100.0 * found.sharpness);
   print_text("pixels are saturated from {} counts on; {:.1f} % have 0 in the dark\n",
              found.white_level,
@@ -46,20 +48,22 @@ void print_figures(const DisplayMeasurement& found) {
 }
 
 nlohmann::ordered_json json_of(const DisplayMeasurement& found) {
-  nlohmann::ordered_json json{{"exposure_ms", found.exposure_ms},
-                              {"latency_s", found.latency_s},
-                              {"delay_s", found.delay_s},
-                              {"late_frames", found.late_frames},
-                              {"camera_fps", found.camera_fps},
-                              {"patterns_per_s", found.patterns_per_s},
-                              {"mains_hz", found.mains_hz},
-                              {"room_flicker", found.room_flicker},
-                              {"exposure_step_ms", found.exposure_step_ms},
-                              {"light", found.response.light},
-                              {"sharpness", found.sharpness},
-                              {"white_level", found.white_level},
-                              {"dark_zeros", found.dark_zeros},
-                              {"findings", found.findings}};
+  nlohmann::ordered_json json{
+      {"exposure_ms", found.exposure_ms},
+      {"latency_s", found.latency_s},
+      {"delay_s", found.delay_s},
+      {"late_frames", found.late_frames},
+      {"camera_fps", found.camera_fps},
+      {"patterns_per_s", found.patterns_per_s},
+      {"mains_hz", found.mains_hz},
+      {"room_flicker", found.room_flicker},
+      {"exposure_step_ms", found.exposure_step_ms},
+      {"light",
+       found.response ? nlohmann::ordered_json(found.response->light) : nlohmann::ordered_json()},
+      {"sharpness", found.sharpness},
+      {"white_level", found.white_level},
+      {"dark_zeros", found.dark_zeros},
+      {"findings", found.findings}};
   return json;
 }
 

@@ -90,12 +90,12 @@ TEST_F(MeasureDisplay, FindsTheFaultsThatTheRigWasGiven) {
   EXPECT_NEAR(found.exposure_step_ms, 50.0, 0.01);
   EXPECT_NEAR(std::fmod(found.exposure_ms + 1.0, 50.0), 1.0, 0.01);
   for (const double level : {0.25, 0.5, 0.75})
-    EXPECT_NEAR(found.response.light_of(level), std::pow(level, 2.2), 0.02);
+    EXPECT_NEAR(found.response.value().light_of(level), std::pow(level, 2.2), 0.02);
   EXPECT_NEAR(found.camera_fps, 1000.0 / found.exposure_ms, 0.1);
   EXPECT_TRUE(found.findings.empty()) << found.findings.front();
 
   plan_.rig.projector.response = found.response;  // which the display compensates from now on
-  EXPECT_NEAR(measured().response.light_of(0.5), std::pow(0.5, 2.2), 0.02);
+  EXPECT_NEAR(measured().response.value().light_of(0.5), std::pow(0.5, 2.2), 0.02);
 }
 
 TEST_F(MeasureDisplay, SeesFramesThatAreLateByOne) {
@@ -121,6 +121,22 @@ TEST_F(MeasureDisplay, TellsABlurredPictureFromASharpOneAndWhereBlackIsCutOff) {
   EXPECT_NE(blurred.findings.back().find("level of black"), std::string::npos);
 }
 
+/// 4 ms leave most of the flicker of 120 Hz, and any longer exposure is too bright.
+TEST_F(MeasureDisplay, MeasuresNoResponseUnderLampsThatFlickerInItsFrames) {
+  devices_["camera"] +=
+      "display_gamma = 2.2\nambient = 0.1\nmains_hz = 60\nroom_flicker = 0.6\n"
+      "reference_exposure_ms = 4\n";
+  devices_["fringes"] += "latency_ms = 33\nrefresh_hz = 50\n";
+  const DisplayMeasurement found = measured();
+  EXPECT_EQ(found.mains_hz, 60.0);
+  EXPECT_NEAR(found.latency_s, 0.033, 0.001);
+  EXPECT_FALSE(found.response);
+  EXPECT_NE(found.findings.back().find("darken the room"), std::string::npos);
+  static_cast<void>(open());
+  const std::string rig = testing::text_of(folder_.path() / "rig.toml");
+  EXPECT_EQ(with_display(rig, plan_.rig, found).find("[projector.response]"), std::string::npos);
+}
+
 TEST_F(MeasureDisplay, RefusesWhatItCannotSee) {
   devices_["camera"] += "contrast = 0.001\nambient = 0.5\n";
   EXPECT_NE(error_of([&] { static_cast<void>(measured()); }).find("too few pixels"),
@@ -139,7 +155,7 @@ TEST_F(MeasureDisplay, WritesWhatItFoundAndLeavesTheRestOfTheRig) {
   found.exposure_step_ms = 50.0;
   found.skip_frames = 2;
   found.white_level = 244;
-  found.response.light = {0.0, 0.2, 1.0};
+  found.response = ResponseCurve{{0.0, 0.2, 1.0}};
   const std::string after = with_display(before, plan_.rig, found);
   EXPECT_NE(after.find("# kept"), std::string::npos);
   EXPECT_EQ(with_display(after, plan_.rig, found), after) << "each key is there once";

@@ -130,6 +130,16 @@ await tell(home, async () => {
   await page.click('#live-start:not([disabled])');
   await page.waitForFunction(() => Number(document.querySelector('#live-points')?.textContent.replaceAll(',', '')) > 5000);
   passed('the preview returns after the camera');
+  // Focus: the bar has its mark, and a click shows single pixels about it.
+  const scaleOf = () => page.locator('.live-picture').evaluate((canvas) => new DOMMatrix(getComputedStyle(canvas).transform).a);
+  await page.waitForFunction(() => Number(document.querySelector('#contrast')?.textContent) > 0.3);
+  const mark = await page.locator('.focus .peak').evaluate((rect) => Number(rect.getAttribute('x')) / 320);
+  expect(mark > 0.3, `the best contrast is marked at ${mark}`);
+  await page.locator('.live-picture').click({ position: { x: 200, y: 150 } });
+  expect((await scaleOf()) >= 2, `the loupe enlarges ${await scaleOf()} times`);
+  await look(page, shots, 'loupe');
+  await page.click('#loupe');
+  expect((await scaleOf()) === 1, 'the whole picture does not come back');
   await page.click('#auto-exposure');
   const before = (await stateOf(page)).project.capture.exposure_ms;
   await waitForState(page, (state) => state.project.capture.exposure_ms !== before && state.project.live !== null);

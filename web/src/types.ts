@@ -319,8 +319,8 @@ export interface DisplayFigures {
   room_flicker: number;
   /** Exposures of whole multiples see even light; 0: any do. */
   exposure_step_ms: number;
-  /** Share of full light at half of full drive. */
-  half_light: number;
+  /** Share of full light at half of full drive; null where the light of the room hides it. */
+  half_light: number | null;
   /** Contrast of fringes of 12 px over that of coarse ones. */
   sharpness: number;
   white_level: number;

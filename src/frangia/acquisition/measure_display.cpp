@@ -23,7 +23,7 @@ constexpr double kLow = 0.5;             ///< of white: least light of the brigh
 constexpr double kAim = 0.65;            ///< what is looked for
 constexpr double kHigh = 0.75;           ///< most
 constexpr double kBrightest = 0.94;      ///< most, where a raster of exposures wants it
-/// Share of a flash's light that is taken for none: noise and what lamps leave stay below.
+/// Share of a flash's light that is taken for none in a steady room: noise stays below.
 constexpr double kLeft = 0.03;
 constexpr double kFollowed = 0.15;  ///< largest residual of flashes that are followed
 
@@ -66,6 +66,7 @@ class Measurer {
     find_latency();
     run_.report(0.8);
     run_.stage("response");
+    find_frame_rate();
     find_response();
     find_sharpness();
     judge_black();
@@ -156,10 +157,29 @@ class Measurer {
       found_.findings.emplace_back(
           "the light of the room flickers, but with neither 50 nor 60 Hz; switch it off");
     }
+    room_hz_ = 2.0 * room.mains_hz;
     choose_step(devices_.display->info().refresh_period_ms,
                 room.mains_hz > 0.0 ? 1000.0 / (2.0 * room.mains_hz) : 0.0);
     probe_.expose_for(found_.exposure_ms);
     find_lit();
+  }
+
+  /// Amplitude of the room's flicker in frames, over the full light of the display.
+  [[nodiscard]] double flicker_of_frames() const {
+    return found_.room_flicker * flicker_left(found_.exposure_ms, room_hz_);
+  }
+
+  /// Share of a flash's light that may be none.
+  [[nodiscard]] double least_share() const { return kLeft + flicker_of_frames(); }
+
+  /// Names the flicker of the room where it is the likely cause of what cannot be measured.
+  [[noreturn]] void fail_in_room(const std::string& why) const {
+    constexpr double kHarmful = 0.02;
+    if (flicker_of_frames() < kHarmful) fail(why);
+    fail(fmt::format(
+        "the light of the room flickers in the frames by {:.0f} % of the display's light, "
+        "too much to see its flashes; darken the room",
+        100.0 * flicker_of_frames()));
   }
 
   /// The raster of exposures: of both lights where such an exposure is not too bright.
@@ -207,11 +227,10 @@ class Measurer {
   void find_latency() {
     probe_.set_skipped(0);
     const FlashLag slowest = flashes(kLongestDelay_s, 1);
-    if (slowest.residual > kFollowed || std::abs(slowest.share) > kLeft) {
-      fail(
-          fmt::format("the camera does not follow the flashes of the display, even {} s after "
-                      "each; show it the "
-                      "lit sheet, fix its exposure, and keep still",
+    if (slowest.residual > kFollowed || std::abs(slowest.share) > least_share()) {
+      fail_in_room(
+          fmt::format("the camera does not follow the flashes of the display, even {} s "
+                      "after each; show it the lit sheet, fix its exposure, and keep still",
                       kLongestDelay_s));
     }
     found_.late_frames = static_cast<int>(slowest.frames);
@@ -230,7 +249,7 @@ class Measurer {
                       slowest.frames));
     }
     const auto in_time = [&](const FlashLag& lag) {
-      return lag.frames == 0 && lag.share < kLeft && lag.residual < kFollowed;
+      return lag.frames == 0 && lag.share < least_share() && lag.residual < kFollowed;
     };
     found_.latency_s = least_delay_s(in_time);
     // A display that shows a picture at its next refresh may take one more.
@@ -241,7 +260,7 @@ class Measurer {
       found_.delay_s = std::ceil(1e3 * (found_.latency_s + margin_s)) / 1e3;
       if (in_time(flashes(found_.delay_s, 3))) break;
       if (i == kTries) {
-        fail(
+        fail_in_room(
             "the latency of display and camera changes from flash to flash; switch off the image "
             "enhancement of the projector, and all that is automatic in the camera");
       }
@@ -262,7 +281,7 @@ class Measurer {
       (good ? good_s : late_s) = next_s;
       const double told_s = next_s + 1e-3 * found_.exposure_ms * lag.share + 0.5 * kResolution_s;
       if (good && told) break;
-      told = !good && lag.frames == 0 && lag.share > kLeft && lag.residual < kFollowed &&
+      told = !good && lag.frames == 0 && lag.share > least_share() && lag.residual < kFollowed &&
              told_s < good_s;
       next_s = told ? told_s : 0.5 * (late_s + good_s);
     }
@@ -270,6 +289,14 @@ class Measurer {
   }
 
   void find_response() {
+    constexpr double kMostFlicker = 0.005;  // of the full light: as much as the noise of a ramp
+    if (flicker_of_frames() > kMostFlicker) {
+      found_.findings.push_back(fmt::format(
+          "the response was not measured, as the light of the room flickers in the frames "
+          "by {:.1f} % of the display's light; darken the room and measure again",
+          100.0 * flicker_of_frames()));
+      return;
+    }
     constexpr int kLevels = 17;
     Pattern ramp{.name = "ramp", .kind = PatternKind::Ramp};
     for (int i = 0; i < kLevels; ++i)
@@ -278,11 +305,14 @@ class Measurer {
     const ResponseCurve left = measure_response({&stack, 1});
     const auto& known = rig_.projector.response;
     found_.response = known ? compose(*known, left) : left;
+  }
+
+  void find_frame_rate() {
     constexpr int kFrames = 6;
-    const double first_s = probe_.again(ramp.name).timestamp_s;
+    const double first_s = probe_.again(flash_.name).timestamp_s;
     double last_s = first_s;
     for (int i = 1; i < kFrames; ++i)
-      last_s = probe_.again(ramp.name).timestamp_s;
+      last_s = probe_.again(flash_.name).timestamp_s;
     const double frames = (kFrames - 1) * (1.0 + found_.late_frames);  // with those it drops
     if (last_s > first_s) found_.camera_fps = frames / (last_s - first_s);
   }
@@ -342,6 +372,7 @@ class Measurer {
   DisplayProbe probe_;
   Pattern flash_ = dark_and_bright();
   LitPixels lit_;
+  double room_hz_ = 0.0;  ///< of the flicker of the room's light
   DisplayMeasurement found_;
 };
 

@@ -30,7 +30,8 @@ struct DisplayMeasurement {
   /// Exposures of whole multiples see the same light of the room and of the display; 0: any do.
   double exposure_step_ms = 0.0;
 
-  ResponseCurve response;   ///< of the display: light over level
+  /// Of the display, light over level; empty where the light of the room hides it.
+  std::optional<ResponseCurve> response;
   double sharpness = 0.0;   ///< contrast of fringes of 12 px over that of coarse ones, 0 to 1
   int white_level = 255;    ///< counts from which on the sensor is saturated
   double dark_zeros = 0.0;  ///< share of lit pixels at 0 counts while the display is dark

@@ -89,6 +89,7 @@ std::string with_display(const std::string& rig_toml,
     lines.set(camera, "exposure_step_ms", fmt::format("{:.6g}", measured.exposure_step_ms));
   if (measured.skip_frames)
     lines.set(camera, "skip_frames", fmt::format("{}", *measured.skip_frames));
+  if (!measured.response) return lines.text();
   Projector projector = rig.projector;
   projector.response = measured.response;
   return with_response(lines.text(), projector);

@@ -31,7 +31,7 @@ function figures(found: DisplayFigures): TemplateResult {
         ${found.exposure_step_ms ? html`${number(found.exposure_step_ms, 1)}<span>ms</span>` : t('display.any')}
       </dd>
       <dt>${t('display.half')}</dt>
-      <dd class="num">${number(100 * found.half_light, 1)} %</dd>
+      <dd class="num">${found.half_light === null ? '–' : `${number(100 * found.half_light, 1)} %`}</dd>
       <dt>${t('display.white')}</dt>
       <dd class="num">${number(found.white_level)}</dd>
       <dt>${t('display.zeros')}</dt>

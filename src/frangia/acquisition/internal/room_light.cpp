@@ -11,12 +11,6 @@
 namespace frangia {
 namespace {
 
-/// Share of a sine that an exposure leaves.
-double left_by(double exposure_ms, double light_hz) {
-  const double half = kPi * light_hz * 1e-3 * exposure_ms;
-  return std::abs(std::sin(half) / half);
-}
-
 /// Standard deviation of the light of frames at scattered times, counts a ms; light that becomes
 /// brighter or darker evenly has none.
 double scatter_of(DisplayProbe& probe, const LitPixels& lit, double exposure_ms) {
@@ -42,6 +36,11 @@ double scatter_of(DisplayProbe& probe, const LitPixels& lit, double exposure_ms)
 
 }  // namespace
 
+double flicker_left(double exposure_ms, double light_hz) {
+  const double half = kPi * light_hz * 1e-3 * exposure_ms;
+  return half == 0.0 ? 1.0 : std::abs(std::sin(half) / half);
+}
+
 RoomLight measure_room_light(DisplayProbe& probe,
                              const LitPixels& lit,
                              double full_light,
@@ -61,11 +60,11 @@ RoomLight measure_room_light(DisplayProbe& probe,
   if (!room.flickers) return room;
   // The other exposure leaves what a sine of this frequency leaves of it.
   const double light_hz = 2.0 * kMains_hz[best];
-  const double expected =
-      left_by(1000.0 / (2.0 * kMains_hz[1 - best]), light_hz) / left_by(short_ms, light_hz);
+  const double expected = flicker_left(1000.0 / (2.0 * kMains_hz[1 - best]), light_hz) /
+                          flicker_left(short_ms, light_hz);
   const double ratio = left[1 - best] / scatter;
   if (ratio > 0.5 * expected && ratio < 2.0 * expected) room.mains_hz = kMains_hz[best];
-  room.amplitude = std::sqrt(2.0) * scatter / left_by(short_ms, light_hz) / full_light;
+  room.amplitude = std::sqrt(2.0) * scatter / flicker_left(short_ms, light_hz) / full_light;
   return room;
 }
 

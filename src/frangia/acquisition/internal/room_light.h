@@ -11,6 +11,11 @@ struct RoomLight {
   double amplitude = 0.0;  ///< of the light that varies, over `full_light`
 };
 
+/// Share of a light's flicker that an exposure leaves; 1 for an unknown frequency of 0.
+///
+/// @source   the mean of a sine over an interval, sin(x) / x
+[[nodiscard]] double flicker_left(double exposure_ms, double light_hz);
+
 /// Compares frames of three exposures: over a period of the light, 1/100 s or 1/120 s, it is even.
 /// Leaves the camera at one of them and the display dark, with another delay.
 ///

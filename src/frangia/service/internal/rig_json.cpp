@@ -157,7 +157,7 @@ RigJson json_of_display(const DisplayMeasurement& display) {
           {"mains_hz", display.mains_hz},
           {"room_flicker", display.room_flicker},
           {"exposure_step_ms", display.exposure_step_ms},
-          {"half_light", display.response.light_of(0.5)},
+          {"half_light", display.response ? RigJson(display.response->light_of(0.5)) : RigJson()},
           {"sharpness", display.sharpness},
           {"white_level", display.white_level},
           {"dark_zeros", display.dark_zeros},
