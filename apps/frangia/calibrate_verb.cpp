@@ -23,6 +23,7 @@
 #include "calibrate_rig_verb.h"
 #include "calibrate_turntable_verb.h"
 #endif
+#include "calibrate_display_verb.h"
 #include "calibrate_refine_verb.h"
 #include "check_can_write.h"
 #include "drivers.h"
@@ -108,6 +109,7 @@ void add_calibrate_verb(CLI::App& program, Terminal& terminal) {
   add_calibrate_exchange_verbs(*verb, terminal);
 #endif
   add_calibrate_refine_verb(*verb, terminal);
+  add_calibrate_display_verb(*verb, terminal);
   auto* piezo = verb->add_subcommand(
       "piezo", "measure the phase shift of each command of a phase shifter, from the frames alone");
   piezo->footer(

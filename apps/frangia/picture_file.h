@@ -14,8 +14,7 @@ namespace frangia {
 /// Checks before the work that a picture can be written after it.
 ///
 /// @errors   Error(Input) when the extension is not .png; Error(File) when the folder does not
-/// exist
-///          or is not writable
+///          exist or is not writable
 inline void check_picture_output(const std::filesystem::path& path) {
   if (lowercase_extension(path) != ".png") {
     throw Error(ErrorKind::Input,

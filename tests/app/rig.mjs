@@ -69,6 +69,21 @@ await tell(home, async () => {
   await idle(page);
   await look(page, shots, 'chosen-devices');
 
+  // Display and camera are fitted to each other, with what the rig lacks in words.
+  const rigFile = path.join(home, 'projects', 'Uploaded', 'rig.toml');
+  fs.writeFileSync(rigFile, fs.readFileSync(rigFile, 'utf8').replace('[devices.fringes]\n', '[devices.fringes]\nlatency_ms = 40\n'));
+  await reopen(page, 'Uploaded');
+  await page.keyboard.press('2');
+  await page.click('#measure-display:not([disabled])');
+  const fitted = await waitForState(page, (state) => state.project.display !== null);
+  const { latency_s: latency, delay_s: delay } = fitted.project.display;
+  expect(Math.abs(latency - 0.04) < 0.002, `the latency is ${latency} s, not 0.04`);
+  expect(fs.readFileSync(rigFile, 'utf8').includes(`delay_s = ${delay}`), 'the rig does not keep the delay');
+  await idle(page);
+  await page.locator('#display').scrollIntoViewIfNeeded();
+  await look(page, shots, 'display-measured');
+  passed(`the latency of the display is ${(1000 * latency).toFixed(0)} ms`);
+
   // Without the axis of its turntable the rig scans no stations, and the page leads to where it is found.
   const rig = path.join(home, 'projects', 'Uploaded', 'rig.toml');
   const complete = fs.readFileSync(rig, 'utf8');
@@ -115,6 +130,16 @@ await tell(home, async () => {
   await page.click('#live-start:not([disabled])');
   await page.waitForFunction(() => Number(document.querySelector('#live-points')?.textContent.replaceAll(',', '')) > 5000);
   passed('the preview returns after the camera');
+  // Focus: the bar has its mark, and a click shows single pixels about it.
+  const scaleOf = () => page.locator('.live-picture').evaluate((canvas) => new DOMMatrix(getComputedStyle(canvas).transform).a);
+  await page.waitForFunction(() => Number(document.querySelector('#contrast')?.textContent) > 0.3);
+  const mark = await page.locator('.focus .peak').evaluate((rect) => Number(rect.getAttribute('x')) / 320);
+  expect(mark > 0.3, `the best contrast is marked at ${mark}`);
+  await page.locator('.live-picture').click({ position: { x: 200, y: 150 } });
+  expect((await scaleOf()) >= 2, `the loupe enlarges ${await scaleOf()} times`);
+  await look(page, shots, 'loupe');
+  await page.click('#loupe');
+  expect((await scaleOf()) === 1, 'the whole picture does not come back');
   await page.click('#auto-exposure');
   const before = (await stateOf(page)).project.capture.exposure_ms;
   await waitForState(page, (state) => state.project.capture.exposure_ms !== before && state.project.live !== null);

@@ -149,6 +149,35 @@ TEST_F(CaptureProgram, NeedsTheTableAngleToContinueWithoutAHomeSwitch) {
   EXPECT_EQ(run_program(freed + " --table-at 0").exit_code, 0);
 }
 
+TEST_F(CaptureProgram, CalibratesADisplayIntoACopyOfARigOfWhichOnlySizesAreKnown) {
+  const auto path = [&](const char* name) { return (folder_.path() / name).string(); };
+  std::filesystem::copy_file(std::string(FRANGIA_SOURCE_DIR) + "/examples/python/small-rig.toml",
+                             path("truth.toml"));
+  std::ofstream(path("maker.toml"))
+      << "format = \"frangia-rig\"\nversion = 1\n\n[camera]\nsize_px = [320, 256]\n\n"
+         "[projector]\nmodel = \"pinhole\"\nsize_px = [640, 400]\n\n"
+         "[devices.camera]\ndriver = \"simulated\"\npart = \"plate\"\n"
+         "true_rig = \"truth.toml\"\ndisplay_gamma = 2.2\nlate_frames = 1\n\n"
+         "[devices.fringes]\ndriver = \"simulated-display\"  # kept\nlatency_ms = 30\n";
+  const std::string measured = path("display.toml");
+  const Answer first = run_program("calibrate display " + path("maker.toml") + " -o " + measured);
+  EXPECT_EQ(first.exit_code, 0) << first.output;
+  EXPECT_TRUE(holds(first, "frames are 1 late")) << first.output;
+  EXPECT_TRUE(holds(first, "latency 30 ms: delay_s = 0.03")) << first.output;
+  std::ifstream in(measured);
+  const std::string text{std::istreambuf_iterator<char>(in), {}};
+  EXPECT_NE(text.find("skip_frames = 1"), std::string::npos) << text;
+  EXPECT_NE(text.find("# kept"), std::string::npos);
+  const Answer again = run_program("calibrate display " + measured + " -o " + measured);
+  EXPECT_EQ(again.exit_code, 0) << again.output;
+  EXPECT_FALSE(holds(again, "frames are")) << again.output;
+  for (const Answer* answer : {&first, &again})  // 0.5^2.2; the second time through its table
+    EXPECT_TRUE(holds(*answer, "half of full drive gives 21.") ||
+                holds(*answer, "half of full drive gives 22."))
+        << answer->output;
+  EXPECT_EQ(run_program("calibrate display " + rig()).exit_code, 3) << "it has no projector";
+}
+
 TEST_F(CaptureProgram, CalibratesAPiezoIntoACopyOfItsRig) {
   const std::string copy = (folder_.path() / "calibrated.toml").string();
   const Answer answer = run_program("calibrate piezo " + rig() + " --steps 13 -o " + copy);

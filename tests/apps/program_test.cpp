@@ -115,7 +115,7 @@ TEST_F(Program, UsageErrorsExitWithTwoAndOneSentence) {
   expect_usage_error(
       "calibrate",
       "calibrate needs a verb: board, capture, rig, turntable, check, import, export, "
-      "refine, piezo; see frangia calibrate --help");
+      "refine, display, piezo; see frangia calibrate --help");
   expect_usage_error(
       "calibrate peizo x",
       "calibrate has no verb peizo, perhaps piezo was meant; see frangia calibrate --help");

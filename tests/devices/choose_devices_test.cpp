@@ -35,6 +35,8 @@ class Screen final : public PatternDisplay {
   [[nodiscard]] const DisplayInfo& info() const override { return info_; }
   void show(const Image<float>& /*picture*/, const Deadline& /*until*/) override {}
   void show_dark(const Deadline& /*until*/) override {}
+  [[nodiscard]] double delay_s() const override { return 0.0; }
+  void set_delay(double /*seconds*/) override {}
 
  private:
   DisplayInfo info_{.width_px = 1280, .height_px = 800, .refresh_period_ms = 0.0};

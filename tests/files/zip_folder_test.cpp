@@ -49,6 +49,7 @@ TEST(UnzipFolder, TakesTheFolderOfItsMarkerAndNothingThatLeadsOut) {
     writer.commit();
   };
   const auto into = folder.path() / "into";
+  const auto outside = folder.path() / "outside";
   write({"Part/scan.toml", "Part/views/000/a.png", "Part/.hidden", "beside.txt"});
   unzip_folder(archive, "scan.toml", into);
   EXPECT_TRUE(std::filesystem::is_regular_file(into / "scan.toml"));
@@ -60,6 +61,7 @@ TEST(UnzipFolder, TakesTheFolderOfItsMarkerAndNothingThatLeadsOut) {
                                               {"scan.toml", "../outside"},
                                               {"scan.toml", "views/../../outside"},
                                               {"scan.toml", "/tmp/outside"},
+                                              {"a/scan.toml", "a/" + outside.string()},
                                               {"scan.toml", "views\\..\\outside"}}) {
     write(bad);
     EXPECT_NE(error_of([&] { unzip_folder(archive, "scan.toml", folder.path() / "bad"); }), "")
@@ -67,6 +69,36 @@ TEST(UnzipFolder, TakesTheFolderOfItsMarkerAndNothingThatLeadsOut) {
     EXPECT_FALSE(std::filesystem::exists(folder.path() / "bad"));
     EXPECT_FALSE(std::filesystem::exists(folder.path() / "outside"));
   }
+}
+
+TEST(UnzipFolder, ReadsLongNamesAndRefusesWhatExpandsTooFarAltogether) {
+  const testing::TemporaryFolder folder;
+  const auto archive = folder.path() / "scan.zip";
+  const std::string deep = std::string(200, 'a') + "/" + std::string(200, 'b');
+  {
+    ZipWriter writer(archive);
+    writer.begin("scan.toml");
+    writer.begin(deep);
+    writer.text("content");
+    writer.commit();
+  }
+  unzip_folder(archive, "scan.toml", folder.path() / "into");
+  EXPECT_EQ(std::filesystem::file_size(folder.path() / "into" / deep), 7U);
+
+  constexpr int kParts = 3;  // none of them too large by itself
+  const std::string zeros(std::size_t{30} << 20U, '\0');
+  ZipWriter writer(archive);
+  writer.begin("scan.toml");
+  for (int i = 0; i < kParts; ++i) {
+    writer.begin(std::to_string(i));
+    writer.text(zeros);
+  }
+  writer.commit();
+  ASSERT_LT(std::filesystem::file_size(archive), zeros.size() * kParts / 200);
+  const std::string refusal =
+      error_of([&] { unzip_folder(archive, "scan.toml", folder.path() / "bad"); });
+  EXPECT_NE(refusal.find("altogether"), std::string::npos) << refusal;
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "bad"));
 }
 
 TEST(ZipFolder, RefusesAFolderWithoutFiles) {

@@ -198,6 +198,7 @@ class Answers(unittest.TestCase):
         )
         (self.folder / "truth.toml").write_text(rig_text())
         (self.folder / "maker.toml").write_text(MAKER)
+        self.answer("calibrate", "display", "maker.toml", "-o", "display.toml", verb="calibrate-display")
         self.answer(
             "calibrate",
             "capture",

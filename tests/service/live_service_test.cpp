@@ -1,12 +1,20 @@
 #include "service/live_service.h"
 
 #include <algorithm>
+#include <atomic>
 #include <fstream>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 
+#include "frangia/devices/device_settings.h"
+#include "frangia/rig/read_rig.h"
 #include "frangia/rig/write_rig.h"
 
+#include "support/small_scan.h"
 #include "support/text_of.h"
 
 namespace frangia {
@@ -160,6 +168,7 @@ TEST_F(LiveServiceTest, MovesTheRigUntilTheScanBegins) {
   ASSERT_EQ(kept.size(), 1U);
   EXPECT_EQ(kept[0].at("before"), "geometry");
   command("restore-rig", {{"number", kept[0].at("number")}});
+  ASSERT_TRUE(wait([&] { return !busy(); }));
   EXPECT_NEAR(project().at("rig").at("turntable").at("distance_mm").get<double>(), distance, 1e-9);
   const Rig simulated = read_rig(folder_.path() / "live" / "true-rig.toml");
   EXPECT_NEAR(simulated.turntable->point_mm.norm(), distance, 1e-9)
@@ -193,10 +202,80 @@ TEST_F(LiveServiceTest, MovesNoRigThatIsCalibratedAndKeepsItForOtherProjects) {
   EXPECT_TRUE(project().at("check").is_null()) << "it was of other settings";
 
   command("keep-rig", {{"name", "Bench"}});
+  ASSERT_TRUE(wait([&] { return !busy(); }));
   command("create-project", {{"name", "second"}, {"kept_rig", "Bench"}, {"stations", 2}});
   ASSERT_TRUE(wait([&] { return !busy(); }));
   EXPECT_EQ(project().at("rig").at("calibration").at("point_sigma_mm"), 0.02);
   EXPECT_TRUE(project().at("can_scan").get<bool>());
+}
+
+TEST_F(LiveServiceTest, MeasuresTheDisplayAndKeepsInTheRigWhatItFound) {
+  const auto file = folder_.path() / "live" / "rig.toml";
+  command("close-project");
+  for (const auto& one : {file, folder_.path() / "live" / "true-rig.toml"}) {  // quicker
+    Rig coarse = read_rig(one);
+    testing::make_coarser(coarse.reference().model, 8);
+    write_rig(one, coarse, Durability::Buffered, one);
+  }
+  std::string rig = testing::text_of(file);
+  const std::string table = "[devices.fringes]\n";
+  ASSERT_NE(rig.find(table), std::string::npos) << rig;
+  rig.replace(rig.find(table), table.size(), table + "latency_ms = 40\n");
+  std::ofstream(file) << rig;
+  command("open-project", {{"name", "live"}});
+  ASSERT_TRUE(wait([&] { return !busy(); }));
+  EXPECT_TRUE(project().at("display").is_null());
+  command("measure-display");
+  ASSERT_TRUE(wait([&] { return !busy(); }));
+  const Json found = project().at("display");
+  ASSERT_FALSE(found.is_null()) << service_.state();
+  EXPECT_NEAR(found.at("latency_s").get<double>(), 0.04, 0.001);
+  EXPECT_NEAR(found.at("half_light").get<double>(), 0.5, 0.02);
+  const std::vector<DeviceSettings> devices = read_device_settings(file);
+  const auto fringes = std::find_if(
+      devices.begin(), devices.end(), [](const auto& one) { return one.device() == "fringes"; });
+  ASSERT_NE(fringes, devices.end());
+  EXPECT_EQ(DeviceSettings(*fringes).number("delay_s"), found.at("delay_s").get<double>());
+  EXPECT_TRUE(read_rig(file).projector.response);
+  EXPECT_EQ(project().at("kept_rigs")[0].at("before"), "devices");
+  command("restore-rig", {{"number", project().at("kept_rigs")[0].at("number")}});
+  ASSERT_TRUE(wait([&] { return !busy(); }));
+  EXPECT_EQ(testing::text_of(file), rig);
+  EXPECT_TRUE(project().at("display").is_null()) << "it was of the other rig";
+}
+
+TEST_F(LiveServiceTest, KeepsNoCheckOfOtherSettings) {
+  command("close-project");
+  std::atomic<bool> changes = false;
+  Service* service = nullptr;
+  ServiceOptions changing = options();
+  changing.capture.hold_devices = [&]() -> std::shared_ptr<void> {
+    if (changes.exchange(false))
+      static_cast<void>(service->command("set-capture", R"({"exposure_ms": 3.0})"));
+    return nullptr;
+  };
+  Service other(std::move(changing), [] {});
+  service = &other;
+  const auto of = [&](const char* part) { return Json::parse(other.state()).at(part); };
+  const auto finish = [&] {
+    ASSERT_TRUE(wait([&] {
+      const Json jobs = of("jobs");
+      return std::all_of(jobs.begin(), jobs.end(), [](const Json& job) {
+        return job.at("state") != "waiting" && job.at("state") != "running";
+      });
+    }));
+  };
+  static_cast<void>(other.command("open-project", R"({"name": "live"})"));
+  finish();
+  changes = true;
+  static_cast<void>(other.command("check-scan", "{}"));
+  finish();
+  EXPECT_EQ(of("jobs").back().at("state"), "done");
+  EXPECT_EQ(of("project").at("capture").at("exposure_ms"), 3.0);
+  EXPECT_TRUE(of("project").at("check").is_null());
+  static_cast<void>(other.command("check-scan", "{}"));
+  finish();
+  EXPECT_FALSE(of("project").at("check").is_null());
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include "frangia/service/project_folder.h"
 
 #include <algorithm>
+#include <chrono>
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -52,6 +53,9 @@ TEST(ProjectLibrary, RenamesCopiesDeletesAndPutsBack) {
   std::filesystem::create_directories(made.folder / "versions" / "001");
   std::ofstream(made.folder / "versions" / "001" / "surface.ply") << "ply";
   std::filesystem::create_symlink("/etc/passwd", made.folder / "link");
+  const auto inner = std::filesystem::path("versions") / "001" / "surface.ply";
+  const auto old = std::filesystem::file_time_type::clock::now() - std::chrono::hours(48);
+  std::filesystem::last_write_time(made.folder / inner, old);
   const auto names = [&] {
     std::vector<std::string> found;
     for (const ProjectEntry& one : library.list())
@@ -62,7 +66,7 @@ TEST(ProjectLibrary, RenamesCopiesDeletesAndPutsBack) {
   using Names = std::vector<std::string>;
   library.duplicate("Part", "Copy", {});
   EXPECT_EQ(names(), (Names{"Copy", "Part"}));
-  EXPECT_TRUE(std::filesystem::exists(folder.path() / "Copy" / "versions" / "001" / "surface.ply"));
+  EXPECT_EQ(modified_s(folder.path() / "Copy" / inner), modified_s(made.folder / inner));
   EXPECT_FALSE(
       std::filesystem::exists(std::filesystem::symlink_status(folder.path() / "Copy" / "link")));
   library.rename("Copy", "Other");

@@ -105,9 +105,25 @@ TEST_F(RigHistoryTest, KeepsRigsForOtherProjectsAndMakesNoPathFromTheirNames) {
   EXPECT_DOUBLE_EQ(given.calibration->covariance.covariance(0, 0), 9e-4);
   for (const char* name : {"../part", "..", "", "/etc", "Bench/"})
     EXPECT_NE(error_of([&] { rigs.give(name, other); }), "") << name;
-  rigs.discard("Bench", folder_.path() / ".bin" / "rigs");
+  static_cast<void>(library_.create("rigs"));
+  library_.discard("rigs");
+  rigs.discard("Bench");
   EXPECT_TRUE(rigs.list().empty());
-  EXPECT_TRUE(std::filesystem::exists(folder_.path() / ".bin" / "rigs" / "Bench" / "rig.toml"));
+  EXPECT_TRUE(std::filesystem::exists(folder_.path() / ".rigs" / ".bin" / "Bench" / "rig.toml"));
+  static_cast<void>(library_.take_back("rigs"));
+  EXPECT_FALSE(std::filesystem::exists(folder_.path() / "rigs" / "Bench")) << "a rig of nobody";
+}
+
+TEST_F(RigHistoryTest, KeepsARigCompletelyOrNotAtAll) {
+  write(140.0, 0.03);
+  const RigLibrary rigs(folder_.path() / ".rigs");
+  std::ofstream(project_.residuals()) << "";
+  std::filesystem::resize_file(project_.residuals(), 64'000'001);  // more than is copied
+  EXPECT_NE(error_of([&] { rigs.keep(project_, "Bench"); }), "");
+  EXPECT_TRUE(rigs.list().empty());
+  std::filesystem::remove(project_.residuals());
+  EXPECT_EQ(error_of([&] { rigs.keep(project_, "Bench"); }), "") << "the name is still free";
+  EXPECT_EQ(rigs.list().size(), 1U);
 }
 
 }  // namespace

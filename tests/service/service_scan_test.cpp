@@ -1,10 +1,16 @@
 #include <atomic>
 #include <filesystem>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 
+#include "frangia/core/read_text_file.h"
+#include "frangia/files/zip_folder.h"
+
 #include "service/service_fixture.h"
+#include "support/small_scan.h"
 
 namespace frangia {
 namespace {
@@ -82,6 +88,48 @@ TEST_F(ServiceTest, StopsAndContinuesTheSimulatedScan) {
   EXPECT_FALSE(service_->cloud(1).empty());
   EXPECT_TRUE(service_->cloud(9).empty());
   EXPECT_GT(changes_, 10);
+}
+
+TEST_F(ServiceTest, OpensAScanFromAFileAndCapturesNothingOverIt) {
+  const auto scan = folder_.path() / "scan";
+  static_cast<void>(testing::small_scan(scan, "plate", "angular", 1, {.samples_per_px = 1}));
+  ASSERT_FALSE(std::filesystem::exists(scan / "capture"));
+  const auto archive = folder_.path() / "scan.zip";
+  zip_folder(scan, "plate", archive);
+  const std::string bytes = read_text_file(archive);
+  static_cast<void>(
+      command("create-project", {{"name", "mine"}, {"part", "plate"}, {"stations", 8}}));
+  static_cast<void>(finish());
+  service_->add_to_reference(0, bytes);
+  static_cast<void>(command("open-file", {{"format", "zip"}, {"bytes", bytes.size()}}));
+  service_->add_to_reference(0, "the next file");
+  const Json job = finish();
+  ASSERT_EQ(job.at("state"), "done") << job.at("error");
+  const auto is_kept = [&] {
+    const Json project = state().at("project");
+    EXPECT_TRUE(project.at("scan_complete").get<bool>());
+    EXPECT_TRUE(project.at("scan_begun").get<bool>());
+    EXPECT_EQ(project.at("stations").size(), 1U);
+    for (const auto& [name, arguments] : std::vector<std::pair<std::string, std::string>>{
+             {"set-capture", R"({"exposure_ms": 3})"},
+             {"set-capture", R"({"stations": 3})"},
+             {"find-exposure", "{}"},
+             {"set-devices", R"({"devices": {"camera": "driver = \"simulated\"\n"}})"},
+             {"start-calibration", R"({"square_mm": 10})"},
+             {"start-scan", "{}"},
+             {"start-scan", R"({"setup": 1})"},
+             {"rescan-station", R"({"station": 0})"}})
+      EXPECT_NE(refusal(name, arguments), "") << name;
+    const auto project_scan = folder_.path() / "projects" / "mine" / "scan";
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(scan))
+      EXPECT_TRUE(std::filesystem::exists(project_scan / entry.path().lexically_relative(scan)))
+          << entry;
+  };
+  is_kept();
+  restart();
+  static_cast<void>(command("open-project", {{"name", "mine"}}));
+  static_cast<void>(finish());
+  is_kept();
 }
 
 }  // namespace

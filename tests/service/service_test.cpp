@@ -1,3 +1,4 @@
+#include <chrono>
 #include <cstdint>
 #include <cstring>
 #include <filesystem>
@@ -346,7 +347,15 @@ TEST_F(ServiceTest, OpensAMeshInAProjectOfItsOwnAndLeavesNothingOfWhatItCannotRe
   static_cast<void>(command("set-notes", {{"name", "Cuboid"}, {"text", "of brass"}}));
   EXPECT_EQ(state().at("projects")[0].at("notes"), "of brass");
   EXPECT_NE(refusal("set-thumbnail", R"({"picture": "bm90IGEgcGljdHVyZQ=="})"), "");
+  const auto changed = std::filesystem::file_time_type::clock::now() - std::chrono::hours(48);
+  for (const auto& entry :
+       std::filesystem::recursive_directory_iterator(folder_.path() / "projects" / "Cuboid"))
+    std::filesystem::last_write_time(entry, changed);
+  std::filesystem::last_write_time(folder_.path() / "projects" / "Cuboid", changed);
   static_cast<void>(command("set-thumbnail", {{"picture", "iVBORw0KGgo="}}));
+  EXPECT_EQ(state().at("projects")[0].at("modified_s"),
+            modified_s(folder_.path() / "projects" / "Cuboid"))
+      << "to be pictured is no change";
   EXPECT_EQ(service_->thumbnail("Cuboid").substr(1, 3), "PNG");
   EXPECT_NE(error_of([&] { static_cast<void>(service_->thumbnail("../x")); }), "");
 }

@@ -125,6 +125,34 @@ TEST(SimulatedDrivers, PiezoComesBackToTheSamePhaseOnlyFromTheSameSide) {
   EXPECT_EQ(picture(devices), from_below);
 }
 
+/// 20 ms late at 50 Hz: the picture is there from 20 ms on, an exposure of 10 ms from 15 ms on sees
+/// it in its second half. The room's lamp has a period of 10 ms.
+TEST(SimulatedDrivers, ExposureSeesEachPictureForItsTimeAndTheFlickerOfTheRoom) {
+  const auto taken = [](const std::string& room, double delay_s, double exposure_ms) {
+    const RigDevices devices =
+        open("digital",
+             {{"camera", kCamera + room},
+              {"fringes", "driver = \"simulated-display\"\nlatency_ms = 20\nrefresh_hz = 50\n"}});
+    devices.display->set_delay(delay_s);
+    static_cast<void>(devices.reference()->configure({exposure_ms, 0.0, 10.0}, soon()));
+    const DisplayInfo& info = devices.display->info();
+    devices.display->show(Image<float>(info.width_px, info.height_px, 1.0F), soon());
+    return picture(devices);
+  };
+  const double before = taken("contrast = 1.0\n", 0.0, 10.0);
+  const double after = taken("contrast = 1.0\n", 0.02, 10.0);
+  EXPECT_NEAR(before, 10.0, 0.3);
+  EXPECT_GT(after, before + 5.0);
+  EXPECT_NEAR(taken("contrast = 1.0\n", 0.015, 10.0), 0.5 * (before + after), 0.3);
+
+  const std::string lamp = "ambient = 0.4\nmains_hz = 50\nroom_flicker = 0.5\n";
+  const double even = taken(lamp, 0.0, 10.0) - 10.0;
+  EXPECT_NEAR(taken(lamp, 0.005, 10.0) - 10.0, even, 0.01 * even) << "a whole period";
+  // Around its peak: sin(x) / x of a quarter of a period, x = pi / 4.
+  const double peak = 1.0 + 0.5 * std::sin(kPi / 4.0) / (kPi / 4.0);
+  EXPECT_NEAR(taken(lamp, 0.00875, 2.5) - 10.0, 0.25 * even * peak, 0.02 * even);
+}
+
 TEST(SimulatedDrivers, TableArrivesAtTheSamePlaceFromBothSides) {
   const RigDevices devices = open(
       "angular",

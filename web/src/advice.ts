@@ -2,11 +2,8 @@ import type { StepName } from './app_steps';
 
 /** Words in the server's error messages, and the step of the app where the user can correct what they name. */
 const PLACES: readonly (readonly [RegExp, StepName])[] = [
-  [
-    /axis of the turntable|calibrate the rig|not calibrated|no rig|choose (them|a camera|what shows)|turntable|camera|display/i,
-    'rig',
-  ],
-  [/expos|saturat|too dark|light/i, 'live'],
+  [/\b(expos|saturat|too dark|stray light|room light)/i, 'live'],
+  [/calibrate the rig|not calibrated|no rig|choose what shows|turntable|camera|display/i, 'rig'],
   [/scan (it )?first|finish its scan|reconstruct it first/i, 'scan'],
 ];
 

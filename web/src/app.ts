@@ -91,10 +91,10 @@ export class App extends LitElement {
     this.viewer = new Viewer(this.host, {
       pick: (ray) => this.pick(ray),
       measured: (result) => this.measuring.add(result),
-      outlined: (outline, through, hand) =>
-        void this.editing.selectBy(through ? 'select-outline-through' : 'select-outline', outline, hand),
-      partPicked: (triangle, hand) => void this.editing.selectPart(triangle, hand),
-      picked: (tool, points, hand) => void this.editing.picked(tool, points, hand),
+      outlined: (outline, through, keys) =>
+        void this.editing.selectBy(through ? 'select-outline-through' : 'select-outline', outline, keys),
+      partPicked: (triangle, keys) => void this.editing.selectPart(triangle, keys),
+      picked: (tool, points, keys) => void this.editing.picked(tool, points, keys),
     });
     this.clouds = new StationClouds(
       this.session,

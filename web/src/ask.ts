@@ -55,9 +55,14 @@ export class Asking {
     this.app.requestUpdate();
   }
 
+  /** Not when the next question has opened the dialog again since. */
+  private readonly closed = (): void => {
+    if (!this.app.dialog('ask').open) this.answer(null);
+  };
+
   dialog(): TemplateResult {
     const { question } = this;
-    return html`<dialog id="ask" class="ask" aria-label=${t('ask.title')} @close=${() => this.answer(null)}>
+    return html`<dialog id="ask" class="ask" aria-label=${t('ask.title')} @close=${this.closed}>
       <p id="question">${question?.text ?? ''}</p>
       ${question?.entry ? entryField(question.entry, () => this.answer(0)) : ''}
       <div class="answers">

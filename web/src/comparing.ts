@@ -1,5 +1,6 @@
 import type { App } from './app';
 import { t } from './messages';
+import { requireSendable } from './opening';
 
 /** A reference that is sent to the server, and the comparison with it. */
 export class Comparing {
@@ -17,6 +18,7 @@ export class Comparing {
     const format = /\.(stl|ply|obj|3mf|step|stp)$/i.exec(file.name)?.[1]?.toLowerCase();
     if (!format) return app.say(t('compare.wrongFile'));
     try {
+      requireSendable(file.size);
       this.sent = 0;
       await app.session.send(file, (share) => {
         this.sent = share;

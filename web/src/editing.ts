@@ -1,9 +1,9 @@
 import type { App } from './app';
 import { t } from './messages';
 import type { Combine } from './steps/edit';
-import type { Hand, Tool } from './viewer';
+import type { ModifierKeys, Tool } from './viewer';
 
-const NO_KEYS: Hand = { shift: false, ctrl: false };
+const NO_KEYS: ModifierKeys = { shift: false, ctrl: false };
 
 const round = (value: number): string => String(Math.round(value * 1000) / 1000);
 
@@ -61,19 +61,19 @@ export class Editing {
     if (!document.activeElement?.matches('input, select, textarea')) apply.focus({ preventScroll: true });
   }
 
-  async selectBy(operation: string, value: string, hand = NO_KEYS): Promise<void> {
-    if (await this.prepareCombination(hand)) this.run(operation, value);
+  async selectBy(operation: string, value: string, keys = NO_KEYS): Promise<void> {
+    if (await this.prepareCombination(keys)) this.run(operation, value);
   }
-  async selectPart(triangle: number, hand: Hand): Promise<void> {
-    if (await this.prepareCombination(hand)) await this.app.command('select-component-of', { triangle });
+  async selectPart(triangle: number, keys: ModifierKeys): Promise<void> {
+    if (await this.prepareCombination(keys)) await this.app.command('select-component-of', { triangle });
   }
   /** Shift adds, Ctrl takes out, both intersect, whatever is chosen in the panel. */
-  private combineOf({ shift, ctrl }: Hand): Combine {
+  private combineOf({ shift, ctrl }: ModifierKeys): Combine {
     if (shift) return ctrl ? 'within' : 'add';
     return ctrl ? 'without' : this.combine;
   }
-  private async prepareCombination(hand: Hand): Promise<boolean> {
-    const combine = this.combineOf(hand);
+  private async prepareCombination(keys: ModifierKeys): Promise<boolean> {
+    const combine = this.combineOf(keys);
     if (combine === 'replace') return true;
     if (this.app.project.surface?.selected) return this.app.command('edit', { operation: combine, value: '' });
     if (combine === 'add') return true;
@@ -82,7 +82,7 @@ export class Editing {
   }
 
   /** Points of the surface that a tool was used at. */
-  async picked(tool: Tool, points: [number, number, number][], hand: Hand): Promise<void> {
+  async picked(tool: Tool, points: [number, number, number][], keys: ModifierKeys): Promise<void> {
     // The tool stays: faces that cannot be aligned are chosen anew.
     if (tool === 'align') return this.preview('align', points.flat().map(round).join(','));
     const [at] = points;
@@ -94,6 +94,6 @@ export class Editing {
       far(hole.center_mm) - hole.size_mm / 2 < far(best.center_mm) - best.size_mm / 2 ? hole : best,
     );
     this.chooseHole(nearest.number, true);
-    await this.selectBy('select-loop', String(nearest.number), hand);
+    await this.selectBy('select-loop', String(nearest.number), keys);
   }
 }

@@ -9,7 +9,14 @@ export class LiveStage {
   /** When the last picture came, ms. */
   private drawnAt = 0;
 
+  /** The largest contrast of fringes since the focus is turned. */
+  peak = 0;
+
   constructor(private readonly app: App) {
+    const { canvas } = this.view;
+    canvas.addEventListener('click', (event) =>
+      this.toggleLoupe(event.offsetX / canvas.clientWidth, event.offsetY / canvas.clientHeight),
+    );
     setInterval(() => this.watch(), 500);
   }
 
@@ -35,6 +42,14 @@ export class LiveStage {
     this.follow();
     this.app.requestUpdate();
   }
+  toggleLoupe(x = 0.5, y = 0.5): void {
+    this.view.toggleLoupe(x, y);
+    this.app.requestUpdate();
+  }
+  forgetPeak(): void {
+    this.peak = this.view.figures?.contrast ?? 0;
+    this.app.requestUpdate();
+  }
   setMarks(marks: boolean): void {
     this.view.setMarks(marks);
     this.app.requestUpdate();
@@ -50,12 +65,14 @@ export class LiveStage {
   draw(picture: ArrayBuffer): void {
     this.drawnAt = Date.now();
     if (this.view.draw(picture) && this.view.positions) this.app.viewer.setCloud(-1, this.view.positions.slice());
+    this.peak = Math.max(this.peak, this.view.figures?.contrast ?? 0);
     this.app.requestUpdate();
   }
   /** The preview begins with the step Live, and ends when another one is opened. */
   stepped(before: string, step: string): void {
     const { app } = this;
     const project = app.session.state?.project ?? null;
+    if (step === 'live') this.peak = 0;
     if (step === 'live' && project?.can_scan && !project.live && !app.busy && !app.session.watches)
       void app.command('start-live');
     const live = app.session.state ? app.job('live') : undefined;

@@ -64,6 +64,8 @@ function table(color: (value: number) => Rgb): Uint32Array {
   });
 }
 
+/** A picture that is shown at 1 : 1 or larger is enlarged as well. */
+const LEAST_LOUPE = 2;
 const NOTHING: Rgb = [20, 25, 27];
 const scaled = (color: (share: number) => Rgb) => table((value) => (value === 0 ? NOTHING : color((value - 1) / 254)));
 const TABLES: Record<Exclude<Layer, 'none' | 'points' | 'camera'>, Uint32Array> = {
@@ -81,6 +83,8 @@ export class LiveView {
   positions: Float32Array | null = null;
   /** Whether the dark and the saturated pixels are marked. */
   marks = true;
+  /** Whether the picture is enlarged until its pixels are seen. */
+  loupe = false;
   private message: ArrayBuffer | null = null;
   private readonly pen = this.canvas.getContext('2d') as CanvasRenderingContext2D;
 
@@ -138,6 +142,16 @@ export class LiveView {
       pen.arc(corners[i] as number, corners[i + 1] as number, 5, 0, 2 * Math.PI);
       pen.stroke();
     }
+  }
+
+  /** Enlarges the picture about a place, shares of the width and height of its element, or shows all of it again. */
+  toggleLoupe(x: number, y: number): void {
+    const { canvas } = this;
+    const shown = Math.min(canvas.clientWidth / canvas.width, canvas.clientHeight / canvas.height);
+    this.loupe = !this.loupe;
+    canvas.style.transformOrigin = `${100 * x}% ${100 * y}%`;
+    canvas.style.transform = this.loupe ? `scale(${Math.max(1 / shown, LEAST_LOUPE)})` : '';
+    canvas.classList.toggle('loupe', this.loupe);
   }
 
   setMarks(marks: boolean): void {

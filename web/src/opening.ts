@@ -1,7 +1,8 @@
 import type { App } from './app';
-import { t } from './messages';
+import { number, t } from './messages';
 import { freeName } from './projects';
-import { type PlacedFile, zipOf } from './zip_files';
+import { MOST_BYTES } from './session';
+import { MOST_FILES, type PlacedFile, zipOf } from './zip_files';
 
 const SURFACES = /\.(stl|ply|obj|3mf|glb|gltf|off|dxf|step|stp|iges|igs)$/i;
 /** What a surface can be compared with. */
@@ -22,6 +23,12 @@ async function below(entry: FileSystemEntry, folder: string): Promise<PlacedFile
     if (some.length === 0) return found;
     for (const one of some) if (!one.name.startsWith('.')) found.push(...(await below(one, `${path}/`)));
   }
+}
+
+/** Before anything is read: the server would refuse it at the end. */
+export function requireSendable(bytes: number): void {
+  const MB = 2 ** 20;
+  if (bytes > MOST_BYTES) throw new Error(t('open.large', { size: number(bytes / MB), most: number(MOST_BYTES / MB) }));
 }
 
 /** Opens what is dropped on the page or chosen where it belongs: surfaces, scans and rigs. */
@@ -85,6 +92,8 @@ export class Opening {
       const rig = named(/\.toml$/i);
       if (scan) {
         const folder = scan.path.split('/').at(-2);
+        if (files.length > MOST_FILES) throw new Error(t('open.many', { files: number(files.length) }));
+        requireSendable(files.reduce((sum, { file }) => sum + file.size, 0));
         await this.own(await zipOf(files), 'zip', folder ?? 'Scan', 'scan');
       } else if (zip) await this.own(zip.file, 'zip', stem(zip.file.name), 'scan');
       else if (surface) await this.surface(surface.file);
@@ -130,6 +139,7 @@ export class Opening {
   /** Opens a file in a project that is made for it. */
   private async own(file: Blob, format: string, wanted: string, step: 'surface' | 'scan'): Promise<void> {
     const { app } = this;
+    requireSendable(file.size);
     const name = this.freeName(wanted);
     await app.session.command('create-project', { name, stations: 8, devices: true });
     try {
@@ -142,7 +152,7 @@ export class Opening {
       this.pending = { job, name, step };
       this.follow();
     } catch (error) {
-      await app.session.command('discard-project', { name });
+      await app.session.command('discard-project', { name }).catch(() => undefined); // the first error says more
       throw error;
     }
   }

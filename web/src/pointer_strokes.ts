@@ -6,30 +6,30 @@ export const DRAWING: ReadonlySet<Tool> = new Set(['lasso', 'rectangle', 'brush'
 const CLICKING: ReadonlySet<Tool> = new Set(['measure', 'angle', 'part', 'loop', 'align']);
 
 /** The keys that are held while the pointer draws. */
-export interface Hand {
+export interface ModifierKeys {
   shift: boolean;
   ctrl: boolean;
 }
 
 interface Events {
   /** A stroke of a drawing tool has ended: its outline, pixels. */
-  outlined(stroke: Point[], hand: Hand): void;
+  outlined(stroke: Point[], keys: ModifierKeys): void;
   /** A clicking tool was used at a point, pixels. */
-  clicked(point: Point, hand: Hand): void;
+  clicked(point: Point, keys: ModifierKeys): void;
 }
 
 /** What the pointer draws on the picture with the present tool. */
 export class PointerStrokes {
   private stroke: Point[] = [];
   private down: Point | null = null;
-  private held: Hand = { shift: false, ctrl: false };
+  private held: ModifierKeys = { shift: false, ctrl: false };
   private readonly fingers = new Set<number>();
 
   constructor(
     canvas: HTMLCanvasElement,
     private readonly overlay: SVGSVGElement,
     /** The tool, and the radius of the brush, pixels. */
-    private readonly hand: { readonly tool: Tool; readonly brush: number },
+    private readonly settings: { readonly tool: Tool; readonly brush: number },
     events: Events,
   ) {
     const at = (event: PointerEvent): Point => {
@@ -42,7 +42,7 @@ export class PointerStrokes {
       if (event.button !== 0) return;
       this.down = at(event);
       this.held = { shift: event.shiftKey, ctrl: event.ctrlKey || event.metaKey };
-      if (!DRAWING.has(hand.tool)) return;
+      if (!DRAWING.has(settings.tool)) return;
       canvas.setPointerCapture(event.pointerId);
       this.stroke = [this.down];
     });
@@ -60,9 +60,9 @@ export class PointerStrokes {
       const stroke = this.stroke;
       this.stroke = [];
       this.sketch();
-      const outline = hand.tool === 'brush' ? brushOutline(stroke, hand.brush) : stroke;
-      if (DRAWING.has(hand.tool) && outline.length >= 3) return events.outlined(outline, this.held);
-      if (still && CLICKING.has(hand.tool)) events.clicked(point, this.held);
+      const outline = settings.tool === 'brush' ? brushOutline(stroke, settings.brush) : stroke;
+      if (DRAWING.has(settings.tool) && outline.length >= 3) return events.outlined(outline, this.held);
+      if (still && CLICKING.has(settings.tool)) events.clicked(point, this.held);
     });
     canvas.addEventListener('pointercancel', (event) => {
       this.fingers.delete(event.pointerId);
@@ -79,19 +79,19 @@ export class PointerStrokes {
   private extend(point: Point): void {
     const start = this.stroke[0] as Point;
     const last = this.stroke.at(-1) as Point;
-    if (this.hand.tool === 'rectangle') this.stroke = [start, [point[0], start[1]], point, [start[0], point[1]]];
+    if (this.settings.tool === 'rectangle') this.stroke = [start, [point[0], start[1]], point, [start[0], point[1]]];
     else if (Math.hypot(point[0] - last[0], point[1] - last[1]) > 3) this.stroke.push(point);
   }
 
   private sketch(): void {
     const points = this.stroke.map(([x, y]) => `${x.toFixed(1)},${y.toFixed(1)}`).join(' ');
-    const brush = this.hand.tool === 'brush';
+    const brush = this.settings.tool === 'brush';
     const name = brush ? 'polyline' : 'polygon';
     let line = this.overlay.querySelector(name);
     if (!points) return this.overlay.replaceChildren();
     if (!line) {
       line = document.createElementNS('http://www.w3.org/2000/svg', name);
-      if (brush) line.setAttribute('stroke-width', String(2 * this.hand.brush));
+      if (brush) line.setAttribute('stroke-width', String(2 * this.settings.brush));
       this.overlay.append(line);
     }
     line.setAttribute('points', points);

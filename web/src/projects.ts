@@ -27,7 +27,10 @@ export class Projects {
   wanted = '';
   /** Addresses of the pictures, by name and time. */
   private readonly pictures = new Map<string, string>();
-  private pictured = '';
+  /** The revision of the surface that the picture of each project shows. */
+  private readonly pictured = new Map<string, number>();
+  /** What is pictured when the view is at rest: name and revision. */
+  private awaited = '';
   private picturing = 0;
   /** Whether the project that opens next was created here. */
   private created = false;
@@ -100,8 +103,10 @@ export class Projects {
     if (text !== null && text !== notes) await this.app.command('set-notes', { name, text });
   }
   async discard(name: string): Promise<void> {
-    if (await this.app.asking.confirm(t('home.discardAsk', { name }), t('home.discard')))
+    if (await this.app.asking.confirm(t('home.discardAsk', { name }), t('home.discard'))) {
       await this.app.command('discard-project', { name });
+      this.pictured.delete(name); // another one may get the name
+    }
   }
   async forgetRig(name: string): Promise<void> {
     if (await this.app.asking.confirm(t('rigs.discardAsk', { name }), t('rigs.discard')))
@@ -124,26 +129,29 @@ export class Projects {
     );
     return '';
   }
-  /** Takes a picture of a surface that is new in the view, for the list. */
+  /** Takes a picture for the list of a surface that has none, or that changed since this page showed it. */
   follow(): void {
-    const { app } = this;
+    const { app, pictured } = this;
     const surface = app.state.project?.surface;
     if (!surface || !app.viewer.supported || !app.viewer.shown || app.session.watches) return;
-    const key = `${app.project.name} ${surface.mesh_revision}`;
-    if (key === this.pictured) return;
-    this.pictured = key;
+    const { name } = app.project;
+    const { mesh_revision: revision } = surface;
+    const entry = app.state.projects.find((one) => one.name === name);
+    if (!entry) return;
+    if (entry.thumbnail_s > 0 && !pictured.has(name)) pictured.set(name, revision);
+    const key = `${name} ${revision}`;
+    if (pictured.get(name) === revision || key === this.awaited) return;
+    this.awaited = key;
     clearTimeout(this.picturing);
-    this.picturing = window.setTimeout(() => void this.takePicture(key), SETTLED_MS);
+    this.picturing = window.setTimeout(() => void this.takePicture(name, revision), SETTLED_MS);
   }
-  private async takePicture(key: string): Promise<void> {
+  private async takePicture(name: string, revision: number): Promise<void> {
     const { app } = this;
+    this.awaited = '';
+    if (app.state.project?.name !== name || app.state.project.surface?.mesh_revision !== revision) return;
     const shows = app.step === 'surface' || app.step === 'edit' || app.step === 'export';
-    const entry = app.state.projects.find(({ name }) => name === app.state.project?.name);
-    if (key !== this.pictured || !app.state.project?.surface || !entry) return;
-    if (!shows || !app.viewer.atRest || app.look.coloring !== 'plain' || app.busy) {
-      this.pictured = ''; // another time
-      return;
-    }
+    if (!shows || !app.viewer.atRest || app.look.coloring !== 'plain' || app.busy) return; // another time
+    this.pictured.set(name, revision);
     const bytes = await app.viewer.thumbnail(THUMBNAIL.width, THUMBNAIL.height);
     if (bytes) await app.session.command('set-thumbnail', { picture: bytes }).catch(() => undefined);
   }

@@ -16,6 +16,9 @@ const newId = (): string =>
 
 export type Layer = 'none' | 'camera' | 'phase' | 'modulation' | 'status' | 'depth' | 'points';
 
+/** The largest file that the server takes. */
+export const MOST_BYTES = 512 * 1024 * 1024;
+
 /** A refusal of the server, in its words. */
 export class Refusal extends Error {
   constructor(
@@ -144,7 +147,7 @@ export class Session {
     }
   }
 
-  /** Sends a file to the open project, in pieces; `sent` hears the share that has arrived. */
+  /** Sends a file to the open project, in pieces, at most MOST_BYTES; `sent` hears the share that has arrived. */
   async send(file: Blob, sent: (share: number) => void): Promise<void> {
     const piece = 768 * 1024;
     for (let offset = 0; offset < file.size || offset === 0; offset += piece) {

@@ -21,7 +21,9 @@ export interface Job {
     | 'reference'
     | 'compare'
     | 'export'
-    | 'copy';
+    | 'copy'
+    | 'rig'
+    | 'display';
   state: JobState;
   progress: number;
   stage: string;
@@ -302,6 +304,29 @@ export interface ScanCheck {
   points: number;
   finding: string;
 }
+/** What flashes, ramps and fringes showed of display and camera. */
+export interface DisplayFigures {
+  exposure_ms: number;
+  latency_s: number;
+  delay_s: number;
+  /** Frames that come late, whatever the delay. */
+  late_frames: number;
+  camera_fps: number;
+  patterns_per_s: number;
+  /** Mains whose lamps flicker; 0 for steady light. */
+  mains_hz: number;
+  /** Amplitude, over the light of the display. */
+  room_flicker: number;
+  /** Exposures of whole multiples see even light; 0: any do. */
+  exposure_step_ms: number;
+  /** Share of full light at half of full drive; null where the light of the room hides it. */
+  half_light: number | null;
+  /** Contrast of fringes of 12 px over that of coarse ones. */
+  sharpness: number;
+  white_level: number;
+  dark_zeros: number;
+  findings: string[];
+}
 export interface Project {
   name: string;
   can_scan: boolean;
@@ -316,6 +341,8 @@ export interface Project {
   /** The newest first. */
   kept_rigs: KeptRig[];
   check: ScanCheck | null;
+  /** Since it was measured. */
+  display: DisplayFigures | null;
   residuals_s: number;
   devices: Device[];
   live: { pattern: LivePattern; table_deg: number } | null;

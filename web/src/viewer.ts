@@ -10,13 +10,13 @@ import { type Measurement, type MeasureKind, Ruler } from './ruler';
 import { RigModel } from './rig_model';
 import { addLights, addTable } from './stage_props';
 import { Smoothing } from './smoothing';
-import { DRAWING, type Hand, PointerStrokes, type Tool } from './pointer_strokes';
+import { DRAWING, type ModifierKeys, PointerStrokes, type Tool } from './pointer_strokes';
 import { type SectionAxis, type Shading, SurfaceView } from './surface_view';
 import type { Hole, RigGeometry } from './types';
 import { type Outline, ViewCamera } from './view_camera';
 import { ViewMarks } from './view_marks';
 
-export type { Hand, Tool } from './pointer_strokes';
+export type { ModifierKeys, Tool } from './pointer_strokes';
 export type { SectionAxis, Shading } from './surface_view';
 
 /** A ray through the picture, and the half-space that a section leaves. */
@@ -36,10 +36,10 @@ interface Events {
   /** Asks for the point of the exact mesh on a ray. */
   pick(ray: Ray): Promise<Hit | null>;
   measured(result: Measurement): void;
-  outlined(outline: Outline, through: boolean, hand: Hand): void;
-  partPicked(triangle: number, hand: Hand): void;
+  outlined(outline: Outline, through: boolean, keys: ModifierKeys): void;
+  partPicked(triangle: number, keys: ModifierKeys): void;
   /** A point of the surface, or three of them for an alignment. */
-  picked(tool: Tool, points: [number, number, number][], hand: Hand): void;
+  picked(tool: Tool, points: [number, number, number][], keys: ModifierKeys): void;
 }
 
 /** After a move, until the finest level is drawn, ms: later where it takes long and would hold up the next move. */
@@ -123,11 +123,11 @@ export class Viewer {
     addTable(this.table);
     new ResizeObserver(() => this.resize()).observe(host);
     new PointerStrokes(this.canvas, this.overlay, this, {
-      outlined: (stroke, hand) => this.events.outlined(this.view.outlineOf(stroke), this.through, hand),
-      clicked: (point, hand) => {
+      outlined: (stroke, keys) => this.events.outlined(this.view.outlineOf(stroke), this.through, keys),
+      clicked: (point, keys) => {
         const { tool } = this;
         void this.events.pick(this.pickRay(point)).then((hit) => {
-          if (hit && tool === this.tool) this.onHit(hit, hand);
+          if (hit && tool === this.tool) this.onHit(hit, keys);
         });
       },
     });
@@ -329,9 +329,9 @@ export class Viewer {
     this.draw();
   }
 
-  private onHit(hit: Hit, hand: Hand): void {
-    if (this.tool === 'part') return this.events.partPicked(hit.triangle, hand);
-    if (this.tool === 'loop') return this.events.picked('loop', [hit.point_mm], hand);
+  private onHit(hit: Hit, keys: ModifierKeys): void {
+    if (this.tool === 'part') return this.events.partPicked(hit.triangle, keys);
+    if (this.tool === 'loop') return this.events.picked('loop', [hit.point_mm], keys);
     const kind: MeasureKind = this.tool === 'measure' ? 'distance' : this.tool === 'angle' ? 'angle' : 'points';
     const point = new THREE.Vector3(...hit.point_mm);
     const result = this.ruler.add(point, hit.sigma_mm ?? NaN, kind, this.size.length() / 260);
@@ -342,7 +342,7 @@ export class Viewer {
         this.events.picked(
           'align',
           this.picks.map((one) => one.toArray()),
-          hand,
+          keys,
         );
         this.clearMeasurement();
       }

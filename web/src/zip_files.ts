@@ -4,6 +4,9 @@ export interface PlacedFile {
   file: File;
 }
 
+/** More need zip64. */
+export const MOST_FILES = 65535;
+
 const CRC = Uint32Array.from({ length: 256 }, (_, n) => {
   let c = n;
   for (let bit = 0; bit < 8; bit++) c = c & 1 ? 0xedb88320 ^ (c >>> 1) : c >>> 1;
@@ -29,7 +32,7 @@ function packed(...numbers: [value: number, bytes: 2 | 4][]): Uint8Array<ArrayBu
   return bytes;
 }
 
-/** An archive of files, which are stored as they are: images are compressed already. At most 4 GB. */
+/** An archive of files, which are stored as they are: images are compressed already. At most 4 GB and MOST_FILES. */
 export async function zipOf(files: readonly PlacedFile[]): Promise<Blob> {
   const UTF8 = 0x0800;
   const VERSION = 20;

@@ -96,8 +96,7 @@ class HttpServer {
   /// Listens on a port of an IP address; 0: one that the system chooses.
   ///
   /// @errors   Error(Input) for what is no address; Error(Device) that names the port when it
-  /// cannot
-  ///          be used
+  ///          cannot be used
   HttpServer(const std::string& address, std::uint16_t port, const HttpLimits& limits);
   HttpServer(const HttpServer&) = delete;
   HttpServer& operator=(const HttpServer&) = delete;

@@ -25,9 +25,7 @@ std::vector<double> find_exposures(RigDevices& devices,
   CaptureDevices session(devices, rig, options, run);
   if (table_rad && devices.turntable && devices.turntable->info().can_home)
     session.turn_to(*table_rad);
-  const CameraInfo& camera = devices.reference()->info();
-  const ExposureRange range{
-      options.camera.exposure_ms, camera.min_exposure_ms, camera.max_exposure_ms};
+  const ExposureRange range = exposure_range(devices, options);
   const ExposureProbe probe = [&](double exposure_ms) {
     run.check();
     run.note(fmt::format("trying {:.3g} ms", exposure_ms));

@@ -23,8 +23,7 @@ struct TriangulatedView {
 /// @shape    `rays` as rays_of(rig.reference().model)
 /// @units    mm, rig frame
 /// @missing  as `triangulate` and `fuse_directions`; the status of the leading direction's phase
-/// gives
-///           the reason
+///           gives the reason
 [[nodiscard]] TriangulatedView triangulate_view(DecodedView& decoded,
                                                 const ViewFit& fit,
                                                 const Rig& rig,

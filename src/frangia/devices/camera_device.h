@@ -26,6 +26,9 @@ struct CameraInfo {
   double max_gain_db = 0.0;           ///< 0 when the gain cannot be set
   /// Quality, 1 to 100, of the JPEG compression of frames that the camera delivers compressed.
   std::optional<int> jpeg_quality{};
+  /// Frames that are under way when one is wanted, which each capture drops, `skip_frames` of its
+  /// settings; empty for a camera with a trigger.
+  std::optional<int> skip_frames{};
 };
 
 /// Identifies a frame within a scan. Real cameras ignore it; a replay uses it to find the file, and

@@ -25,6 +25,13 @@ class PatternDisplay : public Device {
   /// @errors   Error(Device) when the image is not shown by the deadline
   virtual void show(const Image<float>& light, const Deadline& deadline) = 0;
 
+  /// What `show` waits after the buffer swap: the latency of the display, as far as it is known.
+  ///
+  /// @units    s
+  [[nodiscard]] virtual double delay_s() const = 0;
+  /// Changes it until the display is closed; `delay_s` of its settings is where it begins.
+  virtual void set_delay(double seconds) = 0;
+
   /// Sets all pixels to dark.
   virtual void show_dark(const Deadline& deadline) = 0;
 };

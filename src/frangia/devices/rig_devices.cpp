@@ -68,9 +68,10 @@ void check_camera(const std::filesystem::path& file,
   const CameraInfo& info = device.info();
   if (info.width_px != camera.model.width_px || info.height_px != camera.model.height_px)
     refuse_size(file, device, info.width_px, info.height_px, table + ".size_px");
-  if (info.white_level != camera.white_level) {
+  // A sensor may saturate below the largest number; with half of it, the pixels have fewer bits.
+  if (camera.white_level > info.white_level || 2 * camera.white_level <= info.white_level) {
     throw Error(ErrorKind::Input,
-                fmt::format("{}: {}.white_level is {}, but {} is saturated at {}",
+                fmt::format("{}: {}.white_level is {}, but {} is saturated at {} or a little below",
                             file.string(),
                             table,
                             camera.white_level,
@@ -193,6 +194,8 @@ RigDevices open_devices(const std::filesystem::path& rig_file,
     const std::size_t camera = camera_of(settings, rig);
     std::unique_ptr<Device> device =
         driver.open(settings, camera == 0 ? rig : rig_of_camera(rig, camera), deadline);
+    if (driver.kind == DeviceKind::Camera && camera == 0)
+      devices.exposure_step_ms = settings.number_or("exposure_step_ms", 0.0, 0.0, 1000.0);
     settings.warn_of_unused_keys(run);
     warn_of(*device, run);
     if (const auto how = device->safe_off(); how && guardian != nullptr)

@@ -45,6 +45,9 @@ struct RigDevices {
   std::unique_ptr<SwitchDevice> light;            ///< laser or lamp of the fringes
   std::unique_ptr<TurntableDevice> turntable;     ///< null: the object stays where it is
   std::vector<DeviceSettings> settings;           ///< as read from rig.toml
+  /// Exposures are chosen as whole multiples of it, over which the light of the room and of the
+  /// display is even: `exposure_step_ms` of the reference camera; 0: any exposure.
+  double exposure_step_ms = 0.0;
 
   /// The device of the reference camera, which any capture needs.
   [[nodiscard]] CameraDevice* reference() const { return cameras.front().get(); }

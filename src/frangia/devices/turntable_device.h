@@ -46,9 +46,8 @@ class TurntableDevice : public Device {
   /// Turns to an angle and returns at standstill.
   ///
   /// @errors   Error(Device) when the angle is out of the limits (before any motion), when the
-  /// table
-  ///          is disabled or its angle unknown, or when it is not at standstill by the deadline,
-  ///          which stops the motion
+  ///          table is disabled or its angle unknown, or when it is not at standstill by the
+  ///          deadline, which stops the motion
   virtual void move_to(double angle_rad, const Deadline& deadline) = 0;
 
   /// Expected duration of a move to an angle from the present one, by the way and the speed; 0 when

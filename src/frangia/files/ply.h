@@ -21,8 +21,7 @@ namespace frangia {
 /// @units    as in the file, assumed to be mm
 /// @missing  a normal that is not finite becomes zero
 /// @errors   Error(Input) that names the file and the fault: truncated, a count larger than the
-/// file
-///          can hold, a face with fewer than three corners, a vertex index out of range, a
+///          file can hold, a face with fewer than three corners, a vertex index out of range, a
 ///          coordinate that is not finite, triangle strips
 /// @source   Greg Turk, The PLY Polygon File Format, 1994
 [[nodiscard]] Mesh read_ply(const std::filesystem::path& path, const Run& run = {});

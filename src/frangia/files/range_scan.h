@@ -46,8 +46,7 @@ void scale_range_scan(RangeScan& scan, double factor);
 ///
 /// @units    translations times `units_per_mm`: 0.001 for scans in metres
 /// @errors   Error(File) when it cannot be written; Error(Input) when a path holds a blank, which
-/// the
-///          format cannot state
+///          the format cannot state
 void write_posed_scans(const std::filesystem::path& path,
                        const std::vector<RangeScan>& scans,
                        double units_per_mm = 1.0);

@@ -1,6 +1,7 @@
 #include "frangia/files/zip_folder.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <fstream>
 #include <vector>
 
@@ -31,11 +32,11 @@ std::vector<std::filesystem::path> files_below(const std::filesystem::path& fold
   throw Error(ErrorKind::Input, fmt::format("{}: {}", archive.string(), why));
 }
 
-/// Whether every part of a name is that of an entry in its own folder.
+/// Whether a name, put behind a folder, leads to a place in it.
 bool stays_inside(const std::string& name) {
   const std::filesystem::path path(name);
   return path.is_relative() && name.find('\\') == std::string::npos &&
-         name.find('\0') == std::string::npos &&
+         name.find('\0') == std::string::npos && name.find("//") == std::string::npos &&
          std::none_of(path.begin(), path.end(), [](const std::filesystem::path& part) {
            return part == ".." || part == ".";
          });
@@ -50,10 +51,11 @@ bool is_hidden(const std::string& name) {
 
 /// The folder of the only entry with a file name, with its slash; empty for the top.
 std::string folder_with(const std::filesystem::path& archive,
-                        const std::vector<std::string>& names,
+                        const std::vector<ZipEntry>& entries,
                         const std::string& marker) {
   std::vector<std::string> folders;
-  for (const std::string& name : names) {
+  for (const ZipEntry& entry : entries) {
+    const std::string& name = entry.name;
     if (is_hidden(name) || std::filesystem::path(name).filename() != marker) continue;
     folders.push_back(name.substr(0, name.size() - marker.size()));
   }
@@ -67,6 +69,24 @@ std::string folder_with(const std::filesystem::path& archive,
   return folders.front();
 }
 
+/// Entries of which each is harmless may fill the disk together.
+void require_plausible_size(const std::filesystem::path& archive,
+                            const std::vector<ZipEntry>& entries) {
+  constexpr std::uint64_t kHarmlessBytes = std::uint64_t{64} << 20U;
+  constexpr std::uint64_t kMostRatio = 200;  // as of a single entry
+  const std::uint64_t most =
+      std::max(kHarmlessBytes, kMostRatio * std::filesystem::file_size(archive));
+  std::uint64_t total = 0;
+  for (const ZipEntry& entry : entries) {
+    if (entry.bytes > most - total)
+      refuse_archive(archive,
+                     fmt::format("its entries would altogether expand to more than {} bytes, which "
+                                 "no scan does; it is refused",
+                                 most));
+    total += entry.bytes;
+  }
+}
+
 }  // namespace
 
 void unzip_folder(const std::filesystem::path& archive,
@@ -75,21 +95,24 @@ void unzip_folder(const std::filesystem::path& archive,
                   const Run& run) {
   constexpr std::size_t kMostEntries = 200'000;
   const ZipReader reader(archive);
-  const std::vector<std::string> names = reader.names();
-  if (names.size() > kMostEntries) refuse_archive(archive, "holds more entries than any scan");
-  const std::string inside = folder_with(archive, names, marker);
-  for (const std::string& name : names)
-    if (!stays_inside(name))
-      refuse_archive(archive, "an entry leads out of the archive; it is refused");
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    run.report(static_cast<double>(i) / static_cast<double>(names.size()));
-    const std::string& name = names[i];
-    if (!name.starts_with(inside) || name.ends_with('/') || is_hidden(name)) continue;
-    const auto target = folder / name.substr(inside.size());
+  std::vector<ZipEntry> entries = reader.entries(kMostEntries);
+  const std::string inside = folder_with(archive, entries, marker);
+  for (const ZipEntry& entry : entries) {
+    if (!stays_inside(entry.name))
+      refuse_archive(archive,
+                     fmt::format("entry {} leads out of the archive; it is refused", entry.name));
+  }
+  std::erase_if(entries, [&](const ZipEntry& entry) {
+    return !entry.name.starts_with(inside) || entry.name.ends_with('/') || is_hidden(entry.name);
+  });
+  require_plausible_size(archive, entries);
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    run.report(static_cast<double>(i) / static_cast<double>(entries.size()));
+    // `inside` is empty or ends with the only slash there: what follows it stays inside as well.
+    const auto target = folder / entries[i].name.substr(inside.size());
     make_folder(target.parent_path());
     AtomicFile file(target);
-    static_cast<void>(
-        reader.read(name, [&](std::string_view piece, double) { file.stream() << piece; }));
+    reader.read(entries[i], [&](std::string_view piece, double) { file.stream() << piece; });
     file.commit();
   }
 }

@@ -20,10 +20,10 @@ void zip_folder(const std::filesystem::path& folder,
 /// Unpacks the entries of an archive that lie in the folder of its only file `marker`, such as
 /// "scan.toml", into a new folder, with their subfolders. Hidden entries are left out.
 ///
-/// @errors   Error(Input) that names the archive: it is none, is damaged, expands beyond all
-/// measure,
-///          has no or several files `marker`, or an entry whose name leads out of the folder;
-///          Error(File) when the folder cannot be written; Error(Cancelled)
+/// @errors   Error(Input) that names the archive: it is none, is damaged, has no or several files
+///          `marker`, or an entry whose name leads out of the folder; what is unpacked is larger
+///          than 64 MiB and than 200 times the archive; Error(File) when the folder cannot be
+///          written; Error(Cancelled)
 void unzip_folder(const std::filesystem::path& archive,
                   const std::string& marker,
                   const std::filesystem::path& folder,

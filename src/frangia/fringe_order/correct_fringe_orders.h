@@ -36,9 +36,8 @@ struct FringeOrderCorrectionOptions {
 /// them at another one. The points are recomputed from the phase that the range grid keeps.
 ///
 /// @missing  views without phase are left unchanged; mixed pixels at the border of a corrected
-/// patch
-///          are removed, as are refined patches that violate free space and all edge pixels of a
-///          corrected view
+///          patch are removed, as are refined patches that violate free space and all edge pixels
+///          of a corrected view
 [[nodiscard]] std::size_t correct_fringe_orders(ViewStore& views,
                                                 const FringeOptics& optics,
                                                 const FringeOrderCorrectionOptions& options = {},

@@ -40,8 +40,7 @@ struct KeepEdgesOptions {
 ///
 /// @errors   as smooth_taubin
 /// @source   Zheng, Fu, Au & Tai 2011, Bilateral Normal Filtering for Mesh Denoising (local
-/// scheme);
-///          vertices by Sun, Rosin, Martin & Langbein 2007
+///          scheme); vertices by Sun, Rosin, Martin & Langbein 2007
 [[nodiscard]] Mesh smooth_keeping_edges(Mesh mesh,
                                         const KeepEdgesOptions& options = {},
                                         const Run& run = {});

@@ -34,8 +34,7 @@ struct SequencePlan {
 /// order is below `max_wrong_order` when each map has noise `sigma_rad`.
 ///
 /// @errors   Error(Input) when the noise requires a ratio below 1.1, or for a count that is not
-/// from
-///          1 to 1e6
+///          from 1 to 1e6
 [[nodiscard]] SequencePlan plan_sequence(double fringes,
                                          double sigma_rad,
                                          double max_wrong_order = 1e-6);

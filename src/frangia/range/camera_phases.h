@@ -13,8 +13,7 @@ namespace frangia {
 /// What one of several cameras measured in a view.
 ///
 /// @shape    `rays` as rays_of(rig.reference().model); `phases` one or two, those of the same
-/// directions
-///           of fringes in the same order for all cameras of a view
+///           directions of fringes in the same order for all cameras of a view
 struct CameraPhases {
   const Rig& rig;                              ///< `rig_of_camera` of this camera
   const Image<Eigen::Vector2f>& rays;          ///< of its pixels

@@ -11,8 +11,7 @@ namespace frangia {
 /// Fit of one group to another in one pose.
 ///
 /// @shape    motions: three shifts (mm), then three rotations about `center_mm`, each as the arc
-/// (mm)
-///          at a distance of `arm_mm`
+///          (mm) at a distance of `arm_mm`
 struct GroupFit {
   std::size_t agree = 0;       ///< points of either group on the surface that the other measured
   std::size_t violations = 0;  ///< points of either group in front of what the other measured

@@ -87,8 +87,7 @@ struct TurntableStations {
 /// @missing  one view alone, or views that do not overlap, keep the poses of the rig, with a
 /// warning
 /// @errors   Error(Input) when the numbers of stations and views differ, when a further setup has
-/// no
-///          part pose, and as `RegisterOptions::check`
+///          no part pose, and as `RegisterOptions::check`
 /// @source   bundle adjustment of projective point-to-plane distances by `minimize_robustly`
 [[nodiscard]] RegistrationReport register_views(ViewStore& views,
                                                 const CameraModel& camera,

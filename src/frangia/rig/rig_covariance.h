@@ -28,11 +28,10 @@ struct RigCovariance {
 ///
 /// The name may come from a rig.toml that somebody else wrote: the file is not read through a link.
 ///
-/// @errors   Error(Input) that names the file: it does not exist, is a link, no file, or larger
-/// than
-///           4 MB, a parameter is repeated or is not one of the rig's, a line has another name or
-///           length than the header states, a value is not a finite number, or the matrix is not
-///           symmetric and positive semidefinite
+/// @errors   Error(Input) that names the file: it does not exist, is a link or no file,
+///           has more than 4 MB, a parameter is repeated or is not one of the rig's, a line has
+///           another name or length than the header states, a value is not a finite number, or
+///           the matrix is not symmetric and positive semidefinite
 [[nodiscard]] RigCovariance read_rig_covariance(const std::filesystem::path& path, const Rig& rig);
 
 /// Writes the CSV file that `read_rig_covariance` reads.

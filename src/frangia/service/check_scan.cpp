@@ -1,13 +1,16 @@
 #include "frangia/service/check_scan.h"
 
-#include <chrono>
+#include <algorithm>
+#include <cmath>
 #include <memory>
 #include <optional>
 #include <stop_token>
 
 #include "frangia/core/error.h"
+#include "frangia/core/missing.h"
 #include "frangia/rig/read_rig.h"
 #include "frangia/service/internal/opened_devices.h"
+#include "frangia/service/internal/seconds_since_1970.h"
 #include "frangia/service/live_preview.h"
 
 namespace frangia {
@@ -38,14 +41,16 @@ ScanCheck check_scan(const ProjectFolder& project,
   }
   run.check();
   ScanCheck check;
-  const auto now = std::chrono::system_clock::now().time_since_epoch();
-  check.at_s = std::chrono::duration_cast<std::chrono::seconds>(now).count();
+  check.at_s = seconds_since_1970();
   if (!seen) return check;
-  const auto& assessments = seen->view.directions.front().assessments;
-  if (!assessments.empty()) {
-    check.contrast = assessments.back().contrast;
-    check.saturated = assessments.back().saturated_fraction;
+  double contrast = kMissing;
+  for (const auto& direction : seen->view.directions) {
+    if (direction.assessments.empty()) continue;
+    const auto& finest = direction.assessments.back();
+    contrast = std::fmin(contrast, finest.contrast);
+    check.saturated = std::max(check.saturated, finest.saturated_fraction);
   }
+  if (!std::isnan(contrast)) check.contrast = contrast;
   check.points = seen->points;
   check.finding = seen->finding;
   return check;

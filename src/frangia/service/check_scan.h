@@ -13,9 +13,10 @@ namespace frangia {
 
 /// Light and focus before a scan, measured in one view.
 struct ScanCheck {
-  std::int64_t at_s = 0;   ///< when it was captured, seconds since 1970
-  double contrast = 0.0;   ///< of the finest fringes, 0 to 1: light and focus together
-  double saturated = 0.0;  ///< share of all pixels, 0 to 1
+  std::int64_t at_s = 0;  ///< when it was captured, seconds since 1970
+  /// Of the finest fringes, 0 to 1: light and focus together; of several directions the least.
+  double contrast = 0.0;
+  double saturated = 0.0;  ///< share of all pixels, 0 to 1; of several directions the largest
   std::size_t points = 0;  ///< measured pixels
   std::string finding;     ///< what its frames lack, one sentence; empty when they are good
 };

@@ -22,8 +22,7 @@ struct DeviceChoice {
 ///
 /// Camera and display are opened for that, by `drivers`; nothing moves and no light is on.
 /// @errors   Error(Input) that names the file and the key: as `check_given_devices`, no camera or
-/// no
-///           fringes among the choices, a calibrated rig whose sizes differ from those of the
+///           no fringes among the choices, a calibrated rig whose sizes differ from those of the
 ///           devices, or a phase shifter for a rig without the geometry of its fringes;
 ///           Error(Device) when a device does not answer; Error(File)
 void choose_devices(const ProjectFolder& project,

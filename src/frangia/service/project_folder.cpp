@@ -13,7 +13,7 @@
 #include "frangia/core/open_below.h"
 #include "frangia/core/read_json_below.h"
 #include "frangia/core/read_text_file.h"
-#include "frangia/core/sync_to_disk.h"
+#include "frangia/service/internal/move_folder.h"
 
 namespace frangia {
 namespace {
@@ -48,17 +48,8 @@ std::string notes_of(const ProjectFolder& project) {
   }
 }
 
-void move_folder(const std::filesystem::path& from, const std::filesystem::path& to) {
-  std::error_code error;
-  std::filesystem::rename(from, to, error);
-  if (error) {
-    throw Error(ErrorKind::File,
-                fmt::format("{}: cannot be moved: {}", from.string(), error.message()));
-  }
-  sync_to_disk(folder_of(to));
-}
-
-/// Copies regular files and folders, not links, and not the lock of another process.
+/// Copies regular files with their times and folders, not links, and not the lock of another
+/// process.
 void copy_folder(const std::filesystem::path& from,
                  const std::filesystem::path& to,
                  const Run& run) {
@@ -72,21 +63,13 @@ void copy_folder(const std::filesystem::path& from,
       copy_folder(entry.path(), target, run);
     } else if (entry.is_regular_file()) {
       std::filesystem::copy_file(entry.path(), target, error);
+      if (!error) std::filesystem::last_write_time(target, entry.last_write_time(), error);
     }
     if (error) break;
   }
   if (error) {
     throw Error(ErrorKind::File,
                 fmt::format("{}: cannot be copied: {}", from.string(), error.message()));
-  }
-}
-
-/// "Bust", "Bust 2", ...: the first that a folder does not hold.
-std::filesystem::path free_name(const std::filesystem::path& folder, const std::string& name) {
-  std::error_code ignored;
-  for (int i = 1;; ++i) {
-    const auto path = folder / (i == 1 ? name : fmt::format("{} {}", name, i));
-    if (!std::filesystem::exists(std::filesystem::symlink_status(path, ignored))) return path;
   }
 }
 
@@ -230,11 +213,11 @@ void ProjectLibrary::duplicate(const std::string& name,
   std::filesystem::remove_all(unfinished, ignored);
   try {
     copy_folder(project.folder, unfinished, run);
-  } catch (const Error&) {
+    move_folder(unfinished, folder);
+  } catch (...) {
     std::filesystem::remove_all(unfinished, ignored);
     throw;
   }
-  move_folder(unfinished, folder);
 }
 
 void ProjectLibrary::discard(const std::string& name) const {

@@ -15,6 +15,7 @@
 #include "frangia/core/read_text_file.h"
 #include "frangia/devices/device_settings.h"
 #include "frangia/rig/read_rig.h"
+#include "frangia/service/internal/move_folder.h"
 #include "frangia/service/simulated_rig.h"
 
 namespace frangia {
@@ -166,16 +167,12 @@ void keep_but(const ProjectFolder& project, RigChange before, int spared) {
   AtomicFile why(unfinished / kWhy, Durability::Synced);
   why.stream() << name_of(before);
   why.commit();
-  std::error_code error;
-  std::filesystem::rename(unfinished, project.in_derived(inner_of(number)), error);
-  if (error) {
-    throw Error(ErrorKind::File,
-                fmt::format("{}: cannot be renamed: {}", unfinished.string(), error.message()));
-  }
+  move_folder(unfinished, project.in_derived(inner_of(number)));
   std::size_t kept = numbers.size() + 1;
   for (std::size_t i = 0; i < numbers.size() && kept > kMostKeptRigs; ++i) {
     if (numbers[i] == spared) continue;
-    std::filesystem::remove_all(project.in_derived(inner_of(numbers[i])), error);
+    std::error_code ignored;
+    std::filesystem::remove_all(project.in_derived(inner_of(numbers[i])), ignored);
     --kept;
   }
 }
@@ -233,6 +230,7 @@ std::vector<LibraryRig> RigLibrary::list() const {
   std::error_code error;
   for (const auto& entry : std::filesystem::directory_iterator(root_, error)) {
     const auto file = entry.path() / "rig.toml";
+    if (entry.path().filename().string().starts_with('.')) continue;  // unfinished, or the bin
     if (entry.is_symlink() || !entry.is_directory(error) || !holds_file(file)) continue;
     rigs.push_back({entry.path().filename().string(), modified_s(file), figures_of(file)});
   }
@@ -258,25 +256,26 @@ void RigLibrary::keep(const ProjectFolder& project, const std::string& name) con
     throw Error(ErrorKind::Input,
                 fmt::format("there is a kept rig {} already; write another name", name));
   }
-  copy_rig(present, place_in(folder));
+  const auto unfinished = root_ / ".new";
+  std::filesystem::remove_all(unfinished, ignored);
+  try {
+    copy_rig(present, place_in(unfinished));
+    move_folder(unfinished, folder);
+  } catch (...) {
+    std::filesystem::remove_all(unfinished, ignored);
+    throw;
+  }
 }
 
 void RigLibrary::give(const std::string& name, const ProjectFolder& project) const {
   copy_rig(place_in(find(name)), place_of(project));
 }
 
-void RigLibrary::discard(const std::string& name, const std::filesystem::path& bin) const {
+void RigLibrary::discard(const std::string& name) const {
   const auto folder = find(name);
+  const auto bin = root_ / ".bin";
   make_folder(bin);
-  auto target = bin / name;
-  std::error_code error;
-  for (int i = 2; std::filesystem::exists(target, error); ++i)
-    target = bin / fmt::format("{} {}", name, i);
-  std::filesystem::rename(folder, target, error);
-  if (error) {
-    throw Error(ErrorKind::File,
-                fmt::format("{}: cannot be moved: {}", folder.string(), error.message()));
-  }
+  move_folder(folder, free_name(bin, name));
 }
 
 }  // namespace frangia

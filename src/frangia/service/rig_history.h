@@ -10,7 +10,7 @@
 
 namespace frangia {
 
-/// What a change of a project's rig is, and so what the rig before it was kept for.
+/// Reason why the previous rig of a project is kept.
 enum class RigChange {
   Geometry,     ///< its parts were moved
   Devices,      ///< other devices, or other settings of them
@@ -73,7 +73,7 @@ class RigLibrary {
 
   /// The rigs, the newest first.
   [[nodiscard]] std::vector<LibraryRig> list() const;
-  /// Keeps the rig of a project under a name.
+  /// Keeps the rig of a project under a name, which it has when it is complete.
   ///
   /// @errors   Error(Input) as `check_project_name`, for a name that is taken, and for a project
   ///           without a rig; Error(File)
@@ -82,10 +82,10 @@ class RigLibrary {
   ///
   /// @errors   Error(Input) when there is no rig of this name; Error(File)
   void give(const std::string& name, const ProjectFolder& project) const;
-  /// Moves a rig into the folder `bin`.
+  /// Moves a rig into the folder .bin of this library.
   ///
   /// @errors   as `give`
-  void discard(const std::string& name, const std::filesystem::path& bin) const;
+  void discard(const std::string& name) const;
 
  private:
   [[nodiscard]] std::filesystem::path find(const std::string& name) const;

@@ -72,6 +72,7 @@ std::string Service::Implementation::command(const std::string& name, const std:
       {"restore-rig", &Implementation::restore_rig_before},
       {"keep-rig", &Implementation::keep_rig_as},
       {"discard-rig", &Implementation::discard_rig},
+      {"measure-display", &Implementation::start_measure_display},
       {"check-scan", &Implementation::start_check_scan},
       {"start-calibration", &Implementation::start_calibration},
       {"print-board", &Implementation::print_board},

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <chrono>
 #include <cstdint>
 #include <utility>
 
@@ -17,16 +18,12 @@
 #include "frangia/core/read_json_below.h"
 #include "frangia/core/sha256.h"
 #include "frangia/core/write_private_file.h"
+#include "frangia/service/internal/seconds_since_1970.h"
 
 namespace frangia {
 namespace {
 
 constexpr std::size_t kDigestLength = 64;  // of SHA-256 in hexadecimal digits
-
-std::int64_t now_s() {
-  const auto now = std::chrono::system_clock::now().time_since_epoch();
-  return std::chrono::duration_cast<std::chrono::seconds>(now).count();
-}
 
 }  // namespace
 
@@ -135,7 +132,7 @@ SessionKey SessionKeys::add_key(bool script) {
   }
   constexpr std::size_t kIdLength = 8;
   SessionKey session{random_key(), random_key().substr(0, kIdLength)};
-  keys_.push_back({sha256(session.key), session.id, script, now_s()});
+  keys_.push_back({sha256(session.key), session.id, script, seconds_since_1970()});
   if (!script && operator_id_.empty()) operator_id_ = session.id;
   if (!script) save();
   return session;
@@ -158,7 +155,7 @@ void SessionKeys::load() {
       Key key{.digest = one.at("sha256").get<std::string>(),
               .id = one.at("id").get<std::string>(),
               .issued_s = one.at("issued_s").get<std::int64_t>()};
-      const std::chrono::seconds age(now_s() - key.issued_s);
+      const std::chrono::seconds age(seconds_since_1970() - key.issued_s);
       if (key.digest.size() == kDigestLength && age <= kKeyLife && keys_.size() < kMostKeys)
         keys_.push_back(std::move(key));
     }

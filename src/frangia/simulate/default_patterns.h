@@ -36,8 +36,7 @@ struct PatternPlan {
 /// pinhole projector                   the periods, coarse to fine
 ///
 /// @errors   Error(Input) for fewer than 3 shifts, a period below 2 pixels, a pitch that is not
-/// above
-///          0 or gives more than 1e6 fringes, or an option that the projector cannot show
+///          above 0 or gives more than 1e6 fringes, or an option that the projector cannot show
 [[nodiscard]] std::vector<Pattern> default_patterns(const Rig& rig, const PatternPlan& plan = {});
 
 /// Returns patterns with which a board is captured: those of `default_patterns`, the same fringes

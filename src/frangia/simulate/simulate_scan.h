@@ -17,9 +17,8 @@ namespace frangia {
 ///
 /// @units    mm, object frame
 /// @errors   Error(Input) when the folder holds anything but an interrupted simulation, when the
-/// plan
-///          has no pattern or view, when an option is out of range, or when the rig cannot show a
-///          pattern; Error(File) when a file cannot be written
+///          plan has no pattern or view, when an option is out of range, or when the rig cannot
+///          show a pattern; Error(File) when a file cannot be written
 [[nodiscard]] Scan simulate_scan(const Mesh& part,
                                  const Scan& plan,
                                  const SimulateOptions& options = {},

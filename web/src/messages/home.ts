@@ -77,6 +77,16 @@ export const HOME = {
     'Eine Aufgabe läuft; erst beenden lassen.',
     'Un lavoro è in corso; lasciarlo finire.',
   ],
+  'open.large': [
+    'This has {size} MB; at most {most} MB can be opened.',
+    'Das sind {size} MB; öffnen lassen sich höchstens {most} MB.',
+    'Sono {size} MB; si possono aprire al massimo {most} MB.',
+  ],
+  'open.many': [
+    'This folder holds {files} files; open the folder of the scan alone.',
+    'Dieser Ordner enthält {files} Dateien; nur den Ordner des Scans öffnen.',
+    'Questa cartella contiene {files} file; aprire solo la cartella della scansione.',
+  ],
   'open.unknown': [
     '{name} is no mesh, STEP file, scan folder, zip or rig.',
     '{name} ist kein Netz, keine STEP-Datei, kein Scan-Ordner, Zip oder Aufbau.',

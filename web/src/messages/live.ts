@@ -20,6 +20,13 @@ export const LIVE = {
   'live.saturated': ['Saturated', 'Übersteuert', 'Saturi'],
   'live.dark': ['Dark', 'Dunkel', 'Scuri'],
   'live.contrast': ['Fringe contrast', 'Streifenkontrast', 'Contrasto delle frange'],
+  'live.focus': [
+    'Focus: contrast {contrast}, at best {peak}',
+    'Schärfe: Kontrast {contrast}, bestenfalls {peak}',
+    'Fuoco: contrasto {contrast}, al meglio {peak}',
+  ],
+  'live.newPeak': ['Forget the best', 'Bestwert vergessen', 'Dimentica il meglio'],
+  'live.loupe': ['Loupe', 'Lupe', 'Lente'],
   'live.decode': ['Frames to points', 'Bilder zu Punkten', 'Da immagini a punti'],
   'live.counts': ['counts', 'Werte', 'conteggi'],
   'live.exposure': ['Exposure', 'Belichtung', 'Esposizione'],

@@ -97,6 +97,36 @@ function scale(layer: LiveLayer, low: number, high: number): TemplateResult | st
   >`;
 }
 
+/** How sharp the fringes are, and how sharp they were: focus is where the bar reaches its mark again. */
+function focus(app: App, contrast: number): TemplateResult | string {
+  const { peak, view } = app.live;
+  if (!view.figures || peak === 0) return '';
+  const at = (share: number) => 320 * Math.min(1, share);
+  return html`<div class="focus">
+    <svg
+      viewBox="0 0 320 12"
+      preserveAspectRatio="none"
+      role="img"
+      aria-label=${t('live.focus', { contrast: number(contrast, 2), peak: number(peak, 2) })}
+    >
+      ${svg`<rect class="all" width="320" height="12" rx="2" /><rect class="now" width=${at(contrast)} height="12" rx="2" />
+        <rect class="peak" x=${Math.max(0, at(peak) - 3)} width="3" height="12" />`}
+    </svg>
+    <div class="pair">
+      <button class="btn small" id="new-peak" @click=${() => app.live.forgetPeak()}>${t('live.newPeak')}</button>
+      <button
+        class="btn small"
+        id="loupe"
+        aria-pressed=${view.loupe}
+        ?disabled=${app.live.layer === 'points'}
+        @click=${() => app.live.toggleLoupe()}
+      >
+        ${t('live.loupe')}
+      </button>
+    </div>
+  </div>`;
+}
+
 function light(app: App): TemplateResult {
   const { figures } = app.live.view;
   const contrast = figures?.contrast ?? 0;
@@ -116,6 +146,7 @@ function light(app: App): TemplateResult {
       <dt>${t('live.decode')}</dt>
       <dd class="num">${figures && figures.decode_ms ? html`${number(figures.decode_ms, 0)}<span>ms</span>` : '·'}</dd>
     </dl>
+    ${focus(app, contrast)}
     <label class="switch"
       ><span>${t('live.marks')}</span
       ><input

@@ -9,6 +9,7 @@ import { nextStep, plain } from '../ui';
 import { axisCard, axisIsKnown, hasTable } from './rig_axis';
 import { boardField, boardFields, boardOf, boardPrints } from './rig_board';
 import { devices } from './rig_devices';
+import { displayCard } from './rig_display';
 import { keepRig, rigHistory } from './rig_history';
 
 /** The report of `frangia calibrate rig`, which the calibration writes to the exports. */
@@ -208,6 +209,6 @@ export function rigStep(app: App): TemplateResult {
     ? t('rig.uncalibrated')
     : project.rig_fault || (project.can_scan ? '' : t(project.scan_complete ? 'scan.noRig' : 'rig.none'));
   const axisFirst = !axisIsKnown(app) && !project.calibration?.active;
-  return html`${devices(app)}${axisFirst ? axisCard(app) : ''}${project.can_scan || project.calibration ? calibration(app) : ''}${axisFirst ? '' : axisCard(app)}${keepRig(app)}${rigHistory(app)}${rig ? geometry(app, rig) : fault ? html`<section class="group"><p class="quiet">${fault}</p></section>` : ''}
+  return html`${devices(app)}${displayCard(app)}${axisFirst ? axisCard(app) : ''}${project.can_scan || project.calibration ? calibration(app) : ''}${axisFirst ? '' : axisCard(app)}${keepRig(app)}${rigHistory(app)}${rig ? geometry(app, rig) : fault ? html`<section class="group"><p class="quiet">${fault}</p></section>` : ''}
   ${project.can_scan && !project.calibration?.active ? nextStep(app, 'live', axisIsKnown(app) || !hasTable(app)) : ''}`;
 }

@@ -139,7 +139,7 @@ CompleteFrame CaptureDevices::capture(const FrameLabel& label, std::size_t numbe
     CapturedFrame captured = camera.capture(own, until);
     if (captured.complete) {
       check_frame(camera, captured.frame, rig_.cameras[number].camera);
-      return {std::move(captured.frame), attempts};
+      return {std::move(captured.frame), attempts, captured.timestamp_s};
     }
     cause = captured.incomplete_cause;
   }

@@ -16,6 +16,7 @@ namespace frangia {
 struct CompleteFrame {
   Frame frame;
   int attempts = 1;
+  double timestamp_s = 0.0;  ///< clock of the camera
 };
 
 /// The devices of a rig for a capture session. Sets a deadline for each call, switches lights,

@@ -26,7 +26,7 @@ CaptureSession::CaptureSession(Scan plan,
       manifest_(plan_.folder),
       table_(devices_, manifest_, devices.turntable.get(), options.table_at_rad, run),
       exposures_(choose_exposures(
-          plan_, devices_, devices.reference()->info(), table_, manifest_, options_, run_)),
+          plan_, devices_, exposure_range(devices, options), table_, manifest_, options_, run_)),
       files_(plan_, manifest_),
       store_(manifest_),
       assessor_(plan_, options_.on_view, run),

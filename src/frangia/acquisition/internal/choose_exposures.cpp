@@ -1,14 +1,35 @@
 #include "frangia/acquisition/internal/choose_exposures.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include <fmt/format.h>
 
 #include "frangia/acquisition/internal/survey_exposures.h"
 
 namespace frangia {
+namespace {
+
+void warn_of_uneven_light(const std::vector<double>& exposures_ms, double step_ms, const Run& run) {
+  constexpr double kSame = 0.01;  // of a step
+  if (step_ms <= 0.0) return;
+  for (const double exposure_ms : exposures_ms) {
+    const double steps = std::max(1.0, std::round(exposure_ms / step_ms));
+    if (std::abs(exposure_ms / step_ms - steps) < kSame) continue;
+    run.warn(
+        fmt::format("exposures of {:.4g} ms see the light of room and display uneven; expose for "
+                    "{:.4g} ms, a whole multiple of the exposure_step_ms of [devices.camera]",
+                    exposure_ms,
+                    steps * step_ms));
+    return;
+  }
+}
+
+}  // namespace
 
 ChosenExposures choose_exposures(Scan& plan,
                                  CaptureDevices& devices,
-                                 const CameraInfo& camera,
+                                 const ExposureRange& range,
                                  TableMover& table,
                                  CaptureManifest& manifest,
                                  const CaptureOptions& options,
@@ -24,8 +45,6 @@ ChosenExposures choose_exposures(Scan& plan,
                                 plan.folder.string(),
                                 CaptureManifest::kFileName));
       }
-      const ExposureRange range{
-          options.camera.exposure_ms, camera.min_exposure_ms, camera.max_exposure_ms};
       manifest.add_exposures(survey_exposures(plan, devices, table, options, range, run));
     }
     chosen.fringes_ms = manifest.exposures_ms();
@@ -41,6 +60,7 @@ ChosenExposures choose_exposures(Scan& plan,
     }
   }
   if (chosen.fringes_ms.empty()) chosen.fringes_ms = {chosen.single_ms};
+  warn_of_uneven_light(chosen.fringes_ms, range.step_ms, run);
   return chosen;
 }
 

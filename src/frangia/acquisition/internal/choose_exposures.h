@@ -4,6 +4,7 @@
 
 #include "frangia/acquisition/internal/capture_devices.h"
 #include "frangia/acquisition/internal/capture_manifest.h"
+#include "frangia/acquisition/internal/exposure_search.h"
 #include "frangia/acquisition/internal/table_mover.h"
 #include "frangia/core/run.h"
 #include "frangia/dataset/scan_folder.h"
@@ -23,7 +24,7 @@ struct ChosenExposures {
 /// devices
 [[nodiscard]] ChosenExposures choose_exposures(Scan& plan,
                                                CaptureDevices& devices,
-                                               const CameraInfo& camera,
+                                               const ExposureRange& range,
                                                TableMover& table,
                                                CaptureManifest& manifest,
                                                const CaptureOptions& options,

@@ -40,6 +40,20 @@ void add(const std::vector<bool>& mask, std::vector<bool>& all) {
 
 }  // namespace
 
+ExposureRange exposure_range(const RigDevices& devices, const CaptureOptions& options) {
+  const CameraInfo& camera = devices.reference()->info();
+  return {options.camera.exposure_ms,
+          camera.min_exposure_ms,
+          camera.max_exposure_ms,
+          devices.exposure_step_ms};
+}
+
+double on_raster(double exposure_ms, double step_ms) {
+  constexpr double kRounding = 1e-6;
+  if (step_ms <= 0.0 || exposure_ms < step_ms * (1.0 - kRounding)) return exposure_ms;
+  return step_ms * std::floor(exposure_ms / step_ms + kRounding);
+}
+
 double longest_exposure(const ExposureProbe& probe, const ExposureRange& range) {
   double good = std::clamp(range.initial_ms, range.min_ms, range.max_ms);
   double bright = good;
@@ -52,14 +66,18 @@ double longest_exposure(const ExposureProbe& probe, const ExposureRange& range) 
     do {
       good = bright;
       bright *= 2.0;
-      if (bright > range.max_ms) return good;
+      if (bright > range.max_ms) return on_raster(good, range.step_ms);
     } while (!is_overexposed(probe(bright)));
   }
   while (bright / good > 1.05) {
     const double middle = std::sqrt(good * bright);
     (is_overexposed(probe(middle)) ? bright : good) = middle;
   }
-  return good;
+  return on_raster(good, range.step_ms);
+}
+
+double ExposureBracket::exposure_of(int step) const {
+  return on_raster(std::ldexp(range_.initial_ms, step), range_.step_ms);
 }
 
 bool ExposureBracket::adds(int step, const Image<PixelStatus>& status, Mask& all) {
@@ -80,7 +98,7 @@ void ExposureBracket::add_view(const ExposureProbe& probe) {
     int idle = 0;  // successive steps without new pixels, once any pixel is measured
     for (int step = direction > 0 ? 0 : -1; std::abs(step) <= kMaxSteps && idle < 2;
          step += direction) {
-      const double exposure_ms = std::ldexp(range_.initial_ms, step);
+      const double exposure_ms = exposure_of(step);
       if (exposure_ms < range_.min_ms || exposure_ms > range_.max_ms) break;
       const Image<PixelStatus> status = probe(exposure_ms);
       pixels = status.pixels().size();
@@ -108,10 +126,10 @@ std::vector<double> ExposureBracket::selected() const {
       }
     }
     if (most == 0 || static_cast<double>(most) < min_gain) break;
-    exposures_ms.push_back(std::ldexp(range_.initial_ms, best));
+    exposures_ms.push_back(exposure_of(best));
     add(measured_.at(best), covered);
   }
-  if (exposures_ms.empty()) exposures_ms.push_back(range_.initial_ms);
+  if (exposures_ms.empty()) exposures_ms.push_back(exposure_of(0));
   return exposures_ms;
 }
 

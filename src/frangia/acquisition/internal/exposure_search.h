@@ -4,6 +4,8 @@
 #include <map>
 #include <vector>
 
+#include "frangia/acquisition/capture_options.h"
+#include "frangia/devices/rig_devices.h"
 #include "frangia/phase/wrap/phase_map.h"
 
 namespace frangia {
@@ -15,9 +17,20 @@ struct ExposureRange {
   double initial_ms = 10.0;
   double min_ms = 0.01;
   double max_ms = 10'000.0;
+  double step_ms = 0.0;  ///< exposures are whole multiples of it; 0: any
 };
 
-/// Finds the longest exposure, within 5 %, that saturates at most 0.5 % of the lit pixels.
+/// What the reference camera can expose, on the raster of the devices, from the exposure of
+/// `options` on.
+[[nodiscard]] ExposureRange exposure_range(const RigDevices& devices,
+                                           const CaptureOptions& options);
+
+/// The longest whole multiple of `step_ms` that is not above an exposure; the exposure itself where
+/// it is shorter than one step, and for no step.
+[[nodiscard]] double on_raster(double exposure_ms, double step_ms);
+
+/// Finds the longest exposure of the range, within 5 % or a step, that saturates at most 0.5 % of
+/// the lit pixels.
 ///
 /// @units    ms
 ///
@@ -42,6 +55,7 @@ class ExposureBracket {
  private:
   using Mask = std::vector<bool>;  ///< measured pixels of all views, concatenated
 
+  [[nodiscard]] double exposure_of(int step) const;
   [[nodiscard]] bool adds(int step, const Image<PixelStatus>& status, Mask& all);
 
   ExposureRange range_;

@@ -25,8 +25,7 @@ struct PaperSize {
 /// one of its numbers of squares is odd and one even.
 /// @units    mm
 /// @errors   Error(Input) when the checkerboard is symmetric or the board does not fit on the
-/// paper;
-///           Error(File) when the file cannot be written
+///           paper; Error(File) when the file cannot be written
 Board write_board_pdf(const std::filesystem::path& path,
                       const Board& board,
                       const PaperSize& paper = {});

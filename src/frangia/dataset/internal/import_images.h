@@ -62,8 +62,7 @@ void check_images(std::vector<NamedFile>& files, ImportPlan& plan, const Run& ru
 /// Splits files by their cameras, the reference camera first: sets the names of `plan.cameras`.
 ///
 /// @errors   Error(Input) that names a camera that the rig of the options does not hold, or that
-/// the
-///          folder does not
+///          the folder does not
 [[nodiscard]] std::vector<std::vector<NamedFile>> files_of_cameras(std::vector<NamedFile> files,
                                                                    ImportPlan& plan);
 

@@ -19,8 +19,7 @@ struct AravisSettings {
 /// Opens a camera with Aravis, set to software trigger. Only defined in builds with Aravis.
 ///
 /// @errors   Error(Device) when the camera does not exist, is in use, or does not support the
-/// format
-///          or region
+///          format or region
 [[nodiscard]] std::unique_ptr<CameraDevice> open_aravis_camera(const AravisSettings& settings,
                                                                const Deadline& deadline);
 

@@ -9,8 +9,7 @@ namespace frangia {
 /// alphabetical order. Its setting is `folder`.
 ///
 /// @errors   Error(Input) that names the file and the key when there is no frame; Error(Device)
-/// that
-///          names a missing frame
+///          that names a missing frame
 [[nodiscard]] Driver folder_camera_driver();
 
 }  // namespace frangia

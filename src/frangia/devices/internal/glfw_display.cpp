@@ -112,6 +112,8 @@ class GlfwDisplay final : public PatternDisplay {
     }
     show_levels(deadline);
   }
+  [[nodiscard]] double delay_s() const override { return settings_.delay_s; }
+  void set_delay(double seconds) override { settings_.delay_s = seconds; }
   void show_dark(const Deadline& deadline) override {
     std::fill(levels_.begin(), levels_.end(), std::uint8_t{0});
     show_levels(deadline);

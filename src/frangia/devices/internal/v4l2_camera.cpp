@@ -207,6 +207,7 @@ class V4l2Camera final : public CameraDevice {
       info_.width_px = static_cast<int>(wanted.fmt.pix.width);
       info_.height_px = static_cast<int>(wanted.fmt.pix.height);
       info_.white_level = 255;
+      info_.skip_frames = settings_.skip_frames;
       return;
     }
     fail(

@@ -12,8 +12,7 @@ namespace frangia {
 /// Other lines are skipped.
 ///
 /// @shape    polygons are triangulated in their mean plane; normals are read only when every corner
-/// uses the
-///          normal with the index of its vertex, since an OBJ may give one vertex several
+///          uses the normal with the index of its vertex, since an OBJ may give one vertex several
 /// @units    as in the file, assumed to be mm
 /// @errors   Error(Input) that names the file and the line or triangle: an invalid number, a face
 ///          with fewer than three corners, a vertex index out of range, a coordinate that is not

@@ -1,6 +1,5 @@
 #include "frangia/files/internal/zip_file.h"
 
-#include <algorithm>
 #include <array>
 #include <utility>
 #include <vector>
@@ -19,6 +18,7 @@ constexpr std::size_t kBlock = std::size_t{1} << 18U;
 constexpr std::uint64_t kMaxBytes = std::uint64_t{8} << 30U;
 constexpr std::uint64_t kHarmlessBytes = std::uint64_t{64} << 20U;
 constexpr std::uint64_t kMaxRatio = 200;  // text of coordinates compresses 3 to 10 times
+constexpr std::size_t kMostNameBytes = 4000;
 
 [[noreturn]] void fail(const std::filesystem::path& path, const std::string& why) {
   throw Error(ErrorKind::Input, fmt::format("{}: {}", path.string(), why));
@@ -47,6 +47,20 @@ ZipReader::~ZipReader() {
 bool ZipReader::read(const std::string& name,
                      const std::function<void(std::string_view, double)>& consume) const {
   if (unzLocateFile(archive_->file, name.c_str(), 1) != UNZ_OK) return false;
+  read_here(name, consume);
+  return true;
+}
+
+void ZipReader::read(const ZipEntry& entry,
+                     const std::function<void(std::string_view, double)>& consume) const {
+  const unz64_file_pos place{entry.offset, entry.ordinal};
+  if (unzGoToFilePos64(archive_->file, &place) != UNZ_OK)
+    fail(path_, "the directory of the archive is damaged; copy the file again");
+  read_here(entry.name, consume);
+}
+
+void ZipReader::read_here(const std::string& name,
+                          const std::function<void(std::string_view, double)>& consume) const {
   unz_file_info64 info{};
   std::array<char, 4096> ignored{};
   if (unzGetCurrentFileInfo64(
@@ -59,7 +73,8 @@ bool ZipReader::read(const std::string& name,
                      info.uncompressed_size / kMaxRatio > info.compressed_size);
   if (bomb) {
     fail(path_,
-         fmt::format("entry {} would expand from {} to {} bytes, which no mesh does; it is refused",
+         fmt::format("entry {} would expand from {} to {} bytes, which no mesh and no scan does; "
+                     "it is refused",
                      name,
                      info.compressed_size,
                      info.uncompressed_size));
@@ -86,23 +101,35 @@ bool ZipReader::read(const std::string& name,
   if (unzCloseCurrentFile(archive_->file) != UNZ_OK || unpacked != info.uncompressed_size) {
     fail(path_, fmt::format("entry {} is damaged; copy the file again", name));
   }
-  return true;
 }
 
-std::vector<std::string> ZipReader::names() const {
-  std::vector<std::string> names;
-  std::array<char, 4096> name{};
+std::vector<ZipEntry> ZipReader::entries(std::size_t most) const {
+  std::vector<ZipEntry> entries;
+  std::array<char, kMostNameBytes + 1> name{};
   for (int code = unzGoToFirstFile(archive_->file); code != UNZ_END_OF_LIST_OF_FILE;
        code = unzGoToNextFile(archive_->file)) {
     unz_file_info64 info{};
+    unz64_file_pos place{};
     const bool known =
         code == UNZ_OK &&
         unzGetCurrentFileInfo64(
-            archive_->file, &info, name.data(), name.size() - 1, nullptr, 0, nullptr, 0) == UNZ_OK;
+            archive_->file, &info, name.data(), name.size() - 1, nullptr, 0, nullptr, 0) ==
+            UNZ_OK &&
+        unzGetFilePos64(archive_->file, &place) == UNZ_OK;
     if (!known) fail(path_, "the directory of the archive is damaged; copy the file again");
-    names.emplace_back(name.data(), std::min<std::size_t>(info.size_filename, name.size() - 1));
+    if (info.size_filename > kMostNameBytes) {
+      fail(path_,
+           fmt::format("the name of entry {}... is too long; shorten it",
+                       std::string_view(name.data(), 60)));
+    }
+    if (entries.size() == most)
+      fail(path_, fmt::format("it holds more than {} entries; pack one scan alone", most));
+    entries.push_back({std::string(name.data(), info.size_filename),
+                       info.uncompressed_size,
+                       place.pos_in_zip_directory,
+                       place.num_of_file});
   }
-  return names;
+  return entries;
 }
 
 struct ZipWriter::Archive {

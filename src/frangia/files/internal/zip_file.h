@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -9,6 +10,14 @@
 #include <vector>
 
 namespace frangia {
+
+/// An entry of the directory of a zip archive.
+struct ZipEntry {
+  std::string name;           ///< that of a folder ends with a slash
+  std::uint64_t bytes = 0;    ///< unpacked, as the archive states it
+  std::uint64_t offset = 0;   ///< in the directory, for the reader
+  std::uint64_t ordinal = 0;  ///< from 0, for the reader
+};
 
 /// Reads a zip archive entry by entry.
 ///
@@ -28,10 +37,18 @@ class ZipReader {
   /// to 1; false when no entry has this name (case-sensitive).
   bool read(const std::string& name,
             const std::function<void(std::string_view, double)>& consume) const;
-  /// Names of all entries, in the order of the archive; those of folders end with a slash.
-  [[nodiscard]] std::vector<std::string> names() const;
+  /// Passes an entry of `entries` to `consume` in pieces, each with its share of the entry.
+  void read(const ZipEntry& entry,
+            const std::function<void(std::string_view, double)>& consume) const;
+  /// All entries, in the order of the archive.
+  ///
+  /// @errors   Error(Input) for more than `most`, and for a name of more than 4000 bytes
+  [[nodiscard]] std::vector<ZipEntry> entries(std::size_t most) const;
 
  private:
+  /// Passes the entry that minizip stands at to `consume`.
+  void read_here(const std::string& name,
+                 const std::function<void(std::string_view, double)>& consume) const;
   struct Archive;
   std::filesystem::path path_;
   std::unique_ptr<Archive> archive_;

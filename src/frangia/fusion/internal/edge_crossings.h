@@ -17,8 +17,7 @@ namespace frangia {
 /// The crossings of the surface with the edges of the voxel grid, and the cells it intersects.
 ///
 /// @shape    blocks of 8^3, as in the field, but only those that the surface intersects; a cell,
-/// and
-///          the edges towards +x, +y, +z, belong to the voxel at their low corner
+///          and the edges towards +x, +y, +z, belong to the voxel at their low corner
 /// @units    mm, object frame
 /// @missing  a cell with a corner that has no distance has the sign pattern 0, like one without
 ///          surface

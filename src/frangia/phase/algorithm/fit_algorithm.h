@@ -38,8 +38,7 @@ struct FittedAlgorithm {
 /// the frames compensate flicker that the frames determine.
 ///
 /// @errors   Error(Input) for an unknown name, or for shifts that the algorithm does not accept;
-/// the
-///          message names algorithms that do
+///          the message names algorithms that do
 [[nodiscard]] FittedAlgorithm fit_algorithm(const std::string& name,
                                             const FrameStack& stack,
                                             const NoiseModel& noise,

@@ -48,8 +48,7 @@ struct PhaseAlgorithm {
 ///
 /// @units    rad
 /// @errors   Error(Input) for an unknown name, or for shifts that the algorithm does not accept;
-/// the
-///          message names algorithms that do
+///          the message names algorithms that do
 [[nodiscard]] PhaseAlgorithm make_algorithm(const std::string& name,
                                             const std::vector<double>& shifts_rad,
                                             double gain_error = 0.0);

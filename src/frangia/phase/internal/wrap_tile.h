@@ -26,8 +26,7 @@ struct WrapTile {
 };
 
 /// @errors   Error(Input) unless the frames match the algorithm in number and each other in size
-/// and
-///          depth
+///          and depth
 void check_frames(const FrameStack& stack, const PhaseAlgorithm& algorithm);
 
 /// Coefficients of the phase noise.

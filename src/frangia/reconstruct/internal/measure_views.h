@@ -48,8 +48,7 @@ struct MeasuredViews {
 ///
 /// @shape    `rays` of the reference camera
 /// @missing  a view without a lit pixel is left out with a warning, and so is a view whose frames
-/// do
-///           not fit scan.toml or the rig, unless `accept_inconsistent` is set
+///           do not fit scan.toml or the rig, unless `accept_inconsistent` is set
 /// @errors   as read_frames and decode_view; Error(Numeric) when no view fits
 [[nodiscard]] MeasuredViews measure_views(const Scan& scan,
                                           const Image<Eigen::Vector2f>& rays,

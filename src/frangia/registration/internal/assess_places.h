@@ -22,8 +22,7 @@ enum class Overlap : std::uint8_t {
 /// the views disagree where they overlap although the rig's places are kept.
 ///
 /// @shape    `sums` in the state of the bundle; `offset`: from a state that is kept although
-/// another
-///           fits as well to that one, in the unknowns
+///           another fits as well to that one, in the unknowns
 void assess_places(RegistrationReport& report,
                    const Bundle& bundle,
                    const BundleSums& sums,

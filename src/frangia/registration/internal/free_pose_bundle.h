@@ -24,8 +24,7 @@ struct FreePoseBundle {
 /// Normal equations of all point-to-plane distances between views.
 ///
 /// @shape    unknowns: three shifts (mm) and three rotations (rad) about the world's origin for
-/// each
-///          of views 1, 2, ...
+///          each of views 1, 2, ...
 struct FreePoseSums {
   Eigen::MatrixXd hessian;
   Eigen::VectorXd gradient;

@@ -11,6 +11,7 @@
 #include "frangia/rig/read_rig.h"
 #include "frangia/service/choose_devices.h"
 #include "frangia/service/internal/implementation.h"
+#include "frangia/service/measure_project_display.h"
 
 namespace frangia {
 namespace {
@@ -89,6 +90,26 @@ nlohmann::ordered_json Service::Implementation::start_test_devices(CommandArgume
                  [this, folder = project.folder](const Run& run) { run_device_test(folder, run); });
 }
 
+/// Fits display and camera to each other; also before the rig is calibrated.
+nlohmann::ordered_json Service::Implementation::start_measure_display(CommandArguments& arguments) {
+  arguments.check_all_read();
+  const OpenProject project = opened();
+  require(project.can_scan, "this project has no rig with devices");
+  require(!project.scan_begun,
+          "the scan has begun with this rig; create a project for another one");
+  require_idle();
+  return started("display", [this, project](const Run& run) {
+    run.stage("devices");
+    const DisplayMeasurement found =
+        measure_project_display(project.folder, project.capture, options_.capture, run);
+    change([&](OpenProject& now) {
+      now.display = found;
+      now.check.reset();
+    });
+    reload_rig(project.folder);
+  });
+}
+
 /// Tests the devices and, with a calibrated rig, looks at one view: all that a scan needs.
 nlohmann::ordered_json Service::Implementation::start_check_scan(CommandArguments& arguments) {
   arguments.check_all_read();
@@ -101,7 +122,9 @@ nlohmann::ordered_json Service::Implementation::start_check_scan(CommandArgument
     run_device_test(project.folder, run);
     if (!project.rig) return;
     const ScanCheck found = check_scan(project.folder, project.capture, options_.capture, run);
-    change([&](OpenProject& now) { now.check = found; });
+    change([&](OpenProject& now) {
+      if (now.capture == project.capture) now.check = found;  // otherwise it is of other settings
+    });
   });
 }
 

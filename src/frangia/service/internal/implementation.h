@@ -83,6 +83,7 @@ class Service::Implementation {
   Json start_set_devices(CommandArguments& arguments);
   Json start_test_devices(CommandArguments& arguments);
   Json start_check_scan(CommandArguments& arguments);
+  Json start_measure_display(CommandArguments& arguments);
   Json start_find_exposure(CommandArguments& arguments);
   Json set_rig(CommandArguments& arguments);
   Json restore_rig_before(CommandArguments& arguments);
@@ -201,6 +202,9 @@ class Service::Implementation {
   int shown_ = 0;                        ///< previews and comparisons so far
   JobQueue queue_;                       ///< last: its thread uses everything else
 };
+
+/// Whether devices captured frames of the scan of a project; not so for one that was opened.
+[[nodiscard]] bool was_captured(const ProjectFolder& project);
 
 /// Reads the rig of a project, its devices and the settings of the capture into `project`. A
 /// damaged file is reported by the step that needs it.

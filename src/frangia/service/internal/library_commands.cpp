@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -16,12 +17,13 @@
 #include "frangia/files/read_mesh.h"
 #include "frangia/files/zip_folder.h"
 #include "frangia/service/internal/implementation.h"
+#include "frangia/service/internal/move_folder.h"
 #include "frangia/service/internal/surface_build.h"
 
 namespace frangia {
 namespace {
 
-constexpr std::size_t kMostNotes = 4000;         // letters: a page
+constexpr std::size_t kMostNotes = 4000;         // bytes: a page
 constexpr std::size_t kMostThumbnail = 300'000;  // bytes: ten times that of a small picture
 constexpr std::size_t kMostFileBytes = 512UL * 1024 * 1024;
 
@@ -90,11 +92,11 @@ void unpack_scan(const ProjectFolder& project, const std::filesystem::path& file
   try {
     unzip_folder(file, "scan.toml", unpacked, run);
     static_cast<void>(read_scan(unpacked, run));
-  } catch (const Error&) {
+    move_folder(unpacked, project.in_folder("scan"));
+  } catch (...) {
     std::filesystem::remove_all(unpacked, ignored);
     throw;
   }
-  std::filesystem::rename(unpacked, project.in_folder("scan"));
 }
 
 }  // namespace
@@ -116,10 +118,11 @@ nlohmann::ordered_json Service::Implementation::rename_project(CommandArguments&
   const std::string to = arguments.text("to");
   arguments.check_all_read();
   check_project_name(to);
+  require_idle();
   const bool was_open = leave(name);
   try {
     library_.rename(name, to);
-  } catch (const Error&) {
+  } catch (...) {
     if (was_open) open(library_.find(name));
     throw;
   }
@@ -149,7 +152,7 @@ nlohmann::ordered_json Service::Implementation::discard_project(CommandArguments
   try {
     static_cast<void>(leave(name));
     library_.discard(name);
-  } catch (const Error&) {
+  } catch (...) {
     refresh_projects();
     throw;
   }
@@ -169,17 +172,23 @@ nlohmann::ordered_json Service::Implementation::set_notes(CommandArguments& argu
   const std::string name = arguments.text("name");
   const std::string text = arguments.text("text");
   arguments.check_all_read();
-  require(text.size() <= kMostNotes, "text: notes have at most 4000 letters; shorten them");
+  require(text.size() <= kMostNotes, "text: notes have at most 4000 bytes; shorten them");
   put_text(library_.find(name).notes(), text);
   refresh_projects();
   return Json::object();
 }
 
-/// Keeps a small picture of the open project, which a browser drew.
+/// Keeps a small picture of the open project, which a browser drew: to look at a project is no
+/// change of it, so that its date stays.
 nlohmann::ordered_json Service::Implementation::set_thumbnail(CommandArguments& arguments) {
   const std::string bytes = thumbnail_of(arguments.text("picture"));
   arguments.check_all_read();
-  put_text(folder().thumbnail(), bytes);
+  const ProjectFolder project = folder();
+  std::error_code unknown;
+  const auto changed = std::filesystem::last_write_time(project.derived, unknown);
+  put_text(project.thumbnail(), bytes);
+  std::error_code ignored;
+  if (!unknown) std::filesystem::last_write_time(project.derived, changed, ignored);
   refresh_projects();
   return Json::object();
 }
@@ -213,26 +222,28 @@ nlohmann::ordered_json Service::Implementation::open_file(CommandArguments& argu
   std::error_code error;
   const auto present = std::filesystem::file_size(project.folder.reference_part(), error);
   require(!error && present == bytes, "the file has not arrived completely; send it again");
+  // The next file may arrive while the job waits: this one has its name.
+  const auto file = std::make_shared<const ArrivedFile>(project.folder, format);
   return started(
       "open",
-      [this, folder = project.folder, format, is_scan, key = arguments.key()](const Run& run) {
-        const ArrivedFile file(folder, format);
+      [this, folder = project.folder, file, is_scan, key = arguments.key()](const Run& run) {
         run.stage("files");
         if (!is_scan) {
-          const Mesh mesh = surface_in(file.path(), run);
+          const Mesh mesh = surface_in(file->path(), run);
           return add_version(
               folder,
               key,
               [&](const std::filesystem::path& into) { write_given_surface(into, mesh, run); },
               run);
         }
-        unpack_scan(folder, file.path(), run);
+        unpack_scan(folder, file->path(), run);
         std::error_code ignored;
         std::filesystem::remove(folder.stations(), ignored);
         const auto stations = read_stations(folder, run);
         change([&](OpenProject& now) {
           now.stations = stations;
           now.scan_complete = true;
+          now.scan_begun = true;
         });
         refresh_projects();
       });

@@ -64,6 +64,11 @@ struct NewRig {
 
 }  // namespace
 
+bool was_captured(const ProjectFolder& project) {
+  std::error_code ignored;
+  return std::filesystem::exists(project.in_scan("capture"), ignored);
+}
+
 void read_rig_of(const ProjectFolder& folder, OpenProject& project) {
   project.rig.reset();
   project.start.reset();
@@ -139,10 +144,10 @@ void Service::Implementation::open(const ProjectFolder& folder) {
   if (!project.lock) project.lock = lock_of(folder);
   std::error_code ignored;
   project.scan_complete = std::filesystem::exists(folder.in_scan("scan.toml"), ignored);
+  project.scan_begun = project.scan_complete || was_captured(folder);
   project.stations = read_stations(folder);
   project.exports = exports_of(folder);
   project.reference = reference_of(folder);
-  project.scan_begun = std::filesystem::exists(folder.in_scan("capture"), ignored);
   bool loads = true;
   try {
     const auto versions = std::make_shared<const SurfaceVersions>(read_surface_versions(folder));

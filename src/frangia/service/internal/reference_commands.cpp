@@ -70,7 +70,7 @@ ProjectReference reference_of(const ProjectFolder& project) {
 void Service::Implementation::add_to_reference(std::size_t offset, const std::string& bytes) const {
   const ProjectFolder project = folder();
   require(offset + bytes.size() <= kMostReferenceBytes,
-          "a reference has at most 512 MB; choose a smaller file");
+          "a file has at most 512 MB; choose a smaller one");
   if (offset == 0) {
     make_folder(project.derived);
     std::error_code ignored;

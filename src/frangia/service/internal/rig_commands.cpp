@@ -61,28 +61,31 @@ nlohmann::ordered_json Service::Implementation::restore_rig_before(CommandArgume
   require(!project.scan_begun,
           "the scan has begun with this rig; create a project for another one");
   require_idle();
-  stop_live();
-  restore_rig(project.folder, number);
-  forget_verdicts();
-  reload_rig(project.folder);
-  return Json::object();
+  return started("rig", [this, folder = project.folder, number](const Run& run) {
+    run.stage("files");
+    restore_rig(folder, number);
+    forget_verdicts();
+    reload_rig(folder);
+  });
 }
 
 /// Keeps the rig of the project for other projects.
 nlohmann::ordered_json Service::Implementation::keep_rig_as(CommandArguments& arguments) {
   const std::string name = arguments.text("name");
   arguments.check_all_read();
-  const OpenProject project = opened();
+  check_project_name(name);
   require_idle();
-  rigs_.keep(project.folder, name);
-  refresh_projects();
-  return Json::object();
+  return started("rig", [this, folder = folder(), name](const Run& run) {
+    run.stage("files");
+    rigs_.keep(folder, name);
+    refresh_projects();
+  });
 }
 
 nlohmann::ordered_json Service::Implementation::discard_rig(CommandArguments& arguments) {
   const std::string name = arguments.text("name");
   arguments.check_all_read();
-  rigs_.discard(name, library_.bin() / "rigs");
+  rigs_.discard(name);
   refresh_projects();
   return Json::object();
 }
@@ -92,6 +95,7 @@ void Service::Implementation::forget_verdicts() {
     now.wizard.reset();
     now.axis.reset();
     now.check.reset();
+    now.display.reset();
   });
 }
 

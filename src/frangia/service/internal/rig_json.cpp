@@ -147,6 +147,23 @@ RigJson json_of_check(const ScanCheck& check) {
           {"finding", check.finding}};
 }
 
+RigJson json_of_display(const DisplayMeasurement& display) {
+  return {{"exposure_ms", display.exposure_ms},
+          {"latency_s", display.latency_s},
+          {"delay_s", display.delay_s},
+          {"late_frames", display.late_frames},
+          {"camera_fps", display.camera_fps},
+          {"patterns_per_s", display.patterns_per_s},
+          {"mains_hz", display.mains_hz},
+          {"room_flicker", display.room_flicker},
+          {"exposure_step_ms", display.exposure_step_ms},
+          {"half_light", display.response ? RigJson(display.response->light_of(0.5)) : RigJson()},
+          {"sharpness", display.sharpness},
+          {"white_level", display.white_level},
+          {"dark_zeros", display.dark_zeros},
+          {"findings", display.findings}};
+}
+
 RigJson json_of_wizard(const WizardState& state) {
   const PoseCoverage& coverage = state.coverage;
   RigJson json{

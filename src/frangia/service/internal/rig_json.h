@@ -21,5 +21,6 @@ namespace frangia {
 [[nodiscard]] nlohmann::ordered_json json_of_figures(const RigFigures& figures);
 [[nodiscard]] nlohmann::ordered_json json_of_kept(const std::vector<KeptRig>& kept);
 [[nodiscard]] nlohmann::ordered_json json_of_check(const ScanCheck& check);
+[[nodiscard]] nlohmann::ordered_json json_of_display(const DisplayMeasurement& display);
 
 }  // namespace frangia

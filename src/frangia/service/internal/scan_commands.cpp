@@ -20,6 +20,12 @@ void require_setup_done(const std::vector<ProjectStation>& stations, int setup) 
           "the present setup is not complete; finish its scan before the part is turned over");
 }
 
+/// The frames of a scan that came from elsewhere are not those of this project's devices.
+void require_own_scan(const OpenProject& project) {
+  require(!project.scan_complete || was_captured(project.folder),
+          "this scan was opened, not captured here; create a project to scan with devices");
+}
+
 }  // namespace
 
 nlohmann::ordered_json Service::Implementation::start_scan(CommandArguments& arguments) {
@@ -49,10 +55,10 @@ nlohmann::ordered_json Service::Implementation::start_scan(CommandArguments& arg
   if (const auto angle = arguments.number("table_deg")) setup.table_at_rad = rad_from_deg(*angle);
   arguments.check_all_read();
   require(can_scan, "this project has no rig with devices; create one to scan");
+  require_own_scan(opened());
   require(has_axis || (asked == 1 && wanted == 0),
           "the axis of the turntable is unknown: find it in step Rig, or scan a single station");
-  std::error_code ignored;
-  const bool begun = std::filesystem::exists(project.in_scan("capture"), ignored);
+  const bool begun = was_captured(project);
   if (wanted == present + 1) {
     require_setup_done(stations, present);
     const auto more = planned_stations(asked, wanted);
@@ -98,6 +104,7 @@ nlohmann::ordered_json Service::Implementation::rescan_station(CommandArguments&
   const std::size_t station = arguments.whole("station", 0, before.stations.size() - 1);
   arguments.check_all_read();
   require(before.can_scan, "this project has no rig with devices; create one to scan");
+  require_own_scan(before);
   require(before.stations[station].setup == present_setup(before.stations),
           "the part was turned over since this station was captured; capture it in a new setup");
   require_idle();

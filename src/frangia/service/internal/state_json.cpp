@@ -88,6 +88,7 @@ Json json_of_project(const OpenProject& project, const CommandLines& commands) {
             {"rig_adjustable", is_adjustable(project)},
             {"kept_rigs", json_of_kept(project.kept_rigs)},
             {"check", project.check ? json_of_check(*project.check) : Json()},
+            {"display", project.display ? json_of_display(*project.display) : Json()},
             {"residuals_s", project.residuals_s},
             {"devices", json_of_devices(project.devices)},
             {"live", project.live ? json_of_live(*project.live) : Json()},

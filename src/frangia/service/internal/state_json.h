@@ -8,6 +8,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include "frangia/acquisition/measure_display.h"
 #include "frangia/core/folder_lock.h"
 #include "frangia/devices/find_devices.h"
 #include "frangia/devices/test_devices.h"
@@ -59,7 +60,7 @@ struct OpenProject {
   std::shared_ptr<FolderLock> lock;  ///< against other programs; null where nobody may write
   bool can_scan = false;             ///< its rig names devices
   bool scan_complete = false;        ///< scan.toml exists
-  bool scan_begun = false;           ///< frames were captured: settings are fixed
+  bool scan_begun = false;           ///< it has frames, captured or opened: settings are fixed
   CaptureSettings capture;
   std::optional<Rig> rig;        ///< a calibrated one
   std::optional<Rig> start;      ///< of one that is not calibrated: what is known before
@@ -70,6 +71,7 @@ struct OpenProject {
   std::shared_ptr<CalibrationWizard> wizard;  ///< since a calibration began
   std::optional<FoundAxis> axis;              ///< of the turntable, since it was searched for
   std::optional<ScanCheck> check;             ///< what the devices see before a scan
+  std::optional<DisplayMeasurement> display;  ///< since it was measured
   std::vector<KeptRig> kept_rigs;             ///< that the project had, the newest first
   std::vector<ProjectStation> stations;
   /// Why the scan did not go on: the angle of its turntable is unknown.

@@ -74,12 +74,8 @@ void write_surface_build(const std::filesystem::path& folder,
                          const Reconstruction& result,
                          const std::vector<std::string>& warnings,
                          const Run& run) {
-  std::error_code ignored;
-  std::filesystem::remove_all(folder, ignored);
-  make_folder(folder, Durability::Synced);
+  write_given_surface(folder, result.mesh, run);
   const VersionFiles files{folder, {}};
-  write_mesh(files.surface(), result.mesh, {}, run);
-  sync_to_disk(files.surface());
   write_synced(files.summary(), summary_of(result, warnings));
   if (!result.setup_points.empty()) make_folder(folder / "clouds", Durability::Synced);
   for (std::size_t i = 0; i < result.setup_points.size(); ++i)

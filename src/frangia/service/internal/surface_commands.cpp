@@ -1,4 +1,3 @@
-#include <chrono>
 #include <filesystem>
 #include <string>
 #include <utility>
@@ -10,15 +9,11 @@
 #include "frangia/core/make_folder.h"
 #include "frangia/core/sync_to_disk.h"
 #include "frangia/service/internal/implementation.h"
+#include "frangia/service/internal/seconds_since_1970.h"
 #include "frangia/service/internal/surface_build.h"
 
 namespace frangia {
 namespace {
-
-std::int64_t built_now_s() {
-  const auto since = std::chrono::system_clock::now().time_since_epoch();
-  return std::chrono::duration_cast<std::chrono::seconds>(since).count();
-}
 
 /// A file or folder that is removed unless what names it was committed, or may have been.
 class Uncommitted {
@@ -228,7 +223,7 @@ void Service::Implementation::add_version(
   write(fresh.path());
   SurfaceVersion version{.number = next_version_number(project, versions),
                          .previous = versions.current,
-                         .built_s = built_now_s()};
+                         .built_s = seconds_since_1970()};
   ++versions.revision;
   // Read as it will be read from now on: what cannot be read is not committed.
   SurfaceModel next({fresh.path(), {}}, version.number, versions.revision, run);

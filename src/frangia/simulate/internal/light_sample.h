@@ -59,8 +59,7 @@ struct SurfacePoint {
 /// Traces one ray of the camera.
 ///
 /// @missing  all values are 0 where the ray hits nothing; only the albedo is set in shadow and
-/// outside
-///          of the projector's field
+///          outside of the projector's field
 [[nodiscard]] LightSample sample_light(const SimulatedScene& scene,
                                        const Eigen::Isometry3d& rig_from_object,
                                        const Eigen::Vector2d& ray);

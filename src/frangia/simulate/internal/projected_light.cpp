@@ -164,13 +164,18 @@ double dithered_light(const Pattern& pattern,
 double frame_light(const Pattern& pattern,
                    int frame,
                    const Eigen::Vector2d& at,
-                   const Image<float>* picture,
+                   const Shot& shot,
                    const SimulatedScene& scene) {
   const double contrast = scene.options.contrast;
-  const double nominal = picture != nullptr
-                             ? 1.0 - contrast + 2.0 * contrast * light_of(*picture, at)
-                             : requested_light(pattern, frame, at, contrast);
-  return displayed_light(nominal, scene);
+  if (shot.picture == nullptr)
+    return displayed_light(requested_light(pattern, frame, at, contrast), scene);
+  const auto shown = [&](const Image<float>& picture) {
+    return displayed_light(1.0 - contrast + 2.0 * contrast * light_of(picture, at), scene);
+  };
+  double light = shown(*shot.picture);
+  for (const auto& [picture, share] : shot.before)
+    light += share * (shown(*picture) - shown(*shot.picture));
+  return light;
 }
 
 }  // namespace frangia

@@ -4,8 +4,8 @@
 
 #include <Eigen/Core>
 
-#include "frangia/core/image.h"
 #include "frangia/pattern/pattern.h"
+#include "frangia/simulate/internal/shot.h"
 #include "frangia/simulate/internal/simulated_scene.h"
 
 namespace frangia {
@@ -29,11 +29,12 @@ namespace frangia {
                                     const std::complex<double>& shift,
                                     const SimulatedScene& scene);
 
-/// Light of a frame that is not a fringe at a projector coordinate: of `picture` unless it is null.
+/// Light of a frame that is not a fringe at a projector coordinate: of its pictures where it
+/// has any.
 [[nodiscard]] double frame_light(const Pattern& pattern,
                                  int frame,
                                  const Eigen::Vector2d& at,
-                                 const Image<float>* picture,
+                                 const Shot& shot,
                                  const SimulatedScene& scene);
 
 }  // namespace frangia

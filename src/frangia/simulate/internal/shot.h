@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cstdint>
+#include <utility>
+#include <vector>
 
 #include "frangia/core/image.h"
 
@@ -16,8 +18,11 @@ struct Shot {
   double lamp = 0.0;          ///< ambient light of another lamp, as `SimulateOptions::ambient`
   double gain = 1.0;          ///< factor on the scene's counts per electron
   double black_counts = 0.0;  ///< added to all pixels
+  int clips_at_counts = 0;    ///< no pixel has more; 0: no such limit
   /// Picture of a digital projector that replaces the pattern, linear, 0 to 1.
   const Image<float>* picture = nullptr;
+  /// Pictures that a part of the exposure saw instead: a share of it each.
+  std::vector<std::pair<const Image<float>*, double>> before = {};
 };
 
 }  // namespace frangia

@@ -1,8 +1,10 @@
 #include "frangia/simulate/internal/simulated_bench.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
+#include "frangia/core/angles.h"
 #include "frangia/core/parallel.h"
 #include "frangia/core/random.h"
 
@@ -16,6 +18,45 @@ Pattern pattern_on(const SimulatedBench& bench) {
   if (bench.line_light) shown.kind = PatternKind::Line;
   shown.fringes_per_degree = bench.fringes_per_degree;
   return shown;
+}
+
+const Image<float>& lit(const Image<float>& picture) {
+  static const Image<float> kDark(2, 2, 0.0F);
+  return picture.empty() ? kDark : picture;
+}
+
+/// The pictures that are on the screen during an exposure; the one that most of it sees is the
+/// picture.
+void add_pictures(const SimulatedBench& bench, Shot& shot) {
+  const double begin_s = bench.clock_s;
+  const double end_s = begin_s + 1e-3 * bench.camera.exposure_ms;
+  double most = 0.0;
+  for (std::size_t i = 0; i < bench.pictures.size(); ++i) {
+    const TimedPicture& one = bench.pictures[i];
+    const double from_s = i == 0 ? begin_s : std::max(begin_s, one.from_s);
+    const double to_s =
+        i + 1 < bench.pictures.size() ? std::min(end_s, bench.pictures[i + 1].from_s) : end_s;
+    const double share = std::max(0.0, to_s - from_s) / (end_s - begin_s);
+    if (share == 0.0) continue;
+    shot.before.emplace_back(&lit(one.picture), share);
+    if (share <= most) continue;
+    most = share;
+    shot.picture = &lit(one.picture);
+    shot.projector = one.picture.empty() ? 0.0 : 1.0;
+  }
+  if (shot.before.size() > 1) shot.projector = 1.0;
+  std::erase_if(shot.before, [&](const auto& one) { return one.first == shot.picture; });
+}
+
+/// Light of the room during an exposure, over its mean: that of a lamp that flickers with twice
+/// the frequency of the mains.
+double room_light(const SimulatedBench& bench) {
+  if (bench.mains_hz == 0.0) return 1.0;
+  const double exposure_s = 1e-3 * bench.camera.exposure_ms;
+  const double half = kTwoPi * bench.mains_hz * exposure_s;
+  const double middle_s = bench.clock_s + 0.5 * exposure_s;
+  return 1.0 + bench.room_flicker * std::sin(half) / half *
+                   std::cos(2.0 * kTwoPi * bench.mains_hz * middle_s);
 }
 
 Shot shot_of(const SimulatedBench& bench, const FrameLabel& label, const FrameFaults& faults) {
@@ -33,13 +74,14 @@ Shot shot_of(const SimulatedBench& bench, const FrameLabel& label, const FrameFa
   shot.cos_shift = std::cos(shift);
   shot.sin_shift = std::sin(shift);
   const bool digital = !bench.scene->rig.projector.is_angular();
-  if (digital) shot.picture = &bench.picture;
-  const bool is_on =
-      bench.line_light || (bench.fringe_light && !(digital && bench.picture.empty()));
-  shot.projector = is_on ? 1.0 : 0.0;
+  if (digital) add_pictures(bench, shot);
+  if (!bench.line_light && !bench.fringe_light) shot.projector = 0.0;
+  if (bench.line_light) shot.projector = 1.0;
+  shot.lamp = bench.scene->options.ambient * (room_light(bench) - 1.0);
   shot.light = faults.light * bench.camera.exposure_ms / bench.reference_exposure_ms;
   shot.gain = std::pow(10.0, bench.camera.gain_db / 20.0);
   shot.black_counts = bench.camera.black_level_counts;
+  shot.clips_at_counts = bench.clips_at_counts;
   return shot;
 }
 
@@ -75,9 +117,7 @@ Frame BenchCamera::capture(const SimulatedBench& bench,
     light_.reset();  // frees the large cache before the next one is made
     light_ = std::make_shared<Light>(bench, label.view);
   }
-  std::vector<Shot> shots{shot_of(bench, label, faults)};
-  static const Image<float> kDark(2, 2, 0.0F);
-  if (shots.front().picture != nullptr && bench.picture.empty()) shots.front().picture = &kDark;
+  const std::vector<Shot> shots{shot_of(bench, label, faults)};
   const int width = bench.scene->rays.width();
   const int height = bench.scene->rays.height();
   FrameStack stack{pattern_on(bench), {}, bench.scene->known_rig.reference().white_level};

@@ -13,8 +13,15 @@
 
 namespace frangia {
 
+/// A picture of the digital projector, and when it appears on the screen.
+struct TimedPicture {
+  double from_s = 0.0;   ///< on the clock of the bench
+  Image<float> picture;  ///< linear; empty: dark
+};
+
 /// The physical state of the simulated rig, which all simulated drivers share. A frame depends only
-/// on this state and on its label, so that an interrupted scan continues with the same bytes.
+/// on this state and on its label, so that an interrupted scan continues with the same bytes; with
+/// a latency or a flicker also on the clock.
 struct SimulatedBench {
   std::shared_ptr<const SimulatedScene> scene;  ///< null until a simulated camera is opened
   std::optional<SimulatedBoard> board;          ///< stands in place of the part
@@ -22,10 +29,17 @@ struct SimulatedBench {
   /// empty: it stays.
   std::vector<Eigen::Isometry3d> moves;
 
-  double table_rad = 0.0;           ///< true angle of the turntable top
-  bool fringe_light = true;         ///< the lamp, or the laser through the interferometer
-  bool line_light = false;          ///< the laser sheet
-  Image<float> picture;             ///< shown by a digital projector, linear; empty: dark
+  double table_rad = 0.0;    ///< true angle of the turntable top
+  bool fringe_light = true;  ///< the lamp, or the laser through the interferometer
+  bool line_light = false;   ///< the laser sheet
+  /// Advances by exposures and by the delays of the display alone, not by real time.
+  double clock_s = 0.0;
+  /// Of the digital projector, in the order of their times: the one on the screen, and those that
+  /// are under way. The first one is there from the beginning on.
+  std::vector<TimedPicture> pictures{{}};
+  double mains_hz = 0.0;            ///< of the room light, which flickers twice as fast; 0: steady
+  double room_flicker = 0.0;        ///< amplitude of the room light over its mean
+  int clips_at_counts = 0;          ///< what the sensor's electronics give at most; 0: no limit
   double fringes_per_degree = 1.0;  ///< of the interferometer
   double piezo_rad = 0.0;           ///< true phase of the interferometer's fringes
   double drift_rad_per_view = 0.0;

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <deque>
 #include <filesystem>
 #include <map>
 #include <string>
@@ -38,6 +39,7 @@ SimulateOptions read_options(DeviceSettings& settings, const Rig& rig) {
     options.read_e = e_per_count * std::sqrt(read2_counts);
   }
   options.ambient = settings.number_or("ambient", options.ambient);
+  options.camera_blur_px = settings.number_or("camera_blur_px", options.camera_blur_px);
   options.contrast = settings.number_or("contrast", options.contrast);
   options.gloss = settings.number_or("gloss", options.gloss);
   options.shininess = settings.number_or("shininess", options.shininess);
@@ -101,6 +103,7 @@ Rig true_rig(DeviceSettings& settings, const Rig& known) {
       truth.reference().model.height_px != known.reference().model.height_px)
     settings.fail("true_rig", "has a camera of another size; correct [camera] size_px");
   truth.reference().white_level = known.reference().white_level;
+  truth.projector.response = known.projector.response;  // which its display compensates
   return truth;
 }
 
@@ -160,14 +163,25 @@ class SimulatedCamera final : public CameraDevice {
       : bench_(std::move(bench)),
         faults_(read_faults(settings, {"lost", "incomplete", "saturated", "motion", "unplugged"})),
         real_time_(settings.flag_or("real_time", false)),
+        late_frames_(static_cast<std::size_t>(settings.integer_or("late_frames", 0, 0, 100))),
+        skip_frames_(static_cast<std::size_t>(settings.integer_or("skip_frames", 0, 0, 100))),
         scenes_(settings, true_rig(settings, rig), *bench_),
         reference_exposure_ms_(settings.number_or("reference_exposure_ms", 10.0, 1e-3, 1e5)) {
-    if (rig.reference().name.empty()) bench_->scene = scenes_.of(0);  // of the reference camera
+    const double mains_hz = settings.number_or("mains_hz", 0.0, 0.0, 1000.0);
+    const double room_flicker = settings.number_or("room_flicker", 0.0, 0.0, 1.0);
+    const int clips_at_counts = settings.integer_or("clips_at_counts", 0, 0, 65535);
+    if (rig.reference().name.empty()) {  // it sets the bench for the others
+      bench_->scene = scenes_.of(0);
+      bench_->mains_hz = mains_hz;
+      bench_->room_flicker = room_flicker;
+      bench_->clips_at_counts = clips_at_counts;
+    }
     info_.width_px = rig.reference().model.width_px;
     info_.height_px = rig.reference().model.height_px;
     info_.white_level = scenes_.of(0)->known_rig.reference().white_level;
     info_.min_exposure_ms = 1e-3;
     info_.max_gain_db = 24.0;
+    info_.skip_frames = static_cast<int>(skip_frames_);
   }
 
   [[nodiscard]] std::string name() const override { return "simulated camera"; }
@@ -203,8 +217,7 @@ class SimulatedCamera final : public CameraDevice {
     captured.settings = bench_->camera;
     captured.id = ++taken_;
     if (real_time_) Deadline(deadline).sleep(1e-3 * bench_->camera.exposure_ms);
-    captured.timestamp_s =
-        std::chrono::duration<double>(Deadline::Clock::now().time_since_epoch()).count();
+    captured.timestamp_s = bench_->clock_s;
     if (faults_.triggers(words("incomplete"))) {
       captured.complete = false;
       captured.incomplete_cause = "packets were lost";
@@ -216,14 +229,24 @@ class SimulatedCamera final : public CameraDevice {
     SimulatedBench seen = *bench_;
     seen.scene = scenes_.of(label.setup);
     seen.reference_exposure_ms = reference_exposure_ms_;
-    captured.frame = camera_.capture(seen, label, faults);
+    for (std::size_t i = 0; i <= skip_frames_; ++i) {
+      seen.pictures = bench_->pictures;
+      seen.clock_s = bench_->clock_s;
+      under_way_.push_back(camera_.capture(seen, label, faults));
+      bench_->clock_s += 1e-3 * bench_->camera.exposure_ms;
+      if (under_way_.size() > late_frames_ + 1) under_way_.pop_front();
+    }
+    captured.frame = under_way_.front();
     return captured;
   }
 
  private:
   BenchPtr bench_;
   FaultScript faults_;
-  bool real_time_;  ///< an exposure takes its nominal time
+  bool real_time_;           ///< an exposure takes its nominal time
+  std::size_t late_frames_;  ///< exposures until a frame is delivered
+  std::size_t skip_frames_;  ///< frames that a capture drops
+  std::deque<Frame> under_way_;
   SceneOfSetups scenes_;
   double reference_exposure_ms_;
   CameraInfo info_;

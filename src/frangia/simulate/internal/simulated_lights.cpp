@@ -1,4 +1,5 @@
 #include <array>
+#include <cmath>
 #include <utility>
 
 #include <fmt/format.h>
@@ -18,6 +19,10 @@ class SimulatedDisplay final : public PatternDisplay {
     const std::array<int, 2> size = image_size(layout_, pinhole->width_px, pinhole->height_px);
     info_.width_px = size[0];
     info_.height_px = size[1];
+    if (const double rate_hz = settings.number_or("refresh_hz", 0.0, 0.0, 1000.0); rate_hz > 0.0)
+      info_.refresh_period_ms = 1000.0 / rate_hz;
+    latency_s_ = 1e-3 * settings.number_or("latency_ms", 0.0, 0.0, 10'000.0);
+    delay_s_ = settings.number_or("delay_s", 0.0, 0.0, 10.0);
   }
 
   [[nodiscard]] std::string name() const override { return "simulated display"; }
@@ -25,12 +30,22 @@ class SimulatedDisplay final : public PatternDisplay {
   [[nodiscard]] std::string test(const Deadline& /*deadline*/) override {
     return fmt::format("{} x {} pixels", info_.width_px, info_.height_px);
   }
-  void make_safe() noexcept override { bench_->picture = {}; }
+  void make_safe() noexcept override { bench_->pictures.assign(1, {}); }
   void show(const Image<float>& light, const Deadline& deadline) override {
     deadline.check();
-    bench_->picture = layout_ == PixelLayout::Square ? light : on_chip(light);
+    const double period_s = 1e-3 * info_.refresh_period_ms;
+    double& clock_s = bench_->clock_s;
+    if (period_s > 0.0) clock_s = period_s * std::ceil(clock_s / period_s);
+    auto& pictures = bench_->pictures;
+    pictures.push_back(
+        {clock_s + latency_s_, layout_ == PixelLayout::Square ? light : on_chip(light)});
+    clock_s += delay_s_;
+    while (pictures.size() > 1 && pictures[1].from_s <= clock_s)
+      pictures.erase(pictures.begin());
   }
-  void show_dark(const Deadline& /*deadline*/) override { bench_->picture = {}; }
+  void show_dark(const Deadline& /*deadline*/) override { bench_->pictures.assign(1, {}); }
+  [[nodiscard]] double delay_s() const override { return delay_s_; }
+  void set_delay(double seconds) override { delay_s_ = seconds; }
 
  private:
   /// The light at every place of a chip with diamond pixels; each pixel lights two places of its
@@ -49,6 +64,8 @@ class SimulatedDisplay final : public PatternDisplay {
 
   BenchPtr bench_;
   DisplayInfo info_;
+  double latency_s_ = 0.0;  ///< from the buffer swap until a picture is on the screen
+  double delay_s_ = 0.0;
   PixelLayout layout_ = PixelLayout::Square;
 };
 

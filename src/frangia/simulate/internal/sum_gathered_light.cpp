@@ -56,8 +56,7 @@ void GatheredLightSum::add_to(std::vector<double>& light,
     for (std::size_t i = 0; i < light.size(); ++i) {
       light[i] +=
           shots_[i].projector * reflected *
-          frame_light(
-              pattern_, static_cast<int>(i), cell.at.cast<double>(), shots_[i].picture, scene_);
+          frame_light(pattern_, static_cast<int>(i), cell.at.cast<double>(), shots_[i], scene_);
     }
   }
 }

@@ -74,7 +74,9 @@ int counts_of(double light,
     light = (electrons + sigma * normal_from(hash(shot.stream, pixel))) / options.full_well_e;
   }
   const double counts = std::min(light, 1.0) * shot.gain * white_level + shot.black_counts;
-  return static_cast<int>(std::lround(std::clamp(counts, 0.0, static_cast<double>(white_level))));
+  const int most =
+      shot.clips_at_counts > 0 ? std::min(white_level, shot.clips_at_counts) : white_level;
+  return static_cast<int>(std::lround(std::clamp(counts, 0.0, static_cast<double>(most))));
 }
 
 }  // namespace
@@ -187,8 +189,7 @@ void ViewRenderer::mean_light(const Pattern& pattern,
     const Eigen::Vector2d at(sample.u, sample.v);
     if (pattern.kind != PatternKind::Fringe || shots.front().picture != nullptr) {
       for (std::size_t i = 0; i < light.size(); ++i) {
-        const double shown =
-            frame_light(pattern, static_cast<int>(i), at, shots[i].picture, scene_);
+        const double shown = frame_light(pattern, static_cast<int>(i), at, shots[i], scene_);
         light[i] += other(shots[i]) + shots[i].projector * reflected * shown;
       }
       continue;
