@@ -38,6 +38,8 @@ nlohmann::ordered_json json_of(const PoseExplanation& found) {
   json["turned_sigma_deg"] = deg_from_rad(found.turned_sigma_rad);
   json["scale"] = found.scale;
   json["terms"] = found.terms;
+  json["time_constant"] = found.time_constant;
+  json["times_assumed"] = found.times_assumed;
   json["unexplained_mm"] = found.unexplained_mm;
   json["text"] = found.text;
   json["remedy"] = found.remedy;

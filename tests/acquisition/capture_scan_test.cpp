@@ -5,6 +5,7 @@
 
 #include <sys/resource.h>
 
+#include "frangia/dataset/capture_times.h"
 #include "frangia/dataset/read_frames.h"
 #include "frangia/inspect/surface_error.h"
 #include "frangia/reconstruct/reconstruct.h"
@@ -198,6 +199,20 @@ TEST_F(CaptureScan, SetThatShowsMotionIsTakenAgainAndItsFramesKept) {
   EXPECT_EQ(report.set_retakes, 1U);
   EXPECT_TRUE(std::filesystem::exists(plan_.folder / "views/001/rejected/0-fringe-3.png"));
   EXPECT_TRUE(std::filesystem::exists(plan_.folder / "views/001/fringe-3.png"));
+}
+
+TEST_F(CaptureScan, StatesWhenEachViewWasTakenAcrossSessions) {
+  stop_at_ = 0.6;
+  EXPECT_ANY_THROW(static_cast<void>(capture()));
+  stop_ = std::stop_source();
+  stop_at_ = 2.0;
+  static_cast<void>(capture());
+  const Scan scan = read_scan(plan_.folder);
+  const std::vector<double> times_s = read_capture_times(scan);
+  ASSERT_EQ(times_s.size(), scan.views.size());
+  EXPECT_GE(times_s.front(), 0.0);
+  for (std::size_t i = 1; i < times_s.size(); ++i)
+    EXPECT_GT(times_s[i], times_s[i - 1]);
 }
 
 TEST_F(CaptureScan, StepsOfThePiezoAreCorrectedAfterTheFirstSet) {

@@ -67,6 +67,41 @@ TEST(ExplainPoses, CorrectsADriftOfTheProjector) {
   EXPECT_LT(out.error_mm, 0.025);
 }
 
+TEST(ExplainPoses, CorrectsTheWarmUpOfAProjector) {
+  for (const double constant_views : {1.2, 3.0}) {
+    FaultyScan scan(8);
+    scan.warm_up_projector(rad_from_deg(0.05), 0.1, constant_views);
+    const Registered out = registered(scan, ball_bar());
+    const PoseExplanation& found = out.report.explanation;
+    EXPECT_EQ(found.best, PoseCause::RigDrift) << found.text;
+    EXPECT_TRUE(found.decided) << found.text;
+    EXPECT_TRUE(out.report.outliers.empty());
+    EXPECT_LT(out.error_mm, 0.012) << found.text;
+    EXPECT_LT(out.error.share_beyond, 0.05) << out.error.over_sigma;
+  }
+}
+
+TEST(ExplainPoses, FollowsADriftByTheTimesOfTheViews) {
+  FaultyScan scan(8);
+  // Even in time, with a pause that the order of the views does not show.
+  scan.times_s = {0.0, 20.0, 40.0, 60.0, 600.0, 620.0, 640.0, 660.0};
+  scan.move_projector(rad_from_deg(0.05), 0.1, [&](std::size_t view) {
+    return scan.times_s[view] / scan.times_s.back();
+  });
+  const Registered out = registered(scan, ball_bar());
+  const PoseExplanation& found = out.report.explanation;
+  EXPECT_EQ(found.best, PoseCause::RigDrift) << found.text;
+  EXPECT_TRUE(found.decided) << found.text;
+  EXPECT_LT(out.error_mm, 0.012) << found.text;
+  EXPECT_EQ(found.text.find("evenly spaced in time"), std::string::npos) << found.text;
+  scan.times_s.clear();
+  const Registered without = registered(scan, ball_bar());
+  const std::string& text = without.report.explanation.text;
+  EXPECT_TRUE(without.report.explanation.best != PoseCause::RigDrift ||
+              text.find("evenly spaced in time") != std::string::npos)
+      << text;
+}
+
 TEST(ExplainPoses, NamesARigThatIsNotAsStated) {
   FaultyScan scan(8);
   scan.drift_projector(rad_from_deg(0.1), 0.5, true);
@@ -161,6 +196,42 @@ TEST(ExplainPoses, FindsAnglesInAnotherProportionThoughTheyAreStatedAsExact) {
   EXPECT_EQ(found.best, PoseCause::AnglesScaled) << found.text;
   EXPECT_NEAR(found.scale, 1.02, 2e-4) << found.text;
   EXPECT_LT(out.error_mm, 0.01);
+}
+
+TEST(ExplainPoses, NamesAnglesInAnotherProportionThoughAnyAnglesWouldFit) {
+  FaultyScan scan(8);
+  scan.scale_angles(0.98);
+  const Registered out = registered(scan, bracket());
+  const PoseExplanation& found = out.report.explanation;
+  EXPECT_EQ(found.best, PoseCause::AnglesScaled) << found.text;
+  EXPECT_TRUE(found.decided) << found.text;
+  EXPECT_NEAR(found.scale, 0.98, 2e-4) << found.text;
+  EXPECT_LT(out.error_mm, 0.01);
+}
+
+TEST(ExplainPoses, NamesALostStepThoughAnyAnglesWouldFit) {
+  FaultyScan scan(8);
+  for (std::size_t view = 4; view < 8; ++view)
+    scan.views[view].angle_rad -= rad_from_deg(2.8);
+  const Registered out = registered(scan, ball_bar());
+  const PoseExplanation& found = out.report.explanation;
+  EXPECT_EQ(found.best, PoseCause::Turned) << found.text;
+  EXPECT_TRUE(found.decided) << found.text;
+  EXPECT_EQ(found.views, std::vector<std::size_t>{4});
+  EXPECT_NEAR(std::abs(found.turned_rad), rad_from_deg(2.8), rad_from_deg(0.02)) << found.text;
+  EXPECT_LT(out.error_mm, 0.01);
+}
+
+TEST(ExplainPoses, CountsInSigmaAMoveThatTheScatterOfThePairsHides) {
+  for (const int views : {6, 8}) {
+    FaultyScan scan(views);
+    scan.seed = static_cast<std::uint32_t>(views);
+    const double way_mm = views == 6 ? 0.1 : 0.03;
+    scan.slide(scan.views.size() / 2, way_mm * Eigen::Vector3d(0.8, 0.6, 0.0));
+    const Registered out = registered(scan, bracket());
+    EXPECT_LT(out.error.share_beyond, 0.05)
+        << out.error.rms_mm << " " << out.error.over_sigma << out.report.explanation.text;
+  }
 }
 
 TEST(ExplainPoses, AdvisesNoRefinementOfARigThatWasRefined) {

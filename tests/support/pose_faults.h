@@ -42,6 +42,7 @@ struct FaultyScan {
   double phase_sigma_rad = 0.008;
   std::uint32_t seed = 1;
   std::vector<double> stated_angles_rad;
+  std::vector<double> times_s;  ///< as the stations state them; empty: they do not
   std::vector<TrueView> views;
 
   /// Views all around on the digital rig with `divisor` times fewer pixels on a side.
@@ -57,6 +58,8 @@ struct FaultyScan {
     std::vector<Station> all;
     for (std::size_t i = 0; i < stated_angles_rad.size(); ++i)
       all.push_back({stated_angles_rad[i], std::to_string(i + 1)});
+    for (std::size_t i = 0; i < times_s.size(); ++i)
+      all[i].time_s = times_s[i];
     return all;
   }
   [[nodiscard]] TurntableStations given(const std::vector<Station>& all) const {
@@ -99,18 +102,32 @@ struct FaultyScan {
       if (&view != &views.front()) view.angle_rad += angle_sigma_rad * noise(random);
     }
   }
-  /// The projector turns and shifts by a share of the given motion that grows from 0 to 1.
-  void drift_projector(double turn_rad, double shift_mm, bool all_through = false) {
+  /// The projector turns and shifts by a share of the given motion, which each view has of its own.
+  void move_projector(double turn_rad,
+                      double shift_mm,
+                      const std::function<double(std::size_t)>& share_of) {
     const Eigen::Vector3d axis = Eigen::Vector3d(0.6, 1.0, 0.3).normalized();
     const Eigen::Vector3d way = Eigen::Vector3d(0.8, 0.3, 0.5).normalized();
     for (std::size_t i = 0; i < views.size(); ++i) {
-      const double share =
-          all_through ? 1.0 : static_cast<double>(i) / static_cast<double>(views.size() - 1);
+      const double share = share_of(i);
       Projector& projector = views[i].rig.projector;
       projector.rotation =
           Eigen::AngleAxisd(share * turn_rad, axis).toRotationMatrix() * projector.rotation;
       projector.position_mm += share * shift_mm * way;
     }
+  }
+  /// By a share that grows from 0 to 1.
+  void drift_projector(double turn_rad, double shift_mm, bool all_through = false) {
+    const auto last = static_cast<double>(views.size() - 1);
+    move_projector(turn_rad, shift_mm, [&](std::size_t view) {
+      return all_through ? 1.0 : static_cast<double>(view) / last;
+    });
+  }
+  /// By a share that approaches 1 as the projector warms up.
+  void warm_up_projector(double turn_rad, double shift_mm, double constant_views) {
+    move_projector(turn_rad, shift_mm, [&](std::size_t view) {
+      return 1.0 - std::exp(-static_cast<double>(view) / constant_views);
+    });
   }
   /// The table's top tilts and shifts at random in each view.
   void wobble(double tilt_rad, double shift_mm) {

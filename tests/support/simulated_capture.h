@@ -74,7 +74,7 @@ class SimulatedCapture : public ::testing::Test {
   }
 
   /// The bytes of all images and of the scan's own text, by name. The manifest is without the moves
-  /// of the table, which depend on the number of sessions.
+  /// of the table, which depend on the number of sessions, and without times.
   [[nodiscard]] std::map<std::string, std::string> bytes() const {
     std::map<std::string, std::string> all;
     for (const auto& entry : std::filesystem::recursive_directory_iterator(plan_.folder)) {
@@ -82,8 +82,10 @@ class SimulatedCapture : public ::testing::Test {
       all[std::filesystem::relative(entry.path(), plan_.folder).string()] = text_of(entry.path());
     }
     std::istringstream lines(std::exchange(all["capture/manifest.txt"], {}));
-    for (std::string line; std::getline(lines, line);)
-      if (!line.starts_with("table ")) all["capture/manifest.txt"] += line + "\n";
+    for (std::string line; std::getline(lines, line);) {
+      if (line.starts_with("table ") || line.starts_with("began ")) continue;
+      all["capture/manifest.txt"] += line.substr(0, line.find(" at=")) + "\n";
+    }
     return all;
   }
 

@@ -4,12 +4,12 @@
 
 #include <fmt/format.h>
 
-#include "frangia/acquisition/frame_checksums.h"
 #include "frangia/core/crc32.h"
 #include "frangia/core/error.h"
 #include "frangia/core/lowercase_extension.h"
 #include "frangia/core/read_regular_file.h"
 #include "frangia/dataset/scan_folder.h"
+#include "frangia/dataset/stored_frames.h"
 #include "frangia/report/inspection_plan.h"
 
 namespace frangia {
@@ -71,13 +71,13 @@ NamedFiles inputs_of(const BatchScan& scan) {
 }
 
 std::string differing_frame(const BatchScan& scan) {
-  const auto checksums = read_frame_checksums(scan.folder);
-  if (checksums.empty()) return {};
+  const auto stored = read_stored_frames(scan.folder);
+  if (stored.empty()) return {};
   for (const auto& [name, frame] : inputs_of(scan)) {
-    const auto known = checksums.find(name);
-    if (known == checksums.end()) continue;
+    const auto known = stored.find(name);
+    if (known == stored.end()) continue;
     try {
-      if (crc32(read_regular_file(frame)) == known->second) continue;
+      if (crc32(read_regular_file(frame)) == known->second.checksum) continue;
     } catch (const Error& error) {
       return error.what();
     }

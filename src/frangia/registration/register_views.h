@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "frangia/core/angles.h"
+#include "frangia/core/missing.h"
 #include "frangia/core/run.h"
 #include "frangia/pattern/pattern.h"
 #include "frangia/registration/registration_report.h"
@@ -61,9 +62,11 @@ struct RegisterOptions {
 
 /// One position of the turntable.
 struct Station {
-  double angle_rad = 0.0;  ///< commanded
-  std::string name;        ///< for warnings; empty is its number
-  std::size_t setup = 0;   ///< the part was turned over or tilted between setups
+  double angle_rad = 0.0;    ///< commanded
+  std::string name;          ///< for warnings; empty is its number
+  std::size_t setup = 0;     ///< the part was turned over or tilted between setups
+  double time_s = kMissing;  ///< when its frames were taken, since the scan began; missing: the
+                             ///< stations are taken for even in time
 };
 
 /// The turntable as the rig gives it, and its stations, one a view.

@@ -1,5 +1,7 @@
 #include "frangia/acquisition/internal/capture_manifest.h"
 
+#include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <sstream>
 #include <utility>
@@ -22,6 +24,11 @@ std::istringstream value_of(const std::string& word, const std::string& key) {
   return std::istringstream(is_it ? word.substr(key.size() + 1) : std::string());
 }
 
+double seconds_since_1970() {
+  const std::chrono::duration<double> time = std::chrono::system_clock::now().time_since_epoch();
+  return time.count();
+}
+
 std::string plan_line(const std::string& name, std::uint32_t checksum) {
   return fmt::format("plan {} {:08x}", name, checksum);
 }
@@ -32,11 +39,18 @@ void CaptureManifest::begin(const std::filesystem::path& file, const PlanChecksu
   DurableLog log(file);
   for (const auto& [name, checksum] : plan)
     log.append(plan_line(name, checksum));
+  log.append(fmt::format("began {:.3f}", seconds_since_1970()));
+}
+
+double CaptureManifest::seconds_since_begin() const {
+  const std::chrono::duration<double> open = Clock::now() - opened_at_;
+  return std::max(0.0, opened_s_ - began_s_) + open.count();
 }
 
 CaptureManifest::CaptureManifest(std::filesystem::path folder)
     : folder_(std::move(folder)),
-      log_(path_below(folder_, std::filesystem::path("capture") / kFileName)) {
+      log_(path_below(folder_, std::filesystem::path("capture") / kFileName)),
+      opened_s_(seconds_since_1970()) {
   std::size_t number = 0;
   for (const LogLine& line : log_.lines()) {
     ++number;
@@ -63,6 +77,8 @@ void CaptureManifest::read_line(const std::string& line, std::size_t number) {
   } else if (kind == "exposures") {
     exposures_ms_.assign(std::istream_iterator<double>(words), {});
     known = !exposures_ms_.empty();
+  } else if (kind == "began") {
+    known = static_cast<bool>(words >> began_s_);
   } else if (kind == "plan") {
     std::string name;
     std::uint32_t checksum = 0;
@@ -86,6 +102,7 @@ bool CaptureManifest::read_frame(std::istream& words) {
   if (!words || !(value_of(attempts, "attempts") >> frame.attempts) ||
       !(value_of(scale, "scale") >> frame.scale))
     return false;
+  if (std::string at; words >> at) value_of(at, "at") >> frame.at_s;
   frames_[name] = frame;
   return true;
 }
@@ -136,12 +153,13 @@ void CaptureManifest::store(const std::string& file,
 }
 
 void CaptureManifest::append(const std::string& file, const ManifestFrame& frame) {
-  log_.append(fmt::format("frame {} {:08x} {} attempts={} scale={}",
+  log_.append(fmt::format("frame {} {:08x} {} attempts={} scale={}{}",
                           file,
                           frame.checksum,
                           frame.bytes,
                           frame.attempts,
-                          frame.scale));
+                          frame.scale,
+                          std::isnan(frame.at_s) ? "" : fmt::format(" at={:.3f}", frame.at_s)));
 }
 
 const ManifestFrame* CaptureManifest::find(const std::string& file) const {

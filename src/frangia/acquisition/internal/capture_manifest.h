@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -11,6 +12,8 @@
 #include <vector>
 
 #include "frangia/core/durable_log.h"
+#include "frangia/core/missing.h"
+#include "frangia/dataset/stored_frames.h"
 
 namespace frangia {
 
@@ -18,8 +21,9 @@ namespace frangia {
 struct ManifestFrame {
   std::uint32_t checksum = 0;  ///< CRC-32 of the file
   std::size_t bytes = 0;
-  int attempts = 1;    ///< exposures until the frame was complete
-  double scale = 1.0;  ///< of the shifts of its set
+  int attempts = 1;        ///< exposures until the frame was complete
+  double scale = 1.0;      ///< of the shifts of its set
+  double at_s = kMissing;  ///< when it was taken, since the scan began
 };
 
 /// Outcome of a complete set: all frames of one pattern in one view.
@@ -41,7 +45,8 @@ struct TableRecord {
 ///     plan scan.toml 07dc8e00 crc=...
 ///     table moving 45 crc=...
 ///     table at 45 crc=...
-///     frame views/000/fringe-0.png 1c291ca3 184211 attempts=1 scale=1 crc=...
+///     began 1795734510.25 crc=...
+///     frame views/000/fringe-0.png 1c291ca3 184211 attempts=1 scale=1 at=12.5 crc=...
 ///     set views/000/fringe 0 good scale=0.952 crc=...
 ///     exposures 2.5 10 crc=...
 ///
@@ -49,7 +54,7 @@ struct TableRecord {
 /// @errors   Error(File) when it cannot be written, Error(Input) that names the line
 class CaptureManifest {
  public:
-  static constexpr const char* kFileName = "manifest.txt";
+  static constexpr const char* kFileName = kManifestName;
   /// CRC-32 of each file of the plan, without the name of the scan.
   using PlanChecksums = std::map<std::string, std::uint32_t>;
 
@@ -76,6 +81,10 @@ class CaptureManifest {
   void add_table_move(double target_deg);
   void add_table_at(double angle_deg);
 
+  /// Time since the scan began, in this session or an earlier one.
+  ///
+  /// @missing  NaN for a scan that an older version of the program began
+  [[nodiscard]] double seconds_since_begin() const;
   /// Number of stored frames, without those of rejected sets.
   [[nodiscard]] std::size_t frame_count() const { return frames_.size(); }
   [[nodiscard]] bool has(const std::string& file) const { return find(file) != nullptr; }
@@ -112,8 +121,12 @@ class CaptureManifest {
   bool read_set(std::istream& words, std::size_t number);
   bool read_table(std::istream& words);
 
+  using Clock = std::chrono::steady_clock;
   std::filesystem::path folder_;
   DurableLog log_;
+  double began_s_ = kMissing;  ///< seconds since 1970, by the computer's clock
+  double opened_s_ = 0.0;      ///< the same of this session
+  Clock::time_point opened_at_ = Clock::now();
   std::map<std::string, ManifestFrame> frames_;
   std::map<std::string, ManifestSet> sets_;
   std::map<std::string, std::size_t> rejected_at_;  ///< last line that rejected a set

@@ -100,11 +100,15 @@ void SetCapture::capture_further_cameras(std::size_t view,
     if (parts_.manifest.has(file)) continue;
     parts_.devices.expose_for(exposure_of(pattern, label.exposure));
     CompleteFrame taken = parts_.devices.capture(label, camera);
-    parts_.store.put(file,
-                     std::make_shared<const Frame>(std::move(taken.frame)),
-                     {.attempts = taken.attempts, .scale = scale});
+    parts_.store.put(
+        file, std::make_shared<const Frame>(std::move(taken.frame)), about(taken.attempts, scale));
     ++captured_;
   }
+}
+
+/// A frame that was taken just now.
+ManifestFrame SetCapture::about(int attempts, double scale) const {
+  return {.attempts = attempts, .scale = scale, .at_s = parts_.manifest.seconds_since_begin()};
 }
 
 /// The frames of a set at all exposures: read where stored, captured otherwise.
@@ -137,7 +141,7 @@ std::vector<SetCapture::FramePtr> SetCapture::acquire(std::size_t view,
         parts_.devices.expose_for(exposure_of(pattern, exposure));
         CompleteFrame taken = parts_.devices.capture(label);
         frames.push_back(std::make_shared<const Frame>(std::move(taken.frame)));
-        parts_.store.put(file, frames.back(), {.attempts = taken.attempts, .scale = scale});
+        parts_.store.put(file, frames.back(), about(taken.attempts, scale));
         ++captured_;
       }
       if (!complete) {

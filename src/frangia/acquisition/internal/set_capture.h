@@ -63,6 +63,7 @@ class SetCapture {
                                const Pattern& pattern,
                                const FrameLabel& label,
                                double scale);
+  [[nodiscard]] ManifestFrame about(int attempts, double scale) const;
   std::vector<FramePtr> acquire(std::size_t view, const Pattern& pattern, int attempt);
   [[nodiscard]] double exposure_of(const Pattern& pattern, int exposure) const;
 

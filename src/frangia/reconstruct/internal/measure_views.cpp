@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "frangia/core/median.h"
+#include "frangia/dataset/capture_times.h"
 #include "frangia/dataset/scan_of_camera.h"
 #include "frangia/decode/check_view.h"
 #include "frangia/decode/fuse_view_cameras.h"
@@ -186,6 +187,7 @@ MeasuredViews measure_views(const Scan& scan,
     camera->decoder =
         std::make_unique<ViewDecoder>(camera->scan, camera->rays, camera->options, run);
   }
+  const std::vector<double> times_s = read_capture_times(scan);
   MeasuredViews all;
   all.cameras.resize(cameras.size());
   for (std::size_t i = 0; i < scan.views.size(); ++i) {
@@ -229,7 +231,7 @@ MeasuredViews measure_views(const Scan& scan,
     for (UnresolvedRegion& region : leading.unresolved)
       all.unresolved.push_back({all.reference().size(), std::move(region)});
     all.unwrapped_spatially = leading.relative.has_value();
-    all.stations.push_back({scan.views[i].angle_rad, scan.views[i].folder.string(), 0});
+    all.stations.push_back({scan.views[i].angle_rad, scan.views[i].folder.string(), 0, times_s[i]});
     all.setups.push_back(scan.views[i].setup);
     const Eigen::Isometry3d rig_from_object = scan.rig.rig_from_object(scan.views[i].angle_rad);
     for (std::size_t camera = 0; camera < cameras.size(); ++camera) {

@@ -48,37 +48,78 @@ std::vector<double> factors() {
   return all;
 }
 
-/// The factor near one of `factors` with which most surfels agree.
-double refined_factor(Bundle& bundle,
-                      const SurfelLists& surfels,
-                      const std::vector<double>& given,
-                      double factor) {
-  constexpr double kFinest = 3e-5;
-  const double open_mm = bundle.gate_mm;
-  for (double step = 0.002; step > kFinest; step *= 0.5) {
-    // The farther off the factor, the farther apart the surfaces.
-    bundle.gate_mm = std::max(bundle.min_gate_mm, 0.75 * bundle.gate_mm);
-    double best = factor;
-    double most = agreement_of(bundle, surfels, scaled(given, factor)).surfels;
-    for (const double tried : {factor - step, factor + step}) {
-      const double agree = agreement_of(bundle, surfels, scaled(given, tried)).surfels;
-      if (agree > most) {
-        most = agree;
-        best = tried;
-      }
-    }
-    factor = best;
-  }
-  bundle.gate_mm = open_mm;
-  return factor;
-}
-
 /// The turn to view `first` did not happen.
 std::vector<double> without_turn(std::vector<double> angles_rad, std::size_t first) {
   const double turn = angles_rad[first] - angles_rad[first - 1];
   for (std::size_t view = first; view < angles_rad.size(); ++view)
     angles_rad[view] -= turn;
   return angles_rad;
+}
+
+/// Sums over the views of how their angles are related to those commanded.
+struct AngleSums {
+  double products = 0.0;     ///< of difference and commanded angle
+  double squares = 0.0;      ///< of the commanded angles
+  double differences = 0.0;  ///< squares
+
+  AngleSums(const std::vector<double>& commanded_rad, const std::vector<double>& found_rad) {
+    for (std::size_t view = 1; view < commanded_rad.size(); ++view) {
+      const double commanded = commanded_rad[view] - commanded_rad[0];
+      const double off = found_rad[view] - found_rad[0] - commanded;
+      products += off * commanded;
+      squares += commanded * commanded;
+      differences += off * off;
+    }
+  }
+  /// How far they are off in proportion.
+  [[nodiscard]] double share() const { return products / std::max(1e-300, squares); }
+};
+
+/// The share of the commanded angles by which those are off to which the table was refined; none
+/// where they are to be expected, or are off otherwise.
+std::optional<double> share_of_angles(const Bundle& bundle) {
+  constexpr std::size_t kFewest = 4;  // views: through fewer any share may go
+  constexpr double kLogOdds = 13.0;   // 100 : 1, over its rarity and the price of a share
+  constexpr double kRest = 0.2;       // of the differences, which the share leaves
+  if (bundle.given.angles_rad.size() < kFewest) return std::nullopt;
+  const AngleSums sums(bundle.given.angles_rad, bundle.state.angles_rad);
+  const double explained = sums.share() * sums.products;
+  constexpr Eigen::Index kFirstAngle = 4;
+  const double variance = std::pow(bundle.prior_sigma[kFirstAngle], 2);
+  if (0.5 * explained / variance < kLogOdds) return std::nullopt;
+  if (sums.differences - explained > kRest * kRest * sums.differences) return std::nullopt;
+  return sums.share();
+}
+
+/// The factor near another one that the angles follow to which the table is refined from there.
+double refined_factor(const Registration& work, double factor) {
+  constexpr int kTurns = 3;  // the prior of the angles holds them back
+  Bundle bundle = work.bundle;
+  bundle.gate_mm = work.reach_mm;
+  const std::vector<double>& given = work.bundle.given.angles_rad;
+  bundle.state = bundle.given;  // the refined axis is that of the wrong angles
+  for (int turn = 0; turn < kTurns; ++turn) {
+    bundle.given.angles_rad = scaled(given, factor);
+    bundle.state.angles_rad = bundle.given.angles_rad;
+    optimize_bundle(bundle, work.surfels, work.options.max_iterations, work.run);
+    factor = 1.0 + AngleSums(given, bundle.state.angles_rad).share();
+  }
+  return factor;
+}
+
+PoseExplanation scaled_by(double factor) {
+  PoseExplanation scale;
+  scale.best = PoseCause::AnglesScaled;
+  scale.scale = factor;
+  return scale;
+}
+
+/// With its sentence.
+ExplainedAngles worded(ExplainedAngles found, const Registration& work) {
+  found.explanation.text =
+      describe(found.explanation, [&](std::size_t view) { return work.name_of(view); });
+  found.explanation.remedy = remedy_of(found.explanation, work.options.wrong_rig);
+  return found;
 }
 
 }  // namespace
@@ -94,7 +135,12 @@ std::optional<ExplainedAngles> explain_angles(const Registration& work) {
   bundle.gate_mm = kOpen * work.reach_mm;
   const std::vector<double>& given = bundle.given.angles_rad;
   const Agreement commanded = agreement_of(bundle, surfels, bundle.state.angles_rad);
-  if (commanded.violation < kSuspicious) return std::nullopt;
+  if (commanded.violation < kSuspicious) {
+    const auto share = share_of_angles(work.bundle);
+    if (!share || std::abs(*share) > kMostWrong) return std::nullopt;
+    const double factor = refined_factor(work, 1.0 + *share);
+    return worded({scaled(given, factor), scaled_by(factor)}, work);
+  }
   bundle.state = bundle.given;  // the refined axis is that of the wrong angles
   ExplainedAngles best{given, {}};
   double least = kRemaining * commanded.violation;
@@ -104,15 +150,11 @@ std::optional<ExplainedAngles> explain_angles(const Registration& work) {
     least = agreement.violation;
     best = {std::move(angles_rad), as};
   };
-  for (const double factor : factors()) {
-    PoseExplanation scale;
-    scale.best = PoseCause::AnglesScaled;
-    scale.scale = factor;
-    try_angles(scaled(given, factor), scale);
-  }
+  for (const double factor : factors())
+    try_angles(scaled(given, factor), scaled_by(factor));
   const double found = best.explanation.scale;
   if (best.explanation.best == PoseCause::AnglesScaled && std::abs(found - 1.0) < kMostWrong) {
-    best.explanation.scale = refined_factor(bundle, surfels, given, found);
+    best.explanation.scale = refined_factor(work, found);
     best.angles_rad = scaled(given, best.explanation.scale);
   }
   for (std::size_t view = 1; view < given.size(); ++view) {
@@ -123,10 +165,7 @@ std::optional<ExplainedAngles> explain_angles(const Registration& work) {
     try_angles(without_turn(given, view), lost);
   }
   if (best.explanation.best == PoseCause::AsStated) return std::nullopt;
-  best.explanation.text =
-      describe(best.explanation, [&](std::size_t view) { return work.name_of(view); });
-  best.explanation.remedy = remedy_of(best.explanation, work.options.wrong_rig);
-  return best;
+  return worded(std::move(best), work);
 }
 
 }  // namespace frangia

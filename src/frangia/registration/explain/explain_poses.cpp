@@ -5,38 +5,62 @@
 #include <optional>
 #include <utility>
 
+#include "frangia/core/median.h"
 #include "frangia/registration/explain/internal/correct_poses.h"
 #include "frangia/registration/explain/internal/describe_explanation.h"
 #include "frangia/registration/explain/internal/displace_views.h"
 #include "frangia/registration/explain/internal/scored_round.h"
 #include "frangia/registration/explain/internal/spread_of_causes.h"
+#include "frangia/registration/explain/internal/time_profiles.h"
 #include "frangia/registration/refine_rig.h"
 
 namespace frangia {
 namespace {
 
-/// Whether views that are moved by themselves fit noticeably better than the table places them.
-bool is_suspicious(const Registration& work, const PoseChart& chart) {
+/// Whether the views are where only axis or angles would put them that are not to be expected.
+bool is_beyond_prior(const PoseRound& round) {
+  constexpr double kUnlikely = 3.5;  // standard deviations of a change
+  const auto own = static_cast<Eigen::Index>(round.chart.setting.views) + 3;
+  return round.posterior({}).table.head(own).cwiseAbs().maxCoeff() > kUnlikely;
+}
+
+/// The hypotheses about the poses on the pairs of the views as the table places them.
+PoseRound scored_as_placed(const Registration& work, const PoseChart& chart) {
   // Of the reach: views that do not fit are outside of the gate of those that do.
   constexpr double kOpen = 0.3;
   PoseRound round{.bundle = work.bundle, .chart = chart, .poses = chart.from};
   round.bundle.gate_mm = std::max(work.bundle.gate_mm, kOpen * work.reach_mm);
   round.sums = sum_poses(round.bundle, work.surfels, {round.poses, nullptr});
-  weigh(round);
-  const PosePosterior free =
-      round.posterior({PoseCause::Unexplained, {}, 0.001 * chart.setting.distance_mm, 0.0});
-  const double effect_mm = round.effect_mm(free.motion - round.stated());
-  // Poses do not explain a wrong rig: what pairs have in common here may be just that.
-  constexpr double kSystematic = 2.5;  // times the error that sound views have in common
-  return effect_mm > std::max(kSystematic * round.bundle.systematic_mm, round.noise.scatter_mm);
+  score(round);
+  return round;
 }
 
-/// The parameters of the rig that changed most, in standard deviations of their prior.
-std::vector<std::string> terms_of(const DriftModel& model, const Eigen::VectorXd& changes) {
+/// Whether there is a reason to ask what moved the views: some cause explains the pairs better than
+/// was to be expected of it, or the table does so by angles that were not.
+bool is_suspicious(const PoseRound& round) {
+  return is_beyond_prior(round) ||
+         std::any_of(round.causes.begin(), round.causes.end(), is_hinted_at);
+}
+
+const ScoredCause& as_stated(const PoseRound& round) {
+  return *std::find_if(round.causes.begin(), round.causes.end(), [](const ScoredCause& cause) {
+    return cause.cause == PoseCause::AsStated;
+  });
+}
+
+/// The parameters of the rig that changed most, in standard deviations of their prior: from what is
+/// stated, or by the way between the views.
+///
+/// @shape    `changes`: terms x views
+std::vector<std::string> terms_of(const DriftModel& model,
+                                  const Eigen::MatrixXd& changes,
+                                  bool drifts) {
   constexpr double kMost = 0.5;  // of the largest
-  const Eigen::VectorXd all = model.factor() * changes;
+  const Eigen::MatrixXd all = model.factor() * changes;
+  const Eigen::VectorXd way = all.rowwise().maxCoeff() - all.rowwise().minCoeff();
   const Eigen::VectorXd prior = model.factor().rowwise().norm();
-  const Eigen::VectorXd shares = all.cwiseAbs().cwiseQuotient(prior.cwiseMax(1e-300));
+  const Eigen::VectorXd shares =
+      (drifts ? way : all.col(0)).cwiseAbs().cwiseQuotient(prior.cwiseMax(1e-300));
   std::vector<std::string> names;
   for (Eigen::Index i = 0; i < shares.size(); ++i) {
     if (shares[i] > kMost * shares.maxCoeff())
@@ -82,8 +106,15 @@ void measure(PoseExplanation& explanation,
   const PosePosterior found = round.posterior(winner.best);
   const double scale = winner.best.scale;
   explanation.views = winner.best.views;
-  explanation.effect_mm = round.effect_mm(found.motion - round.stated());
+  // A table that the views put beyond its prior is an explanation only in want of a better one.
+  const Eigen::VectorXd stated =
+      is_beyond_prior(round) ? Eigen::VectorXd::Zero(found.motion.size()) : round.stated();
+  explanation.effect_mm = round.effect_mm(found.motion - stated);
   explanation.unexplained_mm = round.noise.shared_mm;
+  if (is_drift(winner.cause)) {
+    explanation.time_constant = time_constant_of(winner.best.profile);
+    explanation.times_assumed = !are_times_stated(work.stations);
+  }
   switch (winner.cause) {
     case PoseCause::Turned:
       // The points turn back by what the table has turned too far.
@@ -107,50 +138,106 @@ void measure(PoseExplanation& explanation,
   }
 }
 
-/// The hypotheses on the pairs of the fit in which every view moves by itself, its points measured
-/// by the rig after some changes.
+/// Views as the table places them that was refined with their points as rigs of their own measure
+/// them.
+struct PlacedViews {
+  Eigen::VectorXd rig_at;  ///< changes of the rig, as `changes_of_views` has them
+  Bundle bundle;
+  SurfelLists surfels;
+  double apart_mm = 0.0;  ///< median distance of the pairs within the reach
+  std::size_t pairs = 0;
+
+  void compare(double reach_mm) {
+    Bundle open = bundle;
+    open.gate_mm = reach_mm;
+    const BundleSums sums = sum(open, surfels);
+    apart_mm = static_cast<double>(median(sums.distances_mm));
+    pairs = sums.distances_mm.size();
+  }
+};
+
+PlacedViews placed_as_stated(const Registration& work, Eigen::Index rig_unknowns) {
+  PlacedViews placed{Eigen::VectorXd::Zero(rig_unknowns), work.bundle, work.surfels};
+  placed.compare(work.reach_mm);
+  return placed;
+}
+
+PlacedViews placed_by(const Registration& work,
+                      const TurntableStations& given,
+                      const DriftModel& model,
+                      Eigen::VectorXd rig_at) {
+  PlacedViews placed{std::move(rig_at), work.bundle};
+  const Eigen::MatrixXd basis = basis_of_profiles(times_of(work.stations));
+  displace_views(
+      placed.bundle.maps, *given.rig, rigs_of_views(model, basis, placed.rig_at), *given.pattern);
+  placed.surfels = pick_all_surfels(placed.bundle.maps, surfels_to_explain(work.views.size()));
+  placed.bundle.state = placed.bundle.given;
+  placed.bundle.gate_mm = work.reach_mm;
+  optimize_bundle(placed.bundle, placed.surfels, work.options.max_iterations, work.run);
+  placed.compare(work.reach_mm);
+  return placed;
+}
+
+/// The hypotheses on the pairs of the fit in which every view moves by itself.
 PoseRound scored_round(const Registration& work,
                        const TurntableStations& given,
                        const std::optional<DriftModel>& model,
-                       const Eigen::VectorXd& rig_at) {
-  const PoseChart chart = make_chart(work.bundle, work.surfels, work.bundle.state, work.options);
-  PoseRound round{.bundle = work.bundle, .chart = chart, .poses = chart.from};
-  SurfelLists surfels = work.surfels;
-  if (rig_at.size() > 0 && !rig_at.isZero()) {
-    const std::vector<Rig> rigs = rigs_of_views(*model, chart.setting.times, rig_at);
-    displace_views(round.bundle.maps, *given.rig, rigs, *given.pattern);
-    surfels = pick_all_surfels(round.bundle.maps, surfels_to_explain(work.views.size()));
-  }
+                       const PlacedViews& placed) {
+  const PoseChart chart = make_chart(
+      placed.bundle, placed.surfels, placed.bundle.state, times_of(work.stations), work.options);
+  PoseRound round{.bundle = placed.bundle, .chart = chart, .poses = chart.from};
   round.bundle.gate_mm = work.reach_mm;
-  free_poses(round.bundle, surfels, round.poses, round.chart, work.options, work.run);
+  free_poses(round.bundle, placed.surfels, round.poses, round.chart, work.options, work.run);
   if (model) {
-    round.rig_at = rig_at;
-    round.rig = rig_changes(*model, *given.pattern, chart.setting.times, round.rig_at);
+    round.rig_at = placed.rig_at;
+    round.rig = rig_changes(*model, *given.pattern, chart.setting.rig_basis, round.rig_at);
     round.chart.setting.rig_changes = model->count();
   }
-  round.sums = sum_poses(round.bundle, surfels, {round.poses, round.rig ? &*round.rig : nullptr});
-  round.surfaces = surfaces_of(surfels, round.poses);
+  const RigChanges* rig = round.rig ? &*round.rig : nullptr;
+  round.sums = sum_poses(round.bundle, placed.surfels, {round.poses, rig});
+  round.surfaces = surfaces_of(placed.surfels, round.poses);
   score(round);
   return round;
 }
 
-/// The hypotheses, linearized again at the rig that they find.
+/// The rig of one of the causes with which the table places the views best; none where it does so
+/// hardly better than before. Where free views slid off each other the odds do not say it.
+std::optional<PlacedViews> best_placed(const Registration& work,
+                                       const TurntableStations& given,
+                                       const DriftModel& model,
+                                       const PoseRound& round,
+                                       const PlacedViews& before) {
+  constexpr double kBetter = 0.95;
+  constexpr double kAsMany = 0.9;  // pairs: views that do not meet agree, too
+  std::optional<PlacedViews> best;
+  double least_mm = kBetter * before.apart_mm;
+  for (std::size_t i = 0; i < round.causes.size(); ++i) {
+    if (!changes_rig(round.causes[i].cause) || round.causes[i].log_odds < 0.0) continue;
+    PlacedViews placed = placed_by(work, given, model, round.motions[i].tail(before.rig_at.size()));
+    const auto fewest = static_cast<std::size_t>(kAsMany * static_cast<double>(before.pairs));
+    if (placed.apart_mm > least_mm || placed.pairs < fewest) continue;
+    least_mm = placed.apart_mm;
+    best = std::move(placed);
+  }
+  return best;
+}
+
+/// The hypotheses, linearized again at the rig that they find: points move with it linearly to a
+/// tenth only.
 PoseRound scored_at_found_rig(const Registration& work,
                               const TurntableStations& given,
                               const std::optional<DriftModel>& model) {
-  constexpr int kTurns = 3;
-  constexpr double kSame = 0.05;  // of the changes: points move with them linearly so far
-  Eigen::VectorXd rig_at = Eigen::VectorXd::Zero(model ? 2 * model->count() : 0);
-  PoseRound round = scored_round(work, given, model, rig_at);
-  for (int turn = 1; turn < kTurns; ++turn) {
-    const std::size_t first = winner_of(round);
-    if (!changes_rig(round.causes[first].cause)) break;
-    const Eigen::VectorXd found = round.motions[first].tail(rig_at.size());
-    if ((found - rig_at).norm() < kSame * found.norm()) break;
-    PoseRound next = scored_round(work, given, model, found);
+  constexpr int kTurns = 4;
+  const Eigen::Index functions = basis_of_profiles(times_of(work.stations)).cols();
+  PlacedViews placed = placed_as_stated(work, model ? functions * model->count() : 0);
+  PoseRound round = scored_round(work, given, model, placed);
+  for (int turn = 1; model && turn < kTurns; ++turn) {
+    std::optional<PlacedViews> better = best_placed(work, given, *model, round, placed);
+    if (!better) break;
+    PoseRound next = scored_round(work, given, model, *better);
     // Far from the rig that is stated the views may slide off each other: what was found stays.
     if (!changes_rig(next.causes[winner_of(next)].cause)) break;
-    rig_at = found;
+    placed = std::move(*better);
     round = std::move(next);
   }
   return round;
@@ -196,8 +283,13 @@ ExplainedPoses explain_poses(const Registration& work,
                              const TurntableStations& given,
                              std::size_t dense) {
   ExplainedPoses all;
-  const PoseChart chart = make_chart(work.bundle, work.surfels, work.bundle.state, work.options);
-  if (!is_suspicious(work, chart)) return all;
+  const PoseChart chart = make_chart(
+      work.bundle, work.surfels, work.bundle.state, times_of(work.stations), work.options);
+  const PoseRound placed = scored_as_placed(work, chart);
+  if (!is_suspicious(placed)) {
+    all.spread = spread_of_causes(placed, as_stated(placed), work).of_views();
+    return all;
+  }
   std::optional<DriftModel> model;
   if (given.rig != nullptr && given.pattern != nullptr)
     model.emplace(*given.rig, RefineRigOptions{}, chart.setting.distance_mm);
@@ -208,20 +300,17 @@ ExplainedPoses explain_poses(const Registration& work,
   measure(explanation, work, round, winner);
   if (winner.cause == PoseCause::AsStated || explanation.effect_mm < noticeable_mm(round)) {
     explanation = {};
-    const auto stated = std::find_if(round.causes.begin(), round.causes.end(), [](const auto& c) {
-      return c.cause == PoseCause::AsStated;
-    });
-    all.spread = spread_of_causes(round, *stated, work).of_views();
+    all.spread = spread_of_causes(round, as_stated(round), work).of_views();
     return all;
   }
   compare(explanation, round, first);
   if (changes_rig(winner.cause)) {
-    const Eigen::VectorXd changes = round.motions[first].tail(2 * model->count());
+    const Eigen::VectorXd of_rig = round.motions[first].tail(round.rig_at.size());
+    const Eigen::MatrixXd changes = changes_of_views(of_rig, round.rig->basis);
     const bool drifts = winner.cause == PoseCause::RigDrift;
-    explanation.terms =
-        terms_of(*model, drifts ? changes.tail(model->count()) : changes.head(model->count()));
+    explanation.terms = terms_of(*model, changes, drifts);
     if (drifts) {
-      all.rigs = rigs_of_views(*model, chart.setting.times, changes);
+      all.rigs = rigs_of_views(*model, round.rig->basis, of_rig);
       const PoseSpread own = spread_of_winner(round, round.posterior(winner.best), work);
       all.spread = (own + spread_of_causes(round, winner, work)).of_views();
     }

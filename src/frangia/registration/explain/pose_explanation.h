@@ -48,9 +48,13 @@ struct PoseExplanation {
   double turned_sigma_rad = kMissing;  ///< its standard deviation, of the part
   double scale = kMissing;         ///< of the angles, or the standard deviation of a wobble in mm
   std::vector<std::string> terms;  ///< of the rig, that changed most
-  double unexplained_mm = 0.0;     ///< what the pairs of two views still have in common
-  std::string text{};              ///< one sentence, empty when all is as stated
-  std::string remedy{};            ///< what to do, empty for nothing
+  /// Of a drift that approaches its end exponentially, as a share of the time between the first
+  /// view and the last.
+  double time_constant = kMissing;
+  bool times_assumed = false;   ///< the views state no times: they are taken for even in time
+  double unexplained_mm = 0.0;  ///< what the pairs of two views still have in common
+  std::string text{};           ///< one sentence, empty when all is as stated
+  std::string remedy{};         ///< what to do, empty for nothing
 };
 
 }  // namespace frangia

@@ -15,9 +15,12 @@ struct ExplainedAngles {
 };
 
 /// Looks for angles far from those commanded with which the views fit: half or double of them, the
-/// other direction, or a turn between two views that did not happen.
+/// other direction, a turn between two views that did not happen; or the angles to which the table
+/// was refined, where they are in proportion to those commanded.
 ///
-/// @missing  none where hardly any point contradicts another view, or no such angles fit better
+/// @missing  none where the angles are to be expected and hardly any point contradicts another
+/// view,
+///           or no such angles fit better
 [[nodiscard]] std::optional<ExplainedAngles> explain_angles(const Registration& work);
 
 }  // namespace frangia

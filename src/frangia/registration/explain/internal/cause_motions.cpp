@@ -1,5 +1,7 @@
 #include "frangia/registration/explain/internal/cause_motions.h"
 
+#include "frangia/registration/explain/internal/time_profiles.h"
+
 namespace frangia {
 namespace {
 
@@ -39,6 +41,23 @@ Eigen::VectorXd from_on(std::size_t first, std::size_t views) {
   return shares;
 }
 
+/// Changes of all terms of the rig, by functions of time.
+Eigen::MatrixXd of_rig(const Eigen::MatrixXd& functions,
+                       const PoseSetting& setting,
+                       Eigen::Index unknowns) {
+  const Eigen::Index terms = setting.rig_changes;
+  const Eigen::MatrixXd shares = setting.rig_basis.transpose() * functions;
+  const Eigen::Index first = unknowns - terms * shares.rows();
+  Eigen::MatrixXd all = Eigen::MatrixXd::Zero(unknowns, terms * shares.cols());
+  for (Eigen::Index row = 0; row < shares.rows(); ++row) {
+    for (Eigen::Index column = 0; column < shares.cols(); ++column)
+      all.block(first + terms * row, terms * column, terms, terms)
+          .diagonal()
+          .setConstant(shares(row, column));
+  }
+  return all;
+}
+
 Eigen::VectorXd turned_angles(const PoseSetting& setting) {
   Eigen::VectorXd angles(static_cast<Eigen::Index>(setting.views));
   for (std::size_t view = 0; view < setting.views; ++view)
@@ -51,9 +70,9 @@ Eigen::VectorXd turned_angles(const PoseSetting& setting) {
 Eigen::MatrixXd unit_motions(PoseCause cause,
                              const std::vector<std::size_t>& at,
                              const PoseSetting& setting,
-                             Eigen::Index unknowns) {
+                             Eigen::Index unknowns,
+                             std::size_t profile) {
   const auto views = static_cast<Eigen::Index>(setting.views);
-  const Eigen::Index rig = setting.rig_changes;
   Eigen::MatrixXd none(unknowns, 0);
   switch (cause) {
     case PoseCause::AsStated:
@@ -88,10 +107,13 @@ Eigen::MatrixXd unit_motions(PoseCause cause,
       }
       return all;
     }
-    case PoseCause::PartDrift:
-      return repeated(motions_of_part(setting),
-                      Eigen::Map<const Eigen::VectorXd>(setting.times.data(), views),
-                      unknowns);
+    case PoseCause::PartDrift: {
+      const Eigen::MatrixXd functions = time_profile(profile, setting.times);
+      Eigen::MatrixXd all(unknowns, 6 * functions.cols());
+      for (Eigen::Index i = 0; i < functions.cols(); ++i)
+        all.middleCols<6>(6 * i) = repeated(motions_of_part(setting), functions.col(i), unknowns);
+      return all;
+    }
     case PoseCause::Wobble:
     case PoseCause::Unexplained: {
       Eigen::MatrixXd all = Eigen::MatrixXd::Zero(unknowns, 6 * views);
@@ -99,18 +121,18 @@ Eigen::MatrixXd unit_motions(PoseCause cause,
         all.block<6, 6>(6 * view, 6 * view) = motions_of_part(setting);
       return all;
     }
-    case PoseCause::Rig: {
-      Eigen::MatrixXd all = Eigen::MatrixXd::Zero(unknowns, rig);
-      all.middleRows(6 * views, rig).setIdentity();
-      return all;
-    }
+    case PoseCause::Rig:
+      return of_rig(Eigen::VectorXd::Ones(views), setting, unknowns);
     case PoseCause::RigDrift: {
       // The rig may be as stated at the beginning, at the end or between: its mean change is half
       // of its drift.
-      Eigen::MatrixXd all = Eigen::MatrixXd::Zero(unknowns, 2 * rig);
-      all.bottomRightCorner(2 * rig, 2 * rig).setIdentity();
-      all.block(6 * views, 0, rig, rig) *= 0.5;
-      return all;
+      const Eigen::MatrixXd drift = time_profile(profile, setting.times);
+      // No drift is exactly of one course.
+      constexpr double kOffCourse = 0.02;
+      const Eigen::MatrixXd& any = setting.rig_basis;
+      Eigen::MatrixXd functions(views, 1 + drift.cols() + any.cols());
+      functions << Eigen::VectorXd::Constant(views, 0.5), drift, kOffCourse * any;
+      return of_rig(functions, setting, unknowns);
     }
   }
   return none;
@@ -127,7 +149,8 @@ Eigen::MatrixXd motions_of(const CauseHypothesis& hypothesis,
                            const PoseSetting& setting,
                            Eigen::Index unknowns) {
   Eigen::MatrixXd motions =
-      hypothesis.scale * unit_motions(hypothesis.cause, hypothesis.views, setting, unknowns);
+      hypothesis.scale *
+      unit_motions(hypothesis.cause, hypothesis.views, setting, unknowns, hypothesis.profile);
   if (!hypothesis.slides) return motions;
   return motions * shares_of_motion(true).replicate(motions.cols() / 6, 1).asDiagonal();
 }

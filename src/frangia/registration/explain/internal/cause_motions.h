@@ -11,10 +11,11 @@ namespace frangia {
 
 /// The motions of the views by the own changes of a cause, each by 1 mm or by its prior.
 ///
-/// @shape    `at`: the views of the cause, as `PoseExplanation` has them
+/// @shape    `at`: the views of the cause, as `PoseExplanation` has them; `profile`: of a drift
 [[nodiscard]] Eigen::MatrixXd unit_motions(PoseCause cause,
                                            const std::vector<std::size_t>& at,
                                            const PoseSetting& setting,
-                                           Eigen::Index unknowns);
+                                           Eigen::Index unknowns,
+                                           std::size_t profile = 0);
 
 }  // namespace frangia

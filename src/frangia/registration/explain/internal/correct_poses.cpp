@@ -35,7 +35,8 @@ struct CauseFit {
   }
 
   void refine(const SurfelLists& surfels) {
-    round.chart = make_chart(round.bundle, work.surfels, state, work.options);
+    round.chart =
+        make_chart(round.bundle, work.surfels, state, scored.chart.setting.times, work.options);
     if (cause.exact_table) round.chart = round.chart.with_exact_table();
     round.sums = sum_poses(round.bundle, surfels, {round.poses, nullptr});
     NormalEquations data = from_stated(round.sums.all(), round.chart.motions_to(round.poses));

@@ -21,6 +21,12 @@ std::string text_of_motion(const PoseExplanation& found) {
   return words;
 }
 
+const char* assumed_times(const PoseExplanation& found) {
+  return found.times_assumed
+             ? ", the views being evenly spaced in time, as the scan states no times"
+             : "";
+}
+
 std::string between(std::size_t view, const ViewNames& names) {
   return fmt::format("between views {} and {}", names(view - 1), names(view));
 }
@@ -68,8 +74,10 @@ std::string cause_text(PoseCause cause, const PoseExplanation& found, const View
                          list_of(found.views, names),
                          text_of_motion(found));
     case PoseCause::PartDrift:
-      return fmt::format("the part or the table moved evenly during the scan, by {}",
-                         text_of_motion(found));
+      return fmt::format("the part or the table moved {} during the scan, by {}{}",
+                         std::isnan(found.time_constant) ? "steadily" : "ever more slowly",
+                         text_of_motion(found),
+                         assumed_times(found));
     case PoseCause::Wobble:
       return fmt::format(
           "table or part moved at random from view to view, with a standard "
@@ -79,8 +87,10 @@ std::string cause_text(PoseCause cause, const PoseExplanation& found, const View
       return fmt::format("the rig is not what rig.toml states, all through the scan ({})",
                          fmt::join(found.terms, ", "));
     case PoseCause::RigDrift:
-      return fmt::format("projector or camera drifted during the scan ({})",
-                         fmt::join(found.terms, ", "));
+      return fmt::format("projector or camera drifted{} during the scan ({}){}",
+                         std::isnan(found.time_constant) ? "" : " ever more slowly",
+                         fmt::join(found.terms, ", "),
+                         assumed_times(found));
     case PoseCause::Unexplained:
       break;
   }
@@ -107,7 +117,7 @@ const char* words_of(PoseCause cause) {
     case PoseCause::ViewsMoved:
       return "a part that was elsewhere in several views";
     case PoseCause::PartDrift:
-      return "a part or table that moved evenly";
+      return "a part or table that moved steadily";
     case PoseCause::Wobble:
       return "a table that wobbles";
     case PoseCause::Rig:

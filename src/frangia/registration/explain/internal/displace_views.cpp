@@ -9,18 +9,20 @@ namespace frangia {
 
 RigChanges rig_changes(const DriftModel& model,
                        const Pattern& pattern,
-                       const std::vector<double>& times,
+                       const Eigen::MatrixXd& basis,
                        const Eigen::VectorXd& at) {
   // The derivatives hardly change within a drift: those of its mean serve all views.
-  return {PointDrift(model, at.head(model.count())), pattern, times, model.count()};
+  const Eigen::VectorXd mean = changes_of_views(at, basis).rowwise().mean();
+  return {PointDrift(model, mean), pattern, basis, model.count()};
 }
 
 std::vector<Rig> rigs_of_views(const DriftModel& model,
-                               const std::vector<double>& times,
+                               const Eigen::MatrixXd& basis,
                                const Eigen::VectorXd& at) {
   std::vector<Rig> rigs;
-  for (const double time : times)
-    rigs.push_back(model.rig_at(at.head(model.count()) + time * at.tail(model.count())));
+  const Eigen::MatrixXd changes = changes_of_views(at, basis);
+  for (Eigen::Index view = 0; view < changes.cols(); ++view)
+    rigs.push_back(model.rig_at(changes.col(view)));
   return rigs;
 }
 

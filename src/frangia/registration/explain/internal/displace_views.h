@@ -10,15 +10,15 @@ namespace frangia {
 
 /// How points move with further changes of a rig that has changed already.
 ///
-/// @shape    `at`: constant changes of the rig, then those that grow with time
+/// @shape    `at`, `basis`: as `changes_of_views`
 [[nodiscard]] RigChanges rig_changes(const DriftModel& model,
                                      const Pattern& pattern,
-                                     const std::vector<double>& times,
+                                     const Eigen::MatrixXd& basis,
                                      const Eigen::VectorXd& at);
 
 /// The rig of each view after such changes.
 [[nodiscard]] std::vector<Rig> rigs_of_views(const DriftModel& model,
-                                             const std::vector<double>& times,
+                                             const Eigen::MatrixXd& basis,
                                              const Eigen::VectorXd& at);
 
 /// Moves all surfels to where the rig of their view measures them, instead of the stated one.

@@ -11,6 +11,7 @@
 
 #include "frangia/core/symmetric_eigen.h"
 #include "frangia/registration/explain/internal/cause_motions.h"
+#include "frangia/registration/explain/internal/time_profiles.h"
 
 namespace frangia {
 namespace {
@@ -38,7 +39,8 @@ class CauseScores {
   void add(CauseHypothesis hypothesis) {
     Score& score = scores_[hypothesis.cause];
     score.log_odds.push_back(hypothesis.log_odds);
-    const auto [at, is_new] = score.by_views.try_emplace(hypothesis.views, hypothesis);
+    const auto [at, is_new] =
+        score.kinds.try_emplace({hypothesis.views, hypothesis.profile}, hypothesis);
     if (!is_new && hypothesis.log_odds > at->second.log_odds) at->second = hypothesis;
     if (score.log_odds.size() == 1 || hypothesis.log_odds > score.best.log_odds)
       score.best = std::move(hypothesis);
@@ -50,14 +52,17 @@ class CauseScores {
                   const NormalEquations& data,
                   const std::array<double, n>& scales,
                   double unit,
-                  bool slides = false) {
+                  bool slides = false,
+                  std::size_t profile = 0) {
     for (const double share : scales) {
       const double scale = share * unit;
       add({cause,
            views,
            scale,
            PoseEvidence::log_odds(scale * scale * data.hessian, scale * data.gradient),
-           slides});
+           slides,
+           false,
+           profile});
     }
   }
   [[nodiscard]] std::vector<ScoredCause> sorted() const {
@@ -78,18 +83,21 @@ class CauseScores {
   }
 
  private:
+  /// Views and course in time.
+  using Kind = std::pair<std::vector<std::size_t>, std::size_t>;
   struct Score {
     std::vector<double> log_odds;
     CauseHypothesis best;
-    std::map<std::vector<std::size_t>, CauseHypothesis> by_views;  ///< the best of each
+    std::map<Kind, CauseHypothesis> kinds;  ///< the best of each
   };
 
   static std::vector<CauseHypothesis> others_than(const Score& score, double log_count) {
     constexpr double kNearly = 7.0;  // 1000 : 1
     constexpr std::size_t kMost = 20;
     std::vector<CauseHypothesis> others;
-    for (const auto& [views, hypothesis] : score.by_views) {
-      if (views == score.best.views || hypothesis.log_odds < score.best.log_odds - kNearly)
+    for (const auto& [kind, hypothesis] : score.kinds) {
+      if (kind == Kind(score.best.views, score.best.profile) ||
+          hypothesis.log_odds < score.best.log_odds - kNearly)
         continue;
       others.push_back(hypothesis);
       others.back().log_odds -= log_count;
@@ -290,6 +298,13 @@ std::vector<ScoredCause> score_causes(const PoseEvidence& evidence, const PoseSe
   const auto of = [&](PoseCause cause, const std::vector<std::size_t>& views) {
     return project(data, unit_motions(cause, views, setting, unknowns));
   };
+  const auto add_drifts =
+      [&](PoseCause cause, std::size_t profiles, const auto& scales, double unit) {
+        for (std::size_t profile = 0; profile < profiles; ++profile) {
+          const auto drift = project(data, unit_motions(cause, {}, setting, unknowns, profile));
+          scores.add_scales(cause, {}, drift, scales, unit, false, profile);
+        }
+      };
   constexpr std::array<double, 1> kAsPrior{1.0};
   if (setting.beyond_stated.cols() > 0)
     scores.add_scales(PoseCause::Turntable, {}, of(PoseCause::Turntable, {}), kAsPrior, 1.0);
@@ -299,8 +314,8 @@ std::vector<ScoredCause> score_causes(const PoseEvidence& evidence, const PoseSe
   }
   scores.add_scales(
       PoseCause::AnglesScaled, {}, of(PoseCause::AnglesScaled, {}), kAngleScales, 1.0);
-  scores.add_scales(
-      PoseCause::PartDrift, {}, of(PoseCause::PartDrift, {}), kMotions, setting.distance_mm);
+  // A part creeps or settles; a smooth course of its own would be that of whatever moves the views.
+  add_drifts(PoseCause::PartDrift, kSmoothProfile, kMotions, setting.distance_mm);
   for (const bool slides : {true, false}) {
     const PartEquations part(data, setting, slides);
     add_part(scores, part, setting.distance_mm);
@@ -309,7 +324,7 @@ std::vector<ScoredCause> score_causes(const PoseEvidence& evidence, const PoseSe
   }
   if (setting.rig_changes > 0) {
     scores.add_scales(PoseCause::Rig, {}, of(PoseCause::Rig, {}), kRigs, 1.0);
-    scores.add_scales(PoseCause::RigDrift, {}, of(PoseCause::RigDrift, {}), kDrifts, 1.0);
+    add_drifts(PoseCause::RigDrift, kTimeProfiles, kDrifts, 1.0);
   }
   return scores.sorted();
 }

@@ -20,7 +20,8 @@ struct PoseSetting {
   double distance_mm = 500.0;      ///< working distance: lengths of priors are shares of it
   Eigen::MatrixXd beyond_stated;   ///< motions by axis and angles that are farther off than
                                    ///< stated; empty: nothing is stated
-  Eigen::Index rig_changes = 0;    ///< 0: the rig has no unknowns
+  Eigen::Index rig_changes = 0;    ///< terms of the rig; 0: it has no unknowns
+  Eigen::MatrixXd rig_basis;       ///< functions of time that its changes consist of
 };
 
 /// One hypothesis, with its odds.
@@ -31,6 +32,7 @@ struct CauseHypothesis {
   double log_odds = 0.0;           ///< against what is stated
   bool slides = false;             ///< the part stays on the table; else it may tip or rise, too
   bool exact_table = false;        ///< axis and angles are nearly those of the rig
+  std::size_t profile = 0;         ///< of `time_profile`, where something drifts
 };
 
 /// Standard deviations of the motions of a part in units of the scale of a hypothesis: three
@@ -42,8 +44,8 @@ struct ScoredCause {
   PoseCause cause = PoseCause::AsStated;
   double log_odds = 0.0;  ///< mean over the hypotheses of this cause: each is as probable
   CauseHypothesis best;
-  /// Those that explain the data nearly as well, with other views, the most probable first; their
-  /// odds share those of the cause.
+  /// Those that explain the data nearly as well, with other views or another course in time, the
+  /// most probable first; their odds share those of the cause.
   std::vector<CauseHypothesis> others{};
 };
 

@@ -6,6 +6,7 @@
 
 #include "frangia/core/median.h"
 #include "frangia/geometry/robust_gauss_newton.h"
+#include "frangia/registration/explain/internal/time_profiles.h"
 #include "frangia/registration/internal/state_motions.h"
 
 namespace frangia {
@@ -102,6 +103,7 @@ TableState PoseChart::table_at(const TableState& given, const Eigen::VectorXd& c
 PoseChart make_chart(const Bundle& bundle,
                      const SurfelLists& surfels,
                      const TableState& state,
+                     const std::vector<double>& times,
                      const RegisterOptions& options) {
   PoseChart chart;
   chart.state = state;
@@ -110,10 +112,8 @@ PoseChart make_chart(const Bundle& bundle,
   PoseSetting& setting = chart.setting;
   setting.views = bundle.maps.size();
   setting.angles_rad = bundle.given.angles_rad;
-  for (std::size_t view = 0; view < setting.views; ++view) {
-    setting.times.push_back(static_cast<double>(view) / static_cast<double>(setting.views - 1) -
-                            0.5);
-  }
+  setting.times = times;
+  setting.rig_basis = basis_of_profiles(times);
   setting.distance_mm = bundle.prior_sigma[2] / options.relative_shift_sigma;
   measure_part(setting, surfels, chart.from);
   chart.table_sigma = stated_sigmas(bundle);

@@ -33,9 +33,12 @@ struct PoseChart {
 };
 
 /// The chart about a state of the table.
+///
+/// @shape    `times`: of each view, as `times_of` has them
 [[nodiscard]] PoseChart make_chart(const Bundle& bundle,
                                    const SurfelLists& surfels,
                                    const TableState& state,
+                                   const std::vector<double>& times,
                                    const RegisterOptions& options);
 
 /// Lets every view move by itself to where its surface fits the others. `bundle.gate_mm` is that of

@@ -15,8 +15,8 @@ using Row6 = Eigen::Matrix<double, 6, 1>;
 
 constexpr std::size_t kPosesPerChunk = 512;  // surfels; fixed: sums do not depend on threads
 
-/// Sums over one chunk of a view's surfels. Its unknowns: the view itself, its paired views, the
-/// rig.
+/// Sums over one chunk of a view's surfels. Its unknowns: six of the view itself and the changes of
+/// the rig in it, then the same of each paired view.
 struct PoseChunk {
   NormalEquations equations;
   double weight = 0.0;
@@ -29,12 +29,17 @@ struct PoseChunk {
   std::vector<PairTally> tallies;
 };
 
+/// @shape    `size`: unknowns of a view, where it is known
+template <int size>
+using ViewRow = Eigen::Matrix<double, size, 1>;
+
 Row6 row_of_motion(const Eigen::Vector3d& point, const Eigen::Vector3d& normal) {
   Row6 row;
   row << point.cross(normal), normal;
   return row;
 }
 
+template <int size>
 class PoseAccumulator {
  public:
   PoseAccumulator(const Bundle& bundle, const PosedViews& views, std::size_t from, double margin_mm)
@@ -42,15 +47,15 @@ class PoseAccumulator {
         views_(views),
         from_(from),
         margin_mm_(margin_mm),
-        rig_columns_(views.rig == nullptr ? 0 : 2 * views.rig->count) {
+        own_(6 + (views.rig == nullptr ? 0 : views.rig->count)),
+        other_(own_.size()) {
     const std::size_t others = bundle.pairs[from].size();
-    const auto count = static_cast<Eigen::Index>(6 * (others + 1)) + rig_columns_;
+    const Eigen::Index count = own_.size() * static_cast<Eigen::Index>(others + 1);
     sums.equations = {Eigen::MatrixXd::Zero(count, count), Eigen::VectorXd::Zero(count)};
     sums.tallies.resize(others);
-    sums.rows.assign(others, Eigen::VectorXd::Zero(12 + rig_columns_));
+    sums.rows.assign(others, Eigen::VectorXd::Zero(2 * own_.size()));
     for (const std::size_t to : bundle.pairs[from])
       rig_from_object_.push_back(views.object_from_rig[to].inverse());
-    by_rig_ = Eigen::VectorXd::Zero(rig_columns_);
   }
 
   void add(const SurfelMap::Surfel& surfel) {
@@ -96,9 +101,10 @@ class PoseAccumulator {
     const Eigen::Isometry3d& back = views_.object_from_rig[to];
     const Eigen::Vector3d normal = back.linear() * pair.normal;
     const Eigen::Vector3d foot = back * target->point_mm.cast<double>();
-    if (rig_columns_ > 0) differentiate_by_rig(surfel, *target, normal, pair.normal, to);
-    add_equation(
-        row_of_motion(point, normal), -row_of_motion(foot, normal), weight, distance, paired);
+    own_.template head<6>() = row_of_motion(point, normal);
+    other_.template head<6>() = -row_of_motion(foot, normal);
+    if (views_.rig != nullptr) differentiate_by_rig(surfel, *target, normal, pair.normal);
+    add_equation(weight, distance, paired);
     tally.add({1, 0, weight, weight * distance});
     sums.weight += weight;
     sums.squares += weight * distance * distance;
@@ -110,85 +116,114 @@ class PoseAccumulator {
   void differentiate_by_rig(const SurfelMap::Surfel& surfel,
                             const SurfelMap::Surfel& target,
                             const Eigen::Vector3d& normal,
-                            const Eigen::Vector3d& normal_to,
-                            std::size_t to) {
+                            const Eigen::Vector3d& normal_to) {
     const RigChanges& rig = *views_.rig;
     if (!has_own_drift_) {
       own_drift_ =
           rig.drift.of(surfel.point_mm.cast<double>(), rig.pattern).transpose().cast<double>();
     }
     has_own_drift_ = true;
-    const Eigen::VectorXd by_own =
+    own_.tail(rig.count) =
         own_drift_ * (views_.object_from_rig[from_].linear().transpose() * normal);
-    const Eigen::VectorXd by_other =
-        rig.drift.of(target.point_mm.cast<double>(), rig.pattern).transpose().cast<double>() *
-        normal_to;
-    by_rig_.head(rig.count) = by_own - by_other;
-    by_rig_.tail(rig.count) = rig.times[from_] * by_own - rig.times[to] * by_other;
+    other_.tail(rig.count) =
+        -(rig.drift.of(target.point_mm.cast<double>(), rig.pattern).transpose().cast<double>() *
+          normal_to);
   }
 
-  void add_equation(
-      const Row6& own, const Row6& other, double weight, double distance, std::size_t paired) {
+  void add_equation(double weight, double distance, std::size_t paired) {
     Eigen::MatrixXd& hessian = sums.equations.hessian;
     Eigen::VectorXd& gradient = sums.equations.gradient;
-    const auto at = static_cast<Eigen::Index>(6 * (paired + 1));
-    const Row6 weighted = weight * own;
-    const Row6 weighted_other = weight * other;
-    hessian.topLeftCorner<6, 6>() += weighted * own.transpose();
-    hessian.block<6, 6>(at, 0) += weighted_other * own.transpose();
-    hessian.block<6, 6>(at, at) += weighted_other * other.transpose();
-    sums.rows[paired].head<6>() += weighted;
-    sums.rows[paired].segment<6>(6) += weighted_other;
-    sums.rows[paired].tail(rig_columns_) += weight * by_rig_;
-    gradient.head<6>() += distance * weighted;
-    gradient.segment<6>(at) += distance * weighted_other;
-    if (rig_columns_ == 0) return;
-    hessian.bottomLeftCorner(rig_columns_, 6) += by_rig_ * weighted.transpose();
-    hessian.block(hessian.rows() - rig_columns_, at, rig_columns_, 6) +=
-        by_rig_ * weighted_other.transpose();
-    hessian.bottomRightCorner(rig_columns_, rig_columns_) += weight * by_rig_ * by_rig_.transpose();
-    gradient.tail(rig_columns_) += weight * distance * by_rig_;
+    const Eigen::Index n = own_.size();
+    const Eigen::Index at = n * static_cast<Eigen::Index>(paired + 1);
+    const ViewRow<size> weighted = weight * own_;
+    const ViewRow<size> weighted_other = weight * other_;
+    hessian.template block<size, size>(0, 0, n, n).noalias() += weighted * own_.transpose();
+    hessian.template block<size, size>(at, 0, n, n).noalias() += weighted_other * own_.transpose();
+    hessian.template block<size, size>(at, at, n, n).noalias() +=
+        weighted_other * other_.transpose();
+    sums.rows[paired].head(n) += weighted;
+    sums.rows[paired].tail(n) += weighted_other;
+    gradient.head(n) += distance * weighted;
+    gradient.segment(at, n) += distance * weighted_other;
   }
 
   const Bundle& bundle_;
   const PosedViews& views_;
   std::size_t from_;
   double margin_mm_;
-  Eigen::Index rig_columns_;
+  ViewRow<size> own_;    ///< derivatives of a distance by the unknowns of its view
+  ViewRow<size> other_;  ///< and of the paired view
   std::vector<Eigen::Isometry3d> rig_from_object_;  ///< of the paired views
   Eigen::MatrixXd own_drift_;  ///< of the surfel by the changes of the rig, changes x 3
   bool has_own_drift_ = false;
-  Eigen::VectorXd by_rig_;
 };
 
 /// Adds a chunk's equations, of which the lower triangle is known, to those of all views.
-void add_equations(NormalEquations& all,
-                   const NormalEquations& part,
-                   std::size_t from,
-                   const std::vector<std::size_t>& others) {
-  const std::size_t blocks = others.size() + 1;
-  const auto rig = part.gradient.size() - static_cast<Eigen::Index>(6 * blocks);
-  struct Block {
-    Eigen::Index at, to, size;
-  };
-  std::vector<Block> places;
-  for (std::size_t block = 0; block < blocks; ++block) {
-    const std::size_t view = block == 0 ? from : others[block - 1];
-    places.push_back(
-        {static_cast<Eigen::Index>(6 * block), static_cast<Eigen::Index>(6 * view), 6});
-  }
-  if (rig > 0) places.push_back({part.gradient.size() - rig, all.gradient.size() - rig, rig});
-  for (std::size_t a = 0; a < places.size(); ++a) {
-    const Block& row = places[a];
-    all.gradient.segment(row.to, row.size) += part.gradient.segment(row.at, row.size);
-    for (std::size_t b = 0; b <= a; ++b) {
-      const Block& column = places[b];
-      const auto value = part.hessian.block(row.at, column.at, row.size, column.size);
-      all.hessian.block(row.to, column.to, row.size, column.size) += value;
-      if (a != b) all.hessian.block(column.to, row.to, column.size, row.size) += value.transpose();
+class EquationsOfViews {
+ public:
+  EquationsOfViews(std::size_t views, const RigChanges* rig)
+      : rig_(rig),
+        poses_(static_cast<Eigen::Index>(6 * views)),
+        terms_(rig == nullptr ? 0 : rig->count) {}
+
+  void add(NormalEquations& all,
+           const NormalEquations& part,
+           std::size_t from,
+           const std::vector<std::size_t>& others) const {
+    for (std::size_t block = 0; block <= others.size(); ++block) {
+      const std::size_t view = block == 0 ? from : others[block - 1];
+      const Eigen::Index at = (6 + terms_) * static_cast<Eigen::Index>(block);
+      add_gradient(all.gradient, part.gradient.segment(at, 6 + terms_), view);
+      add_block(all.hessian, part.hessian.block(at, at, 6 + terms_, 6 + terms_), view, view);
+      if (block == 0) continue;
+      const Eigen::MatrixXd across = part.hessian.block(at, 0, 6 + terms_, 6 + terms_);
+      add_block(all.hessian, across, view, from);
+      add_block(all.hessian, across.transpose(), from, view);
     }
   }
-}
+  [[nodiscard]] Eigen::Index unknowns() const {
+    return poses_ + (rig_ == nullptr ? 0 : rig_->unknowns());
+  }
+
+ private:
+  static Eigen::Index index_of(std::size_t view) { return static_cast<Eigen::Index>(6 * view); }
+
+  void add_gradient(Eigen::VectorXd& all, const Eigen::VectorXd& part, std::size_t view) const {
+    all.segment<6>(index_of(view)) += part.head<6>();
+    for (Eigen::Index i = 0; rig_ != nullptr && i < rig_->basis.cols(); ++i)
+      all.segment(poses_ + terms_ * i, terms_) += share(view, i) * part.tail(terms_);
+  }
+  void add_block(Eigen::MatrixXd& all,
+                 const Eigen::MatrixXd& part,
+                 std::size_t row,
+                 std::size_t column) const {
+    all.block<6, 6>(index_of(row), index_of(column)) += part.topLeftCorner<6, 6>();
+    if (rig_ == nullptr) return;
+    for (Eigen::Index i = 0; i < rig_->basis.cols(); ++i) {
+      const Eigen::Index at = poses_ + terms_ * i;
+      if (share(column, i) != 0.0) {
+        all.block(index_of(row), at, 6, terms_) +=
+            share(column, i) * part.topRightCorner(6, terms_);
+      }
+      if (share(row, i) == 0.0) continue;
+      all.block(at, index_of(column), terms_, 6) +=
+          share(row, i) * part.bottomLeftCorner(terms_, 6);
+      for (Eigen::Index j = 0; j < rig_->basis.cols(); ++j) {
+        const double both = share(row, i) * share(column, j);
+        if (both == 0.0) continue;
+        all.block(at, poses_ + terms_ * j, terms_, terms_) +=
+            both * part.bottomRightCorner(terms_, terms_);
+      }
+    }
+  }
+  [[nodiscard]] double share(std::size_t view, Eigen::Index function) const {
+    return rig_->basis(static_cast<Eigen::Index>(view), function);
+  }
+
+  const RigChanges* rig_;
+  Eigen::Index poses_;
+  Eigen::Index terms_;
+};
 
 void add_fit(PoseSums& sums,
              std::size_t from,
@@ -221,16 +256,20 @@ std::vector<float> PoseSums::region_means_mm(const Eigen::VectorXd& motion,
                                              std::size_t fewest) const {
   std::vector<float> means_mm;
   const std::size_t views = fit.matched.size();
+  const Eigen::Index rig = motion.size() - static_cast<Eigen::Index>(6 * views);
+  const Eigen::MatrixXd of_rig = rig == 0 ? Eigen::MatrixXd(0, static_cast<Eigen::Index>(views))
+                                          : changes_of_views(motion.tail(rig), rig_basis);
+  const auto moved = [&](const auto& row, std::size_t view) {
+    const auto at = static_cast<Eigen::Index>(view);
+    return row.template head<6>().dot(motion.segment<6>(6 * at)) +
+           row.tail(row.size() - 6).dot(of_rig.col(at));
+  };
   for (std::size_t i = 0; i < fit.regions.size(); ++i) {
     if (fit.regions[i].agree < fewest) continue;
     const std::size_t pair = i / kRegionsPerView;
-    const auto from = static_cast<Eigen::Index>(6 * (pair / views));
-    const auto to = static_cast<Eigen::Index>(6 * (pair % views));
     const Eigen::VectorXd& row = region_rows[i];
-    const Eigen::Index rig = row.size() - 12;
-    const double sum = fit.regions[i].weighted_mm + row.head<6>().dot(motion.segment<6>(from)) +
-                       row.segment<6>(6).dot(motion.segment<6>(to)) +
-                       row.tail(rig).dot(motion.tail(rig));
+    const double sum = fit.regions[i].weighted_mm + moved(row.head(row.size() / 2), pair / views) +
+                       moved(row.tail(row.size() / 2), pair % views);
     means_mm.push_back(static_cast<float>(sum / fit.regions[i].weight));
   }
   return means_mm;
@@ -252,17 +291,25 @@ PoseSums sum_poses(const Bundle& bundle, const SurfelLists& surfels, const Posed
   }
   const double margin_mm = free_space_margin_mm(bundle);
   std::vector<PoseChunk> parts(places.size());
+  const auto sum_chunk = [&](auto accumulator, const Place& place) {
+    const std::vector<SurfelMap::Surfel>& own = surfels[place.view];
+    const std::size_t end = std::min(place.first + kPosesPerChunk, own.size());
+    for (std::size_t i = place.first; i < end; ++i)
+      accumulator.add(own[i]);
+    return std::move(accumulator.sums);
+  };
   parallel_chunks(places.size(), 1, [&](std::size_t begin, std::size_t /*end*/) {
-    const auto [view, first] = places[begin];
-    PoseAccumulator accumulator(bundle, views, view, margin_mm);
-    const std::size_t end = std::min(first + kPosesPerChunk, surfels[view].size());
-    for (std::size_t i = first; i < end; ++i)
-      accumulator.add(surfels[view][i]);
-    parts[begin] = std::move(accumulator.sums);
+    const Place& place = places[begin];
+    parts[begin] =
+        views.rig == nullptr
+            ? sum_chunk(PoseAccumulator<6>(bundle, views, place.view, margin_mm), place)
+            : sum_chunk(PoseAccumulator<Eigen::Dynamic>(bundle, views, place.view, margin_mm),
+                        place);
   });
-  const auto count = static_cast<Eigen::Index>(6 * bundle.maps.size()) +
-                     (views.rig == nullptr ? 0 : 2 * views.rig->count);
+  const EquationsOfViews of_views(bundle.maps.size(), views.rig);
+  const Eigen::Index count = of_views.unknowns();
   PoseSums all;
+  if (views.rig != nullptr) all.rig_basis = views.rig->basis;
   for (NormalEquations& half : all.halves)
     half = {Eigen::MatrixXd::Zero(count, count), Eigen::VectorXd::Zero(count)};
   all.fit.matched.assign(bundle.maps.size(), 0);
@@ -273,7 +320,7 @@ PoseSums sum_poses(const Bundle& bundle, const SurfelLists& surfels, const Posed
     const auto [view, first] = places[i];
     const std::size_t region = kRegionsPerView * first / surfels[view].size();
     const std::vector<std::size_t>& others = bundle.pairs[view];
-    add_equations(all.halves.at(region % 2), parts[i].equations, view, others);
+    of_views.add(all.halves.at(region % 2), parts[i].equations, view, others);
     add_fit(all, view, region, others, parts[i]);
   }
   return all;

@@ -12,14 +12,26 @@
 
 namespace frangia {
 
-/// How the measured points move with changes of the rig: constant ones, and others that grow with
-/// time from the first view to the last.
+/// How the measured points move with changes of the rig, which may differ from view to view.
 struct RigChanges {
   PointDrift drift;
   Pattern pattern;
-  std::vector<double> times;  ///< of each view, from -0.5 to 0.5
-  Eigen::Index count = 0;     ///< of the changes
+  Eigen::MatrixXd basis;   ///< functions of time that the changes consist of, views x functions
+  Eigen::Index count = 0;  ///< of the terms that change
+
+  /// How many unknowns the rig has.
+  [[nodiscard]] Eigen::Index unknowns() const { return count * basis.cols(); }
 };
+
+/// The changes of the rig in each view.
+///
+/// @shape    `of_rig`: the terms of the first function of `basis`, then those of the next; terms x
+///           views
+[[nodiscard]] inline Eigen::MatrixXd changes_of_views(const Eigen::VectorXd& of_rig,
+                                                      const Eigen::MatrixXd& basis) {
+  const Eigen::Index terms = of_rig.size() / basis.cols();
+  return of_rig.reshaped(terms, basis.cols()) * basis.transpose();
+}
 
 /// Views in free poses.
 struct PosedViews {
@@ -36,16 +48,17 @@ struct NormalEquations {
 /// All point-to-plane distances between views, in free poses.
 ///
 /// @shape    unknowns: six of each view, the rotation (rad) and the translation (mm) of its points
-///           in the object frame; then the constant changes of the rig, then those that grow
+///           in the object frame; then those of the rig, as `changes_of_views` has them
 struct PoseSums {
   /// Of every other region of the views: either half predicts the other.
   std::array<NormalEquations, 2> halves;
   double weight = 0.0;   ///< sum of w, per mm^2
   double squares = 0.0;  ///< sum of w r^2
-  /// Sum of w J of each of `fit.regions`: by the six unknowns of the view, those of the other view,
-  /// and the rig's; empty where no pair agrees.
+  /// Sum of w J of each of `fit.regions`: by the six unknowns of the view and the changes of the
+  /// rig in it, then the same of the other view; empty where no pair agrees.
   std::vector<Eigen::VectorXd> region_rows;
-  BundleSums fit;  ///< without equations
+  Eigen::MatrixXd rig_basis;  ///< of `RigChanges`; empty: the rig has no unknowns
+  BundleSums fit;             ///< without equations
 
   [[nodiscard]] NormalEquations all() const;
   /// Mean distances of the regions with at least `fewest` pairs, after motions x of the views.

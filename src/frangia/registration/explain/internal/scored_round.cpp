@@ -4,6 +4,8 @@
 
 #include <Eigen/Cholesky>
 
+#include "frangia/registration/explain/internal/time_profiles.h"
+
 namespace frangia {
 namespace {
 
@@ -13,18 +15,22 @@ constexpr double kFaultsAreRare = -3.0;
 constexpr double kStatementsHold = -4.6;
 /// Share of its effect by which a simpler cause may differ from one that explains more.
 constexpr double kAlike = 0.05;
-/// The same between changes of the rig: points move with them linearly to a tenth only.
-constexpr double kAlikeRigs = 0.3;
+/// The same between changes of the rig from what is stated, with which points hardly move linearly,
+/// and from a rig that was found.
+constexpr double kAlikeRigs = 0.25;
+constexpr double kAlikeFoundRigs = 0.1;
 
 /// Motions of the richest hypothesis: every view and the rig are elsewhere.
 Eigen::MatrixXd everything(const PoseChart& chart, Eigen::Index unknowns) {
   const CauseHypothesis free{PoseCause::Unexplained, {}, 0.004 * chart.setting.distance_mm, 0.0};
-  Eigen::MatrixXd own = motions_of(free, chart.setting, unknowns);
-  const Eigen::Index rig = 2 * chart.setting.rig_changes;
-  own.conservativeResize(Eigen::NoChange, own.cols() + rig);
-  own.rightCols(rig).setZero();
-  own.bottomRightCorner(rig, rig).setIdentity();
-  return own;
+  const Eigen::MatrixXd own = motions_of(free, chart.setting, unknowns);
+  if (chart.setting.rig_changes == 0) return own;
+  CauseHypothesis drift{PoseCause::RigDrift, {}, 1.0};
+  drift.profile = kSmoothProfile;
+  const Eigen::MatrixXd of_rig = motions_of(drift, chart.setting, unknowns);
+  Eigen::MatrixXd both(unknowns, own.cols() + of_rig.cols());
+  both << own, of_rig;
+  return both;
 }
 
 double log_of_sum(double one, double other) {
@@ -135,6 +141,11 @@ void score(PoseRound& round) {
     round.motions.push_back(round.posterior(cause.best).motion);
 }
 
+bool is_hinted_at(const ScoredCause& cause) {
+  constexpr double kMore = 2.0;  // by 7 : 1
+  return cause.cause != PoseCause::AsStated && cause.log_odds > kFaultsAreRare + kMore;
+}
+
 double noticeable_mm(const PoseRound& round) {
   constexpr double kCommon = 2.5;  // times what pairs of two views still have in common
   return std::max(kCommon * round.noise.shared_mm, round.noise.scatter_mm);
@@ -142,6 +153,10 @@ double noticeable_mm(const PoseRound& round) {
 
 bool changes_rig(PoseCause cause) {
   return cause == PoseCause::Rig || cause == PoseCause::RigDrift;
+}
+
+bool is_drift(PoseCause cause) {
+  return cause == PoseCause::RigDrift || cause == PoseCause::PartDrift;
 }
 
 int freedom_of(PoseCause cause) {
@@ -158,10 +173,9 @@ int freedom_of(PoseCause cause) {
     case PoseCause::Rig:
     case PoseCause::Turntable:
       return 3;
-    case PoseCause::RigDrift:
-      return 4;
     case PoseCause::PartMovedTwice:
       return 5;
+    case PoseCause::RigDrift:
     case PoseCause::ViewsMoved:
       return 6;
     case PoseCause::Wobble:
@@ -174,7 +188,8 @@ int freedom_of(PoseCause cause) {
 
 bool are_alike(const PoseRound& round, const CauseMotion& one, const CauseMotion& other) {
   const bool rigs = changes_rig(one.cause) && changes_rig(other.cause);
-  const double share = rigs ? kAlikeRigs : kAlike;
+  const double of_rigs = round.rig_at.isZero() ? kAlikeRigs : kAlikeFoundRigs;
+  const double share = rigs ? of_rigs : kAlike;
   const Eigen::VectorXd none = round.stated();
   const Eigen::VectorXd apart = one.motion - other.motion;
   const Eigen::VectorXd first = one.motion - none;

@@ -22,7 +22,7 @@ struct PoseRound {
   PoseChart chart;
   std::vector<Eigen::Isometry3d> poses{};
   std::optional<RigChanges> rig{};
-  Eigen::VectorXd rig_at{};  ///< constant changes of the rig, then those that grow
+  Eigen::VectorXd rig_at{};  ///< changes of the rig, as `changes_of_views` has them
   PoseSums sums{};
   PairNoise noise{};
   std::optional<PoseEvidence> evidence{};
@@ -70,11 +70,17 @@ void weigh(PoseRound& round);
 /// Scores all hypotheses on the pairs of a round.
 void score(PoseRound& round);
 
+/// Whether the pairs make a fault more probable than it was before.
+[[nodiscard]] bool is_hinted_at(const ScoredCause& cause);
+
 /// The smallest effect that is explained: what the scatter of the pairs hides is not blamed, nor
 /// what surfaces of sound scans have in common.
 [[nodiscard]] double noticeable_mm(const PoseRound& round);
 
 [[nodiscard]] bool changes_rig(PoseCause cause);
+
+/// Whether a cause is a course in time.
+[[nodiscard]] bool is_drift(PoseCause cause);
 
 /// How much a cause says: that which says less must explain more.
 [[nodiscard]] int freedom_of(PoseCause cause);

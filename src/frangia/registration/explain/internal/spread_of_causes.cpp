@@ -4,6 +4,8 @@
 
 #include <Eigen/Cholesky>
 
+#include "frangia/core/symmetric_eigen.h"
+
 namespace frangia {
 namespace {
 
@@ -37,20 +39,43 @@ Rows6 rigid_part(const RigChanges& rig,
 }
 
 /// Motions of the views alone that are nearest to motions of views and rig.
-Eigen::MatrixXd of_views_alone(const Eigen::MatrixXd& motions,
-                               const PoseRound& scored,
-                               const Registration& work) {
-  const auto views = static_cast<Eigen::Index>(6 * work.surfels.size());
-  Eigen::MatrixXd all = motions.topRows(views);
-  if (!scored.rig || motions.rows() == views) return all;
-  const Eigen::Index count = scored.rig->count;
-  for (std::size_t view = 0; view < work.surfels.size(); ++view) {
-    const Rows6 by_rig = rigid_part(*scored.rig, work.surfels[view], scored.poses[view]);
-    all.middleRows(static_cast<Eigen::Index>(6 * view), 6) +=
-        by_rig *
-        (motions.middleRows(views, count) + scored.rig->times[view] * motions.bottomRows(count));
+class ViewsAlone {
+ public:
+  ViewsAlone(const PoseRound& scored, const Registration& work) {
+    if (!scored.rig) return;
+    for (std::size_t view = 0; view < work.surfels.size(); ++view)
+      by_rig_.push_back(rigid_part(*scored.rig, work.surfels[view], scored.poses[view]));
+    basis_ = scored.rig->basis;
   }
-  return all;
+
+  [[nodiscard]] Eigen::MatrixXd of(const Eigen::MatrixXd& motions) const {
+    const auto views = static_cast<Eigen::Index>(6 * by_rig_.size());
+    if (by_rig_.empty() || motions.rows() == views) return motions;
+    Eigen::MatrixXd all = motions.topRows(views);
+    const Eigen::Index count = by_rig_.front().cols();
+    for (std::size_t view = 0; view < by_rig_.size(); ++view) {
+      Eigen::MatrixXd changes = Eigen::MatrixXd::Zero(count, motions.cols());
+      for (Eigen::Index i = 0; i < basis_.cols(); ++i) {
+        changes += basis_(static_cast<Eigen::Index>(view), i) *
+                   motions.middleRows(views + count * i, count);
+      }
+      all.middleRows(static_cast<Eigen::Index>(6 * view), 6) += by_rig_[view] * changes;
+    }
+    return all;
+  }
+
+ private:
+  std::vector<Rows6> by_rig_;  ///< of each view; empty: the rig has no unknowns
+  Eigen::MatrixXd basis_;
+};
+
+/// Columns of which a covariance consists.
+Eigen::MatrixXd factor_of(const Eigen::MatrixXd& covariance) {
+  constexpr double kLeast = 1e-6;  // of the largest variance
+  const auto eigen = symmetric_eigen(covariance);
+  const double least = kLeast * eigen.values.maxCoeff();
+  const Eigen::Index kept = (eigen.values.array() > least).count();
+  return eigen.vectors.rightCols(kept) * eigen.values.tail(kept).cwiseSqrt().asDiagonal();
 }
 
 /// What two views have in common that the winner does not explain.
@@ -84,7 +109,7 @@ PoseSpread spread_of_winner(const PoseRound& scored,
                             const Registration& work) {
   // Errors that the views have in common are those of views, not of their regions.
   const double wider = std::sqrt(static_cast<double>(kRegionsPerView));
-  return {wider * of_views_alone(won.factor, scored, work)};
+  return {wider * ViewsAlone(scored, work).of(won.factor)};
 }
 
 PoseSpread spread_of_causes(const PoseRound& scored,
@@ -93,28 +118,31 @@ PoseSpread spread_of_causes(const PoseRound& scored,
   constexpr double kLeast = 1e-3;  // probability
   const Eigen::VectorXd own = scored.posterior(winner.best).motion;
   const auto views = static_cast<Eigen::Index>(6 * work.surfels.size());
-  Eigen::MatrixXd others(own.size(), 0);
+  const ViewsAlone alone(scored, work);
+  Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(views, views);
   const double most = scored.causes.front().log_odds;
   double sum = 0.0;
   for (const ScoredCause& cause : scored.causes)
     sum += std::exp(cause.log_odds - most);
   const auto probability_of = [&](double log_odds) { return std::exp(log_odds - most) / sum; };
-  const auto add = [&](double probability, const auto& motion) {
+  const auto add = [&](double probability, const CauseHypothesis& hypothesis) {
     if (probability < kLeast) return;
-    others.conservativeResize(Eigen::NoChange, others.cols() + 1);
-    others.rightCols<1>() = std::sqrt(probability) * (motion() - own);
+    const PosePosterior other = scored.posterior(hypothesis);
+    Eigen::MatrixXd changes(own.size(), other.factor.cols() + 1);
+    changes << other.factor, other.motion - own;
+    const Eigen::MatrixXd of_views = alone.of(changes);
+    covariance += probability * of_views * of_views.transpose();
   };
-  for (std::size_t i = 0; i < scored.causes.size(); ++i) {
-    const ScoredCause& cause = scored.causes[i];
+  for (const ScoredCause& cause : scored.causes) {
     double rest = probability_of(cause.log_odds);  // of its best hypothesis
     for (const CauseHypothesis& other : cause.others) {
       const double own_share = probability_of(other.log_odds);
       rest -= own_share;
-      add(own_share, [&] { return scored.posterior(other).motion; });
+      add(own_share, other);
     }
-    if (cause.cause != winner.cause) add(rest, [&] { return scored.motions[i]; });
+    if (cause.cause != winner.cause) add(rest, cause.best);
   }
-  PoseSpread spread{of_views_alone(others, scored, work)};
+  PoseSpread spread{factor_of(covariance)};
   const double shift_mm = left_mm(scored, own);
   if (!(shift_mm > scored.bundle.systematic_mm)) return spread;
   PoseSpread left{Eigen::MatrixXd::Zero(views, views / 2)};

@@ -17,9 +17,10 @@ struct PoseSpread {
   [[nodiscard]] ViewMotions of_views() const;
 };
 
-/// Returns where the causes beside the winner place the views instead, each with the root of its
-/// probability, and what no cause explains: the winner leaves that much between views, as shifts of
-/// each view by itself. What a cause changes of the rig counts as the rigid motion that is nearest.
+/// Returns where the causes beside the winner place the views instead, with what they leave open
+/// themselves, each with the root of its probability, and what no cause explains: the winner leaves
+/// that much between views, as shifts of each view by itself. What a cause changes of the rig
+/// counts as the rigid motion that is nearest.
 [[nodiscard]] PoseSpread spread_of_causes(const PoseRound& scored,
                                           const ScoredCause& winner,
                                           const Registration& work);

@@ -1,11 +1,10 @@
-#include "frangia/acquisition/frame_checksums.h"
+#include "frangia/dataset/stored_frames.h"
 
 #include <charconv>
 #include <span>
 #include <sstream>
 #include <string_view>
 
-#include "frangia/acquisition/internal/capture_manifest.h"
 #include "frangia/core/crc32.h"
 #include "frangia/core/read_text_file.h"
 
@@ -16,6 +15,13 @@ bool parse_hex(std::string_view text, std::uint32_t& number) {
   constexpr int kBase = 16;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number, kBase);
   return error == std::errc() && end == text.data() + text.size();
+}
+
+/// @missing  NaN for what is no number
+double number_of(const std::string& text) {
+  std::istringstream in(text);
+  double number = 0.0;
+  return in >> number ? number : kMissing;
 }
 
 /// Whether the checksum at the end of a line is right; it is then cut off.
@@ -31,10 +37,11 @@ bool take_checksum(std::string_view& line) {
 
 }  // namespace
 
-std::map<std::string, std::uint32_t> read_frame_checksums(const std::filesystem::path& scan) {
-  const auto file = scan / "capture" / CaptureManifest::kFileName;
-  std::map<std::string, std::uint32_t> checksums;
-  if (!std::filesystem::exists(file)) return checksums;
+std::map<std::string, StoredFrame> read_stored_frames(const std::filesystem::path& scan) {
+  const auto file = scan / "capture" / kManifestName;
+  std::map<std::string, StoredFrame> frames;
+  if (!std::filesystem::exists(file)) return frames;
+  constexpr std::string_view kAt = "at=";
   constexpr std::uint64_t kMostBytes = 200'000'000;  // a line has about 80
   std::istringstream lines(read_text_file(file, kMostBytes));
   for (std::string line; std::getline(lines, line);) {
@@ -44,11 +51,13 @@ std::map<std::string, std::uint32_t> read_frame_checksums(const std::filesystem:
     std::string kind;
     std::string name;
     std::string checksum;
-    std::uint32_t number = 0;
-    if (words >> kind >> name >> checksum && parse_hex(checksum, number))
-      checksums[name] = number;  // a set that was captured again has a later line
+    StoredFrame frame;
+    if (!(words >> kind >> name >> checksum) || !parse_hex(checksum, frame.checksum)) continue;
+    for (std::string word; words >> word;)
+      if (word.starts_with(kAt)) frame.at_s = number_of(word.substr(kAt.size()));
+    frames[name] = frame;  // a set that was captured again has a later line
   }
-  return checksums;
+  return frames;
 }
 
 }  // namespace frangia

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <vector>
+
+#include "frangia/dataset/scan_folder.h"
+
+namespace frangia {
+
+/// When the views of a scan were taken, by the manifest of its capture: means over the frames of
+/// each, in seconds since the scan began.
+///
+/// @shape    one for each of `scan.views`
+/// @missing  NaN for a view of which the manifest states no times, as those of older captures and
+///           of imported scans
+[[nodiscard]] std::vector<double> read_capture_times(const Scan& scan);
+
+}  // namespace frangia

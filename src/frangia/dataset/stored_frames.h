@@ -1,0 +1,29 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <string>
+
+#include "frangia/core/missing.h"
+
+namespace frangia {
+
+/// The log of a capture, in the folder `capture` of a scan.
+inline constexpr const char* kManifestName = "manifest.txt";
+
+/// A frame that the manifest of a capture lists.
+struct StoredFrame {
+  std::uint32_t checksum = 0;  ///< CRC-32 of the file
+  double at_s = kMissing;      ///< when it was taken, since the scan began; older ones state none
+};
+
+/// The frames that capture/manifest.txt of a scan lists, by the name of the file relative to the
+/// scan. Only reads; damaged lines are passed over.
+///
+/// @missing  empty without a manifest, as for imported frames
+/// @errors   Error(Input) that names the manifest when it cannot be read
+[[nodiscard]] std::map<std::string, StoredFrame> read_stored_frames(
+    const std::filesystem::path& scan);
+
+}  // namespace frangia
