@@ -88,7 +88,7 @@ Json json_of(const FrameAssessment& assessment) {
           {"harmonic", assessment.harmonic},
           {"harmonic_error_rad", number_or_null(assessment.harmonic_error_rad)},
           {"flicker_error_rad", number_or_null(assessment.flicker_error_rad)},
-          {"vibration_suspected", assessment.vibration_suspected},
+          {"exceeds_noise", assessment.exceeds_noise},
           {"text", with_flags(describe(assessment))}};
 }
 

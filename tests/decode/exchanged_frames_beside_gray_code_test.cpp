@@ -76,5 +76,32 @@ TEST(ExchangedFrames, AreDecidedByTheGrayCode) {
   EXPECT_NE(warnings[0].find("decoded with the shifts that fit"), std::string::npos) << warnings[0];
 }
 
+TEST(ExchangedFrames, AreNamedAllWhereNothingDecidesBetweenThem) {
+  // Two exchanges differ by the direction of the fringes only, which one pattern does not show.
+  std::mt19937 generator(5);
+  FrameStack fringes;
+  fringes.pattern = {.name = "f", .period_px = kFringe_px, .shifts_rad = {}};
+  for (int k = 0; k < 5; ++k)
+    fringes.pattern.shifts_rad.push_back(kTwoPi * k / 5);
+  for (const int k : {0, 2, 1, 3, 4}) {
+    fringes.frames.emplace_back(frame_of(
+        [&](double column) { return std::cos(kTwoPi * column / kFringe_px + kTwoPi * k / 5); },
+        generator));
+  }
+  Rig rig;
+  rig.reference().model.width_px = kAcross_px;
+  rig.reference().model.height_px = kDown_px;
+  rig.reference().noise = NoiseModel{2.3, 0.0};
+  rig.projector.model = CameraModel{.width_px = 640, .height_px = 480};
+  const std::vector<FrameStack> alone{std::move(fringes)};
+  const DecodedView view = decode_view(alone, rig, {});
+  const auto& check = view.directions.front().check;
+  ASSERT_TRUE(check);
+  EXPECT_FALSE(check->consistent);
+  ASSERT_EQ(check->fits.size(), 2U) << describe(*check);
+  EXPECT_EQ(check->fits.front().what, "frames 0 and 3 exchanged");
+  EXPECT_EQ(check->fits.back().what, "frames 1 and 2 exchanged");
+}
+
 }  // namespace
 }  // namespace frangia

@@ -198,7 +198,7 @@ TEST(ExplainFrames, NamesAPartThatMoved) {
   });
   EXPECT_TRUE(found.has_fault());
   EXPECT_EQ(found.best.cause, FrameCause::Moved) << describe(found.explanation);
-  EXPECT_EQ(found.best.moved_at, 3U);
+  EXPECT_EQ(found.best.frames, std::vector<std::size_t>{3});
 }
 
 TEST(JudgeFrames, ReturnsTheShiftsOfUnevenSteps) {

@@ -37,7 +37,7 @@ TEST(ViewQuality, IsMissingWithoutFringes) {
 
 TEST(ViewQuality, NeedsAttentionWhereOnePatternDoes) {
   std::vector<FrameAssessment> patterns = {assessed(0.5, 0.0, 4, 1.0), assessed(0.5, 0.0, 4, 9.0)};
-  patterns.back().vibration_suspected = true;
+  patterns.back().exceeds_noise = true;
   EXPECT_TRUE(view_quality(patterns).needs_attention);
 }
 

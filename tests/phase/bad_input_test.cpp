@@ -39,7 +39,7 @@ TEST(SmallImages, OfOnePixelRowOrColumnAreDecodedByEveryStage) {
     const NoiseModel noise = estimate_noise({&stack, 1});
     const FittedAlgorithm fitted = fit_algorithm("auto", stack, noise);
     const WrappedPhase map = wrap_phase(stack, fitted.algorithm, noise);
-    EXPECT_FALSE(assess_frames(stack, fitted, map, noise).vibration_suspected);
+    EXPECT_FALSE(assess_frames(stack, fitted, map, noise).exceeds_noise);
     EXPECT_TRUE(find_residues(map.phase_rad).empty());
     for (const SpatialMethod method : {SpatialMethod::RunMerging,
                                        SpatialMethod::QualityGuided,
@@ -98,7 +98,7 @@ TEST(SaturatedImages, HaveTheStatusSaturatedEverywhere) {
   }));
   const FrameAssessment assessment = assess_frames(stack, fitted, map, noise);
   EXPECT_EQ(assessment.saturated_fraction, 1.0);
-  EXPECT_FALSE(assessment.vibration_suspected);
+  EXPECT_FALSE(assessment.exceeds_noise);
   EXPECT_EQ(unwrap_spatially(map, {.keep_growth_order = true}).region_count, 0);
 }
 

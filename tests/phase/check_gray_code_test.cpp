@@ -1,8 +1,10 @@
 #include "frangia/phase/gray/check_gray_code.h"
 
 #include <cmath>
+#include <cstdint>
 #include <random>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -196,6 +198,28 @@ TEST(CheckGrayCode, NamesAPeriodOfTheFringesByTheBordersOfTheStripes) {
   CodedScene scene;  // of 20 px
   scene.fringes.pattern.period_px = 17.0;
   expect_only_fit(scene.check(), "a period of 20 px, not 17 px");
+}
+
+TEST(CheckGrayCode, NamesNoPeriodOfFringesThatDriftAgainstTheStripes) {
+  // The code is sound, and the phase of the fringes wanders by half a fringe over the part: no
+  // period makes them begin at the borders of the stripes.
+  for (int way = 1; way < 7; ++way) {
+    CodedScene scene;
+    for (std::size_t k = 0; k < scene.fringes.frames.size(); ++k) {
+      auto& image = std::get<Image<std::uint8_t>>(scene.fringes.frames[k]);
+      for (int y = 0; y < kCodedHeight; ++y) {
+        for (int x = 0; x < kCodedWidth; ++x) {
+          const double drift = 2.2 * std::sin(0.02 * way * x + 0.09 * y);
+          const double phase = kTwoPi * coded_column(x, y) / kCodedPeriod + drift;
+          image(x, y) = static_cast<std::uint8_t>(
+              std::lround(110.0 + 70.0 * std::cos(phase + scene.fringes.pattern.shifts_rad[k])));
+        }
+      }
+    }
+    const SequenceCheck found = scene.check();
+    for (const SequenceFault& fault : found.fits)
+      EXPECT_NE(fault.kind, SequenceFaultKind::Period) << way << ": " << describe(found);
+  }
 }
 
 TEST(CheckGrayCode, NamesAnotherWidthOfTheStripesAndThePeriodThatWouldFitInstead) {

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <complex>
 #include <numeric>
+#include <variant>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -127,6 +128,32 @@ TEST(FitWaveform, CountsFlickerThatLeavesTheResidualOfMotion) {
   EXPECT_FALSE(found.is_flicker);
   // |sum of g_k exp(-i shift_k)| / 2 times A / B, as above; rms over the fringe.
   EXPECT_NEAR(found.flicker_error_rad, 1.05 * 0.02, 0.004);
+}
+
+TEST(FitWaveform, CountsFlickerOfAPartThatIsTooSmallToCompareContrasts) {
+  const std::vector<double> nominal = equal_shifts(4, kTwoPi / 4.0);
+  const auto fit_small = [&](const DisplayScene& scene) {
+    FrameStack stack = display_frames(scene, nominal);
+    for (Frame& frame : stack.frames) {  // two by two tiles of eight by eight
+      std::visit(
+          [](auto& image) {
+            for (int y = 0; y < image.height(); ++y)
+              for (int x = 0; x < image.width(); ++x)
+                if (x >= 80 || y >= 70) image(x, y) = 12;
+          },
+          frame);
+    }
+    return fit_waveform(stack, nominal, noise_of(scene), {.samples = 120'000});
+  };
+  const std::vector<double> gains{0.03, -0.03, 0.01, -0.02};
+  double square = 0.0;
+  for (const double gain : gains)
+    square += gain * gain / 4.0;
+  const double expected = std::sqrt(2.0 / 4.0 * square) * 1.05;  // of gains of this size
+  const double found = fit_small({.gains = gains}).flicker_error_rad;
+  EXPECT_GT(found, 0.5 * expected);
+  EXPECT_LT(found, 2.5 * expected);
+  EXPECT_EQ(fit_small({}).flicker_error_rad, 0.0);
 }
 
 TEST(FitWaveform, IgnoresSaturatedPixelsAndCountsThoseCutOffAtZero) {

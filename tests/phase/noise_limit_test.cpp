@@ -110,13 +110,13 @@ TEST(AssessFrames, ReportsStepAndContrastOfGoodFrames) {
   EXPECT_NEAR(assessment.step_deg, 92.7, 5.0 * assessment.step_sigma_deg);
   EXPECT_NEAR(assessment.contrast, 0.8, 0.02);
   EXPECT_NEAR(assessment.residual_ratio, 1.0, 0.1);
-  EXPECT_FALSE(assessment.vibration_suspected);
+  EXPECT_FALSE(assessment.exceeds_noise);
   EXPECT_NE(describe(assessment).find("frames consistent"), std::string::npos);
 }
 
-TEST(AssessFrames, SuspectsVibrationWhenAFrameMoved) {
+TEST(AssessFrames, FindsThatAFrameMovedBeyondTheNoise) {
   const FrameAssessment assessment = assessment_of(noisy_frames(0.9, 0.0, 0.2));
-  EXPECT_TRUE(assessment.vibration_suspected);
+  EXPECT_TRUE(assessment.exceeds_noise);
   EXPECT_GT(assessment.residual_ratio, 2.0);
 }
 

@@ -36,6 +36,14 @@ TEST(ShareWaveforms, KeepsHarmonicsThatNoPatternDetermines) {
   EXPECT_EQ(fits[1].waveform.waveform.amplitude(2), 0.03);
 }
 
+TEST(ShareWaveforms, KeepsTheHarmonicsOfASquareWaveBesideTheSineOfACoarsePattern) {
+  std::vector<FittedAlgorithm> fits = {fit_of(1280.0, 0.0, 0.001), fit_of(53.0, 0.1, 0.026)};
+  fits[1].waveform.is_square = true;
+  share_waveforms(fits);
+  EXPECT_EQ(fits[1].waveform.waveform.amplitude(2), 0.1);
+  EXPECT_EQ(fits[1].waveform.sigma[0], 0.026);
+}
+
 TEST(ShareWaveforms, GivesAFringeThatDoesNotShowFlickerThatOfTheOthers) {
   std::vector<FittedAlgorithm> fits = {
       fit_of(1280.0, 0.0, kUnknown), fit_of(160.0, 0.0, 0.001), fit_of(20.0, 0.0, 0.001)};

@@ -71,8 +71,8 @@ SetAssessment assess_set(std::span<const FrameStack> exposures,
     best_assessment = frame_assessment;
   }
   if (best == nullptr) return assessment;
-  const bool vibrating = shifter ? best_assessment.residual_ratio > kVibratingPiezo
-                                 : best_assessment.vibration_suspected;
+  const bool vibrating =
+      shifter ? best_assessment.residual_ratio > kVibratingPiezo : best_assessment.exceeds_noise;
   if (shifter) find_gain(*best, noise_of(*best, camera), assessment);
   assessment.moved = camera && vibrating;
   return assessment;

@@ -22,7 +22,8 @@ std::string word_for(const FrameAssessment& frames, std::size_t points) {
   constexpr double kOverexposed = 0.02;
   constexpr double kLowContrast = 0.2;
   if (points == 0) return kNothingMeasured;
-  if (frames.vibration_suspected) return "vibration suspected, check the mounting";
+  if (frames.exceeds_noise)
+    return "frames differ beyond their noise, check the mounting and the light";
   if (frames.saturated_fraction > kOverexposed)
     return "overexposed, shorten or bracket the exposure";
   if (frames.contrast < kLowContrast) return "low contrast, reduce ambient light";

@@ -134,7 +134,7 @@ std::string remedy_of(const FrameHypothesis& hypothesis) {
     case FrameCause::Moved:
       return "hold the part still while it is captured, and capture the frames again";
     case FrameCause::Steps:
-      return "hold the part still while it is captured, or correct shifts_deg of scan.toml";
+      return "correct shifts_deg of scan.toml, or hold rig and part still while they are captured";
     case FrameCause::Lamp:
       return "keep the light of the room as it is, and capture the frames again";
     case FrameCause::Unexplained:
@@ -204,6 +204,9 @@ FrameExplanation explain_frames(const FrameStack& stack, const NoiseModel& noise
   const Eigen::VectorXd& errors_rad = candidates[winner].score.step_errors_rad;
   for (Eigen::Index k = 0; k < errors_rad.size(); ++k)  // without their mean, which is a phase
     out.best.shifts_rad[static_cast<std::size_t>(k)] += errors_rad(k) - errors_rad.mean();
+  for (std::size_t i = 0; i < candidates.size(); ++i)
+    if (scored[i].prediction == scored[winner].prediction)
+      out.alike_rad.push_back(candidates[i].hypothesis.shifts_rad);
   const FrameScore& score = candidates[winner].score;
   out.are_fringes = score.unexplained < kNoFringes;
   if (score.excess > kNoiseTolerance / (1.0 + kNoiseTolerance)) {

@@ -22,7 +22,7 @@ FrameHypothesis as_described(const Pattern& pattern) {
           .gains = std::vector<double>(frames, 1.0),
           .free = std::vector<bool>(frames, false),
           .lamp_on = {},
-          .moved_at = {}};
+          .path = {}};
 }
 
 std::string clause_of(FrameCause cause, std::size_t frame, const FrameHypothesis& all) {
@@ -39,9 +39,14 @@ std::string clause_of(FrameCause cause, std::size_t frame, const FrameHypothesis
       if (all.lamp_off == frame + 1) return fmt::format("another lamp lit frame {} alone", frame);
       return fmt::format("another lamp was switched on or off before frame {}", frame);
     case FrameCause::Moved:
-      return fmt::format("the part moved before frame {}", frame);
+      return frame == 0 ? "the part moved while the frames were taken"
+                        : fmt::format("the part moved before frame {}", frame);
     case FrameCause::Steps:
-      return "the shifts differ from those of scan.toml, or the part moved between the frames";
+      return frame == 0 ? "the shifts differ from those of scan.toml"
+                        : fmt::format(
+                              "the shifts from frame {} on differ from those of scan.toml, "
+                              "or all that is seen moved before it",
+                              frame);
     case FrameCause::Start:
       return "the shifts begin elsewhere";
     case FrameCause::Direction:
@@ -116,10 +121,12 @@ std::vector<FrameHypothesis> frame_hypotheses(const Pattern& pattern) {
     for (std::size_t l = k; l < frames; ++l)
       out.back().shifts_rad[l] = declared.shifts_rad[l - 1];
     if (frames > kMinFramesOfLamp) {
-      for (const bool moves_texture : {false, true}) {
-        add(FrameCause::Moved, k, 0, frames - 2);
-        out.back().moved_at = k;
-        out.back().moves_texture = moves_texture;
+      std::vector<double> path(frames, 0.0);
+      std::fill(path.begin() + static_cast<std::ptrdiff_t>(k), path.end(), 1.0);
+      for (const FrameCause cause : {FrameCause::Steps, FrameCause::Moved}) {
+        add(cause, k, 0, frames - 2);
+        out.back().path = path;
+        out.back().moves_part = cause == FrameCause::Moved;
       }
     }
     if (frames < kMinFramesOfLamp || k < 2) continue;
@@ -130,6 +137,11 @@ std::vector<FrameHypothesis> frame_hypotheses(const Pattern& pattern) {
     add(FrameCause::Steps, 0, 0, 1);
     out.back().has_free_steps = true;
     out.back().frames.clear();
+    add(FrameCause::Moved, 0, 0, 1);  // all the time
+    out.back().frames.clear();
+    out.back().moves_part = true;
+    for (std::size_t k = 0; k < frames; ++k)
+      out.back().path.push_back(static_cast<double>(k) / static_cast<double>(frames - 1));
   }
   add(FrameCause::Start, 0, 1, 1);
   add(FrameCause::Direction, 0, 0, 1);
@@ -157,7 +169,7 @@ std::optional<FrameHypothesis> both_of(const FrameHypothesis& a, const FrameHypo
   // The order of what is late and exchanged would matter.
   if (common || (ordered(a) && ordered(b))) return std::nullopt;
   for (const FrameHypothesis* one : {&a, &b})
-    if (one->lamp_on || one->moved_at || one->has_free_steps) return std::nullopt;
+    if (one->lamp_on || !one->path.empty() || one->has_free_steps) return std::nullopt;
   FrameHypothesis out = ordered(b) ? b : a;
   const FrameHypothesis& other = ordered(b) ? a : b;
   out.frames.insert(out.frames.end(), other.frames.begin(), other.frames.end());
@@ -205,7 +217,7 @@ bool is_lit_by_lamp(const FrameHypothesis& hypothesis, std::size_t frame) {
 }
 
 bool predict_alike(const FrameHypothesis& a, const FrameHypothesis& b) {
-  if (a.free != b.free || a.moved_at != b.moved_at || a.moves_texture != b.moves_texture ||
+  if (a.free != b.free || a.path != b.path || a.moves_part != b.moves_part ||
       a.has_free_steps != b.has_free_steps || a.lamp_on.has_value() != b.lamp_on.has_value() ||
       (a.cause == FrameCause::Unexplained) != (b.cause == FrameCause::Unexplained))
     return false;

@@ -20,7 +20,7 @@ enum class FrameCause {
   Gain,         ///< a frame was taken at another gain, exposure or power of the lamp
   Lamp,         ///< another lamp was switched on or off within the set
   Moved,        ///< the part moved within the set
-  Steps,        ///< the shifts of single frames differ from those of scan.toml
+  Steps,        ///< the shifts differ from those of scan.toml, alike at all pixels
   Start,        ///< the shifts begin elsewhere: only other patterns tell
   Direction,    ///< the shifts run backwards: only other patterns tell
   Unexplained   ///< no cause: the frames differ from the fringes by a broad density
@@ -43,8 +43,11 @@ struct FrameHypothesis {
   std::vector<bool> free;                      ///< the frame shows no fringes
   std::optional<std::size_t> lamp_on;          ///< first frame with the light L of another lamp
   std::size_t lamp_off = SIZE_MAX;             ///< first frame after it without that light
-  std::optional<std::size_t> moved_at;         ///< first frame after the part moved
-  bool moves_texture = false;   ///< the movement shifts the image, not only the phase
+  /// How far each frame is displaced, over the whole displacement; empty if nothing moved.
+  std::vector<double> path;
+  /// The displacement is that of a part: it shifts the image of the texture, and the phase
+  /// differently over the image. Otherwise it shifts the phase of all pixels alike.
+  bool moves_part = false;
   bool has_free_steps = false;  ///< each shift has an error of its own
   int faults = 0;               ///< 0 as described, 1, or 2
   int parameters = 0;           ///< fitted for all pixels together

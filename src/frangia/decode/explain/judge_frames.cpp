@@ -52,7 +52,7 @@ bool determine_phase(const std::vector<double>& shifts_rad) {
                                         .gains = std::vector<double>(frames, 1.0),
                                         .free = std::vector<bool>(frames, false),
                                         .lamp_on = {},
-                                        .moved_at = {}});
+                                        .path = {}});
   if (design.inverse.size() == 0) return false;
   const double noise = std::sqrt(0.5 * design.inverse.bottomRows(2).squaredNorm());
   return noise <= kMostNoise * std::sqrt(2.0 / static_cast<double>(frames));

@@ -263,28 +263,48 @@ std::optional<DecodedDirection> remedied(const DirectionInput& input, const Sequ
                            stack.pattern.shifts_rad.size() == fault.shifts_rad.size();
     if (concerned) stack.pattern.shifts_rad = fault.shifts_rad;
   }
-  DirectionInput changed = input;  // its references are those of `input`
-  changed.stacks = stacks;
+  auto orders_rad = input.orders_rad;
+  orders_rad.erase(fault.patterns.front());
+  Run run = input.run;
+  if (!input.options.accept_remedy) {  // only tried
+    run.on_warning = nullptr;
+    run.on_note = nullptr;
+  }
+  const DirectionInput changed{stacks,
+                               input.plan,
+                               input.rig,
+                               input.rays,
+                               input.options,
+                               run,
+                               input.noise,
+                               input.unexplained_rad,
+                               std::move(orders_rad)};
   DecodedDirection again = decode_as_planned(changed);
   if (!again.check->consistent) return {};
   return again;
 }
 
-/// Applies or offers the shifts that fit where those of scan.toml do not.
+/// Applies or offers the shifts that fit where those of scan.toml do not, and with which the same
+/// check passes.
 void apply_remedy(const DirectionInput& input,
                   DecodedDirection& view,
                   std::vector<FrameVerdict>& verdicts,
                   const Run& run) {
   const SequenceFault* fault = remedy_of(view);
   if (fault == nullptr) return;
+  const std::string pattern = fault->patterns.front();
+  const bool is_lost = std::any_of(verdicts.begin(), verdicts.end(), [&](const auto& verdict) {
+    return verdict.action == FrameAction::LeaveOutView &&
+           (verdict.explanation.pattern != pattern || !verdict.remedy_rad.empty());
+  });
+  if (is_lost) return;  // the verdict says more
+  std::optional<DecodedDirection> again = remedied(input, *fault);
+  if (!again) return;
   if (!input.options.accept_remedy) {
     view.check->finding =
         describe(*view.check) + "; `accept_remedy` decodes with the shifts that fit";
     return;
   }
-  const std::string pattern = fault->patterns.front();
-  std::optional<DecodedDirection> again = remedied(input, *fault);
-  if (!again) return;
   run.warn(describe(*view.check) + "; decoded with the shifts that fit");
   view = *std::move(again);
   // Other patterns decided which frames of the pattern were exchanged, which its own do not tell.
@@ -311,7 +331,8 @@ DecodedDirection decode_direction(const DirectionInput& all) {
                              all.options,
                              run,
                              judged.noise,
-                             std::move(judged.unexplained_rad)};
+                             std::move(judged.unexplained_rad),
+                             std::move(judged.orders_rad)};
   DecodedDirection view = decode_as_planned(input);
   apply_remedy(input, view, judged.verdicts, all.run);
   view.frames = std::move(judged.verdicts);

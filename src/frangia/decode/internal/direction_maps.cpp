@@ -38,16 +38,19 @@ SystematicPhase sequence_systematic(const DirectionMaps& maps) {
   return {std::sqrt(square) / weights, differing / square};
 }
 
-std::vector<SequenceFrames> frames_of(const DirectionMaps& maps) {
+std::vector<SequenceFrames> frames_of(const DirectionInput& input, const DirectionMaps& maps) {
   std::vector<SequenceFrames> frames;
-  for (std::size_t m = 0; m < maps.fringes.size(); ++m)
+  for (std::size_t m = 0; m < maps.fringes.size(); ++m) {
     frames.push_back({maps.fringes[m], maps.fits[m].algorithm});
+    const auto orders = input.orders_rad.find(maps.fringes[m]->pattern.name);
+    if (orders != input.orders_rad.end()) frames.back().orders_rad = orders->second;
+  }
   return frames;
 }
 
 /// Compares the patterns with each other.
 SequenceCheck check_of(const DirectionInput& input, const DirectionMaps& maps) {
-  return check_sequence(frames_of(maps),
+  return check_sequence(frames_of(input, maps),
                         maps.view.noise,
                         input.rig.projector,
                         input.plan.maps_determine_orders,
@@ -134,7 +137,7 @@ DirectionMaps decode_in_one_pass(const DirectionInput& input, DirectionMaps fitt
   }
   view.check = check_of(input, out);
   view.phase = decode_sequence(
-      frames_of(out), view.noise, input.rig.projector, {options.wrap, options.temporal});
+      frames_of(input, out), view.noise, input.rig.projector, {options.wrap, options.temporal});
   const SystematicPhase systematic = sequence_systematic(out);
   view.phase.systematic_rad = uniform_systematic(systematic.rad, view.phase.status);
   view.phase.differing_share = static_cast<float>(systematic.differing_share);

@@ -28,6 +28,8 @@ struct DirectionInput {
   NoiseModel noise{};  ///< of the camera
   /// Uncertainty of the phase by what nothing explains in the frames of a pattern, by its name.
   std::map<std::string, double> unexplained_rad{};
+  /// Equal explanations of the frames of a pattern, as `SequenceFrames::orders_rad`, by its name.
+  std::map<std::string, std::vector<std::vector<double>>> orders_rad{};
 };
 
 /// The fringes of one direction, the algorithms that fit their frames, and what they show.

@@ -55,6 +55,12 @@ void apply_ceiling(const Ceiling& ceiling, const DirectionInput& input, JudgedFr
     stack.white_level = ceiling.counts;
 }
 
+/// Whether the frames are in another order, and more than one predicts them.
+bool is_undecided_order(const FrameVerdict& verdict) {
+  return verdict.action == FrameAction::LeaveOutView && verdict.remedy_rad.empty() &&
+         verdict.explanation.has_fault() && verdict.explanation.best.cause == FrameCause::Exchanged;
+}
+
 std::vector<double> degrees_of(const std::vector<double>& shifts_rad) {
   std::vector<double> degrees;
   for (const double shift : shifts_rad)
@@ -81,6 +87,8 @@ JudgedFrames judge_direction(const DirectionInput& input) {
     FrameVerdict verdict = judge_frames(
         *stack, out.noise, {may_leave_out(stack->pattern, input.options), has_other_check});
     out.unexplained_rad[stack->pattern.name] = verdict.explanation.unexplained_rad;
+    if (is_undecided_order(verdict))
+      out.orders_rad[stack->pattern.name] = verdict.explanation.alike_rad;
     if (!verdict.remedy_rad.empty() && input.options.accept_remedy)
       verdict.action = FrameAction::Use;
     changed = changed || verdict.action == FrameAction::LeaveOutFrames ||
@@ -115,8 +123,8 @@ std::optional<SequenceCheck> report_frames(const std::vector<FrameVerdict>& verd
     if (verdict.action == FrameAction::Use && !verdict.remedy_rad.empty())
       run.warn(fmt::format("{}; decoded with the shifts that fit", verdict.finding));
     if (verdict.action != FrameAction::LeaveOutView || !check) continue;
-    // What the other patterns say about the order of the frames is more than their residuals do.
-    if (found.best.cause == FrameCause::Exchanged && !check->consistent) continue;
+    // The other patterns decide which of these orders it is.
+    if (is_undecided_order(verdict) && !check->consistent) continue;
     check = SequenceCheck{.decided = true, .consistent = false};
     check->patterns = {found.pattern};
     check->finding = verdict.finding;

@@ -20,6 +20,8 @@ struct JudgedFrames {
   /// which they are cut off; empty if they are used as they are.
   std::vector<FrameStack> stacks;
   std::map<std::string, double> unexplained_rad;  ///< of the phase, by pattern
+  /// By pattern: orders of the frames that its frames do not tell apart.
+  std::map<std::string, std::vector<std::vector<double>>> orders_rad;
 };
 
 /// Explains the fringe patterns of a direction and leaves out the frames at fault.

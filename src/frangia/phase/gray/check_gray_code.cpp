@@ -24,29 +24,32 @@ SequenceCheck check_gray_code(const FrameStack& gray,
   out.patterns = {code.name, fringes.pattern.name};
   const GrayCodeSample sample(gray, fringes, options);
   if (sample.pixels.size() < options.min_pixels) return out;
-  const double declared = sample.score(declared_trial(code));
+  const Pattern& shown = fringes.pattern;
+  const GrayTrial as_declared = declared_trial(code, shown);
+  const double declared = sample.score(as_declared);
   out.decided = true;
   out.agreement = declared;
   const bool agrees = declared >= options.min_agreement;
-  const GrayCodeSample::Start start = sample.start_offset(declared_trial(code));
-  std::vector<SequenceFault> missing = missing_frames(sample, code);
+  const GrayCodeSample::Start start = sample.start_offset(as_declared);
+  std::vector<SequenceFault> missing = missing_frames(sample, code, shown);
   if (agrees && !missing.empty()) {
     out.consistent = false;
     out.fits = std::move(missing);
     return out;
   }
   if (agrees && !start.scattered) {
-    const bool few = fringes.pattern.shifts_rad.size() <= 3;
-    const double allowed = few ? options.max_start_three_rad : options.max_start_rad;
-    if (!(std::abs(start.offset_rad) > allowed)) return out;
+    if (!(std::abs(start.offset_rad) > max_start_of(shown, options))) return out;
     out.consistent = false;
-    out.fits.push_back(start_fault(fringes.pattern, start.offset_rad));
+    GrayTrial later = as_declared;
+    later.start_rad = start.offset_rad;
+    if (passes(sample, later, shown, options))
+      out.fits.push_back(start_fault(shown, start.offset_rad));
     return out;
   }
-  std::vector<SequenceFault> scales = other_scales(sample, code, fringes.pattern, options);
+  std::vector<SequenceFault> scales = other_scales(sample, code, shown, options);
   if (agrees && scales.empty()) return out;
   out.consistent = false;
-  std::vector<GrayTrial> trials = gray_trials(code, fringes.pattern);
+  std::vector<GrayTrial> trials = gray_trials(code, shown);
   double best = std::max(options.min_agreement, declared + options.min_gain);
   std::vector<std::pair<double, SequenceFault>> found;
   for (GrayTrial& trial : trials) {

@@ -174,6 +174,7 @@ ResidualFit fit_residuals(const FringeBins& bins,
   const Eigen::MatrixXd covariance = with.covariance.bottomRightCorner(frames, frames);
   const double variance = covariance.trace() - covariance.mean() * static_cast<double>(frames);
   out.gain_sigma = std::sqrt(excess * std::max(variance, 0.0) / static_cast<double>(frames));
+  out.gain_chi2 = (none - with.chi2) / excess;
   const double explained = none - full.chi2;
   const double by_shifts = none - fitter.fit(shifts).chi2;
   out.gains_explain =

@@ -17,6 +17,7 @@ struct ResidualFit {
   std::vector<double> sigma;                    ///< of each amplitude; NaN where not observable
   std::vector<double> gains;                    ///< relative, mean 0; empty unless fitted
   double gain_sigma = 0.0;                      ///< rms standard deviation of the gains
+  double gain_chi2 = 0.0;      ///< what gains explain beyond harmonics, over what nothing explains
   bool gains_explain = false;  ///< gains fit the residuals, and better than errors of the shifts
 };
 

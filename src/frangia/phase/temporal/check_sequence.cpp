@@ -1,10 +1,11 @@
 #include "frangia/phase/temporal/check_sequence.h"
 
 #include <algorithm>
-#include <optional>
+#include <cmath>
 #include <utility>
 #include <vector>
 
+#include "frangia/core/angles.h"
 #include "frangia/phase/temporal/internal/rank_trials.h"
 #include "frangia/phase/temporal/internal/sequence_sample.h"
 #include "frangia/phase/temporal/internal/sequence_trials.h"
@@ -12,10 +13,6 @@
 
 namespace frangia {
 namespace {
-
-/// Residual of the fringe fit over the modulation above which the frames are in another order
-/// though no order fits: a second harmonic of 0.35 (gamma 2.6) leaves up to 0.7 of four frames.
-constexpr double kNoFringes = 0.8;
 
 /// Systematic phase error of each pattern, rad RMS, that a sound sequence may have: harmonics of a
 /// display, errors of steps. Three frames are blind to the second harmonic, which is 0.29 of the
@@ -32,41 +29,23 @@ std::vector<double> largest_systematic(const std::vector<Pattern>& patterns) {
 /// Largest expected misfit of a sound sequence, over chance, for which the check decides.
 constexpr double kMaxExpected = 0.4;
 
-/// Residual of the fringe fit over the modulation above which other orders are tried: frames of
-/// another order have 0.5 and more, harmonics of 10 % leave 0.1.
-constexpr double kMaxFitResidual = 0.3;
-constexpr double kFittedResidual = 0.4;  ///< of a declaration that fits, over that of scan.toml
-
-/// The pattern whose frames fit their shifts worst, if they are not in the declared order.
-std::optional<std::size_t> misordered_map(const SequenceSample& sample, double& residual) {
-  std::optional<std::size_t> worst;
-  residual = kMaxFitResidual;
-  for (std::size_t map = 0; map < sample.patterns().size(); ++map) {
-    const double declared = sample.fit_residual(sample.patterns()[map], map);
-    if (declared <= residual) continue;
-    residual = declared;
-    worst = map;
-  }
-  return worst;
-}
-
-/// The orders of the frames of one pattern that leave the least residual of the fringe fit. Orders
-/// that reverse or delay the fringes leave the same residual.
-std::vector<SequenceTrial> fitting_orders(const SequenceSample& sample,
-                                          std::size_t map,
-                                          double declared_residual) {
-  constexpr double kSameResidual = 1.2;
-  std::vector<std::pair<double, SequenceTrial>> found;
-  double least = kFittedResidual * declared_residual;
-  for (SequenceTrial& trial : shift_trials(sample.patterns(), map)) {
-    if (trial.fault.kind != SequenceFaultKind::Order) continue;
-    const double residual = sample.fit_residual(trial.changes.front().pattern, map);
-    least = std::min(least, residual);
-    found.emplace_back(residual, std::move(trial));
-  }
+/// The orders that explain the frames of one pattern by themselves, as trials.
+std::vector<SequenceTrial> trials_of(const SequenceSample& sample,
+                                     std::size_t map,
+                                     const std::vector<std::vector<double>>& orders_rad) {
+  constexpr double kSame_rad = 1e-6;
+  const auto are_same = [](const std::vector<double>& a, const std::vector<double>& b) {
+    return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](double one, double other) {
+      return std::abs(wrap_rad(one - other)) < kSame_rad;
+    });
+  };
   std::vector<SequenceTrial> trials;
-  for (auto& [residual, trial] : found)
-    if (residual <= kSameResidual * least) trials.push_back(std::move(trial));
+  for (SequenceTrial& trial : shift_trials(sample.patterns(), map)) {
+    if (std::any_of(orders_rad.begin(), orders_rad.end(), [&](const auto& order) {
+          return are_same(order, trial.fault.shifts_rad);
+        }))
+      trials.push_back(std::move(trial));
+  }
   return trials;
 }
 
@@ -77,7 +56,8 @@ SequenceCheck with_fits(SequenceCheck check, std::vector<RankedTrial> found) {
   return check;
 }
 
-/// The result for a pattern whose frames have one of the orders, or none that is known.
+/// The result for a pattern whose frames have one of several orders: the other patterns decide
+/// which.
 SequenceCheck misordered(const SequenceSample& sample,
                          std::size_t map,
                          const std::vector<SequenceTrial>& orders,
@@ -86,10 +66,8 @@ SequenceCheck misordered(const SequenceSample& sample,
                          bool absolute) {
   std::vector<RankedTrial> found;
   if (out.decided) {
-    found = plausible(sample,
-                      fitting(sample, orders, options.max_misfit * out.chance_rad, options),
-                      options,
-                      absolute);
+    found = plausible(
+        sample, fitting(sample, orders, options.max_misfit * out.chance_rad, options), absolute);
   }
   if (found.empty()) {
     for (const SequenceTrial& trial : orders)
@@ -122,12 +100,10 @@ SequenceCheck check_sequence(std::span<const SequenceFrames> coarse_to_fine,
                   sample.expected_misfit(largest_systematic(sample.patterns())) <=
                       kMaxExpected * out.chance_rad;
   }
-  double residual = 0.0;
-  if (const auto map = misordered_map(sample, residual)) {
-    const std::vector<SequenceTrial> orders = fitting_orders(sample, *map, residual);
-    // Without an order that fits, harmonics explain what is left of the frames.
-    if (!orders.empty() || residual > kNoFringes)
-      return misordered(sample, *map, orders, std::move(out), options, determines_orders);
+  for (std::size_t map = 0; map < coarse_to_fine.size(); ++map) {
+    const auto orders = trials_of(sample, map, coarse_to_fine[map].orders_rad);
+    if (!orders.empty())
+      return misordered(sample, map, orders, std::move(out), options, determines_orders);
   }
   const bool disagree = out.decided && out.misfit_rad > options.max_misfit * out.chance_rad;
   if (out.decided && !disagree && determines_orders) out.split_rows = sample.split_lines();
@@ -143,7 +119,7 @@ SequenceCheck check_sequence(std::span<const SequenceFrames> coarse_to_fine,
   const double limit = out.misfit_rad * (disagree ? options.max_fitted : kNotWorse);
   std::vector<RankedTrial> fits = fitting(sample, all_trials(sample), limit, options);
   if (disagree) fits = ranked(sample, with_free_starts(sample, std::move(fits)), limit, options);
-  return with_fits(std::move(out), plausible(sample, std::move(fits), options, determines_orders));
+  return with_fits(std::move(out), plausible(sample, std::move(fits), determines_orders));
 }
 
 }  // namespace frangia

@@ -22,10 +22,6 @@ struct SequenceCheckOptions {
   double max_misfit = 0.5;
   /// The misfit of a declaration that fits, over that of scan.toml.
   double max_fitted = 0.6;
-  /// Misfits within this factor of the best one fit equally well; `noise_tie` holds where the best
-  /// one is that of noise alone, so that systematic errors do not blur the comparison.
-  double tie = 1.1;
-  double noise_tie = 1.04;  ///< the medians of 3000 pixels differ by 1.5 % by chance
   /// Share of the rows in which the ends of the field may meet: at a depth edge that happens to
   /// show both.
   double max_split_rows = 0.25;
@@ -37,6 +33,9 @@ struct SequenceCheckOptions {
 /// nearest such combination is small if period, start, direction of shift and order of frames of
 /// all patterns are those of scan.toml. If it is not, other declarations are tried, and those that
 /// fit decisively better are returned.
+///
+/// Whether the frames of a pattern have its shifts is not asked here: `SequenceFrames::orders_rad`
+/// holds what explains them, and the other patterns decide between equal explanations.
 ///
 /// `determines_orders` states whether the patterns by themselves determine the absolute phase of
 /// the finest one (`find_sequence_method`).

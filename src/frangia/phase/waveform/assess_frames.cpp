@@ -119,7 +119,7 @@ FrameAssessment assess_frames(const FrameStack& stack,
   assessment.residual_ratio = ratios.all;
   assessment.unexplained_ratio = ratios.unexplained;
   const double left = options.max_unexplained_share * (ratios.all - ratios.unexplained);
-  assessment.vibration_suspected = ratios.unexplained > options.max_residual_ratio + left;
+  assessment.exceeds_noise = ratios.unexplained > options.max_residual_ratio + left;
   assessment.harmonic = fitted.waveform.largest_harmonic();
   assessment.harmonic_share = fitted.waveform.waveform.amplitude(assessment.harmonic);
   assessment.harmonic_error_rad = harmonic_phase_error(fitted, nullptr);
@@ -130,7 +130,7 @@ FrameAssessment assess_frames(const FrameStack& stack,
 }
 
 bool needs_attention(const FrameAssessment& assessment) {
-  return assessment.vibration_suspected || assessment.flicker_error_rad > 0.0 ||
+  return assessment.exceeds_noise || assessment.flicker_error_rad > 0.0 ||
          assessment.harmonic_error_rad > kMaterial_rad ||
          (assessment.contrast > kMaxContrast && assessment.harmonic == 0);
 }
@@ -204,7 +204,7 @@ std::string describe(const FrameAssessment& assessment) {
   if (assessment.residual_ratio > 0.0) {
     text += fmt::format(
         ", {} (residual variance {:.2f} times the noise)",
-        assessment.vibration_suspected ? "something moved between the frames" : "frames consistent",
+        assessment.exceeds_noise ? "frames differ beyond their noise" : "frames consistent",
         assessment.unexplained_ratio);
   }
   for (const std::string& finding : findings(assessment))

@@ -37,16 +37,16 @@ struct FrameAssessment {
   double flicker = 0.0;              ///< rms gain of the frames, which the algorithm compensates
   double flicker_error_rad = 0.0;    ///< rms phase error due to flicker that is not compensated
   bool is_flicker = true;            ///< the frames do not suggest that this is motion instead
-  /// `unexplained_ratio` exceeds the limit: the object or the rig moved between the frames.
-  bool vibration_suspected = false;
+  /// `unexplained_ratio` exceeds the limit. What explains it is not asked here (`explain_frames`).
+  bool exceeds_noise = false;
 };
 
 /// Limits and sampling of the assessment of frames.
 struct AssessmentOptions {
-  /// Unexplained residual ratio above which motion is suspected. The residuals of good frames give
-  /// 1 with a noise model that is accurate to about 10 %, as an estimated one is.
+  /// Unexplained residual ratio above which the frames differ beyond their noise. The residuals of
+  /// good frames give 1 with a noise model that is accurate to about 10 %, as an estimated one is.
   double max_residual_ratio = 1.6;
-  /// Share of the excess residual that harmonics and gains may leave without suspicion: their
+  /// Share of the excess residual that harmonics and gains may leave unexplained: their
   /// amplitude varies over the image with blur and ambient light.
   double max_unexplained_share = 0.1;
   /// A pixel's squared residual counts up to this multiple of its expectation, so that the few
@@ -66,8 +66,8 @@ struct AssessmentOptions {
                                             const NoiseModel& noise,
                                             const AssessmentOptions& options = {});
 
-/// Returns whether an assessment deserves a warning: motion, flicker that is not compensated,
-/// harmonics that shift the phase, or a contrast above 1.
+/// Returns whether an assessment deserves a warning: frames that differ beyond their noise, flicker
+/// that is not compensated, harmonics that shift the phase, or a contrast above 1.
 [[nodiscard]] bool needs_attention(const FrameAssessment& assessment);
 
 /// Describes harmonics, flicker and an impossible contrast, one clause each, with what to do.

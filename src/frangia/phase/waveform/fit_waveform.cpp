@@ -59,6 +59,20 @@ std::optional<std::complex<double>> add_contrast_fit(const FringeBins& bins,
   return fit.third;
 }
 
+/// The effect of flicker on frames whose contrast does not show it, as on a small part: their
+/// residual shows some combinations of the gains, and the others are as large.
+void add_flicker_by_residual(const ResidualFit& residuals,
+                             const WaveformOptions& options,
+                             WaveformFit& out) {
+  if (residuals.gain_chi2 < std::pow(options.min_flicker_sigmas, 2)) return;
+  const auto frames = static_cast<double>(residuals.gains.size());
+  double square = 0.0;
+  for (const double gain : residuals.gains)
+    square += gain * gain / (frames - 3.0);
+  out.flicker_error_rad = std::sqrt(2.0 / frames * square) * out.mean_over_modulation;
+  out.is_flicker = residuals.gains_explain;
+}
+
 /// Whether the shifts divide a turn evenly, in any order.
 bool are_even(const std::vector<double>& shifts_rad) {
   constexpr double kSame_rad = 1e-3;
@@ -113,6 +127,9 @@ WaveformFit fit_waveform(const FrameStack& stack,
       out.waveform.harmonics[i] = residuals.harmonics[i];
   }
   const auto third = add_contrast_fit(bins, shifts_rad, residuals, options, with_gains, out);
+  if (with_gains && frames > 3 && out.flicker_error_rad == 0.0 &&
+      !(out.offset_sigma < kMaxOffsetSigma))
+    add_flicker_by_residual(residuals, options, out);
   if (with_gains && are_even(shifts_rad)) add_hidden_harmonics(frames, third, out);
   if (!with_gains || frames < kMinGainFrames || !residuals.gains_explain) return out;
   if (std::any_of(residuals.gains.begin(), residuals.gains.end(), [](double gain) {

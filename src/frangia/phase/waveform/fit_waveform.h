@@ -26,6 +26,7 @@ struct WaveformFit {
   ///
   /// @units    rad
   double flicker_error_rad = 0.0;
+  bool is_square = false;   ///< the harmonics are those of a blurred square wave
   bool is_flicker = false;  ///< the frames do not suggest that it is motion instead
   /// Standard deviation of the offset from which it follows, relative to the modulation; infinite
   /// where the frames do not determine it.

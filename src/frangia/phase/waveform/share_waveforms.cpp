@@ -5,6 +5,8 @@
 #include <limits>
 #include <vector>
 
+#include "frangia/phase/waveform/internal/fit_contrast.h"
+
 namespace frangia {
 namespace {
 
@@ -19,9 +21,6 @@ bool determines(const WaveformFit& fit, std::size_t harmonic) {
   return fit.sigma[harmonic] < kMaxHarmonicSigma ||
          std::abs(fit.waveform.harmonics[harmonic]) > kMinHarmonicSigmas * fit.sigma[harmonic];
 }
-
-/// Largest standard deviation of an offset that frames determine, relative to the modulation.
-constexpr double kMaxOffsetSigma = 0.005;
 
 /// Whether the frames of a digital projector neither determine flicker nor compensate it.
 bool lacks_flicker(const WaveformFit& fit) {
@@ -52,6 +51,7 @@ void share_waveforms(std::span<FittedAlgorithm> fits) {
   for (FittedAlgorithm& fit : fits) {
     WaveformFit& to = fit.waveform;
     if (lacks_flicker(to)) to.flicker_error_rad = shared_flicker(fits, own, fit.shifts_rad.size());
+    if (to.is_square) continue;  // its own third harmonic tells all others
     for (std::size_t harmonic = 0; harmonic < to.sigma.size(); ++harmonic) {
       if (determines(to, harmonic)) continue;
       const WaveformFit* nearest = nullptr;

@@ -1,5 +1,6 @@
 #include "frangia/phase/waveform/systematic_phase.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <vector>
@@ -39,21 +40,20 @@ double rms_error(const FittedAlgorithm& fitted,
   return std::sqrt(square);
 }
 
-/// Rms phase error per unit amplitude of a harmonic.
-double harmonic_response(const FittedAlgorithm& fitted, std::size_t index) {
-  constexpr double kProbe = 1e-4;
-  FringeWaveform probe;
-  probe.harmonics.assign(index + 1, 0.0);
-  probe.harmonics[index] = kProbe;
-  return rms_error(fitted, probe, nullptr) / kProbe;
-}
-
-/// Square of the rms phase error by the uncertainty of the harmonics.
-double harmonic_variance(const FittedAlgorithm& fitted) {
+/// Square of the rms phase error by the uncertainty of the harmonics, through the correction: where
+/// frames of a sharp wave hardly tell the phases of a part of the fringe apart, the correction
+/// magnifies it.
+double harmonic_variance(const FittedAlgorithm& fitted, const ResponseTable* table) {
+  const FringeWaveform& known = fitted.waveform.waveform;
+  const double left = std::pow(rms_error(fitted, known, table), 2);
   double square = 0.0;
-  for (std::size_t i = 0; i < fitted.waveform.waveform.harmonics.size(); ++i) {
-    if (fitted.waveform.waveform.harmonics[i] == 0.0) continue;
-    square += std::pow(fitted.waveform.sigma[i] * harmonic_response(fitted, i), 2);
+  for (std::size_t i = 0; i < known.harmonics.size(); ++i) {
+    if (known.harmonics[i] == 0.0) continue;
+    for (const double sign : {-1.0, 1.0}) {
+      FringeWaveform other = known;
+      other.harmonics[i] += sign * fitted.waveform.sigma[i];
+      square += 0.5 * std::max(0.0, std::pow(rms_error(fitted, other, table), 2) - left);
+    }
   }
   return square;
 }
@@ -63,8 +63,10 @@ double harmonic_variance(const FittedAlgorithm& fitted) {
 std::optional<ResponseTable> own_correction(const FittedAlgorithm& fitted) {
   constexpr double kWins = 2.0;  // error over what the correction leaves uncertain
   const double error = harmonic_phase_error(fitted, nullptr);
-  if (error < kNegligible_rad || error < kWins * std::sqrt(harmonic_variance(fitted))) return {};
-  return find_response_table(fitted.waveform.waveform, fitted.algorithm, fitted.shifts_rad);
+  if (error < kNegligible_rad) return {};
+  auto table = find_response_table(fitted.waveform.waveform, fitted.algorithm, fitted.shifts_rad);
+  if (!table || error < kWins * std::sqrt(harmonic_variance(fitted, &*table))) return {};
+  return table;
 }
 
 double harmonic_phase_error(const FittedAlgorithm& fitted, const ResponseTable* table) {
@@ -73,7 +75,8 @@ double harmonic_phase_error(const FittedAlgorithm& fitted, const ResponseTable* 
 }
 
 SystematicPhase systematic_phase(const FittedAlgorithm& fitted, const ResponseTable* table) {
-  double square = std::pow(harmonic_phase_error(fitted, table), 2) + harmonic_variance(fitted);
+  double square =
+      std::pow(harmonic_phase_error(fitted, table), 2) + harmonic_variance(fitted, table);
   square += std::pow(fitted.waveform.flicker_error_rad, 2);
   square += std::pow(fitted.unexplained_rad, 2);
   const double differing = square;

@@ -16,6 +16,9 @@ namespace frangia {
 struct SequenceFrames {
   const FrameStack* stack = nullptr;  ///< frames of the pattern; must not be null
   PhaseAlgorithm algorithm;           ///< algorithm for the shifts of these frames
+  /// Shifts that explain the frames by themselves equally well where those of the pattern do not;
+  /// empty where these do.
+  std::vector<std::vector<double>> orders_rad{};
 };
 
 /// Options of the decoding of a multi-frequency sequence.

@@ -9,6 +9,7 @@
 
 #include "frangia/decode/explain/internal/frame_design.h"
 #include "frangia/decode/explain/internal/score_frames.h"
+#include "frangia/diagnose/score.h"
 
 namespace frangia {
 namespace {
@@ -108,14 +109,33 @@ FrameSample thinned(const FrameSample& sample) {
   return out;
 }
 
+/// A part that moved as the free steps of its frames say.
+FrameHypothesis moved_freely(const FrameHypothesis& steps, const Eigen::VectorXd& errors_rad) {
+  FrameHypothesis out = steps;
+  out.cause = FrameCause::Moved;
+  out.has_free_steps = false;
+  out.moves_part = true;
+  out.parameters = static_cast<int>(errors_rad.size());
+  const Eigen::VectorXd moved = errors_rad.array() - errors_rad.mean();
+  const double largest = std::max(1e-6, moved.cwiseAbs().maxCoeff());
+  for (Eigen::Index k = 0; k < moved.size(); ++k)
+    out.path.push_back(moved(k) / largest);
+  return out;
+}
+
 /// The likeliest hypothesis of each cause, by some of the pixels: which frame it begins with; and
 /// those that predict the same.
 std::vector<FrameHypothesis> likeliest_of_each(const FrameSample& sample,
                                                std::vector<FrameHypothesis> all) {
   const FrameSample some = thinned(sample);
   std::map<FrameCause, std::pair<double, FrameHypothesis>> best;
-  for (const FrameHypothesis& one : all) {
-    const double score = score_frames(some, one).log_evidence(1.0);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const FrameHypothesis one = all[i];
+    const FrameScore fit = score_frames(some, one);
+    const double price = price_of_parameter(static_cast<double>(some.counts.rows()));
+    const double score = fit.log_evidence(1.0) - one.parameters * price;
+    if (one.has_free_steps && fit.step_errors_rad.size() > 0)
+      all.push_back(moved_freely(one, fit.step_errors_rad));
     const auto found = best.find(one.cause);
     if (found == best.end() || score > found->second.first)
       best.insert_or_assign(one.cause, std::pair(score, one));
@@ -139,7 +159,7 @@ std::vector<FrameHypothesis> likely_singles(const FrameSample& sample,
   const FrameHypothesis declared = all.front();
   for (FrameHypothesis& one : all) {
     if (one.cause == FrameCause::Gain && !fit_gain(moments, one.frames.front(), one)) continue;
-    if (one.moved_at || one.has_free_steps || one.lamp_on) {
+    if (!one.path.empty() || one.has_free_steps || one.lamp_on) {
       others.push_back(std::move(one));
       continue;
     }

@@ -64,7 +64,7 @@ class FrameFit {
       shown_.col(static_cast<Eigen::Index>(i)) = sample.counts.col(design_.shown[i]).matrix();
     rest_ = shown_ * design_.rest;
     // The slopes of the fitted fringes have less noise than those of a frame.
-    if (hypothesis.moves_texture) {
+    if (hypothesis.moves_part) {
       const auto of_fringes = [&](const Eigen::ArrayXXd& slopes) -> Eigen::MatrixXd {
         return slopes(Eigen::all, design_.shown).matrix() * design_.span * design_.span.transpose();
       };
@@ -91,7 +91,7 @@ class FrameFit {
 
  private:
   [[nodiscard]] Eigen::Index movement_count() const {
-    return hypothesis_.moved_at ? (hypothesis_.moves_texture ? 3 : 1) : 0;
+    return hypothesis_.path.empty() ? 0 : hypothesis_.moves_part ? 8 : 1;
   }
   [[nodiscard]] Eigen::Index nuisance_count() const {
     return shown_.cols() + 2 * std::ssize(waves_) + movement_count() +
@@ -124,13 +124,18 @@ class FrameFit {
       }
       const double slope = -gain * amplitude * turn.imag();  // of counts over phase
       column = after_waves;
-      if (hypothesis_.moved_at) {
-        if (k >= *hypothesis_.moved_at) {
-          effects(i, column) = kPriorMovement_rad * slope;
-          if (hypothesis_.moves_texture) {
-            effects(i, column + 1) = kPriorMovement_px * slope_x_(pixel, i);
-            effects(i, column + 2) = kPriorMovement_px * slope_y_(pixel, i);
-          }
+      if (!hypothesis_.path.empty()) {
+        const double by_phase = hypothesis_.path[k] * kPriorMovement_rad * slope;
+        const double by_image = hypothesis_.path[k] * kPriorMovement_px;
+        // Smooth over the image: what stands still around a part shows as curvature.
+        const double x = sample_.x(pixel);
+        const double y = sample_.y(pixel);
+        Eigen::Index at = column;
+        for (const double field : {1.0, x, y, x * x, y * y, x * y})
+          if (at == column || hypothesis_.moves_part) effects(i, at++) = by_phase * field;
+        if (hypothesis_.moves_part) {
+          effects(i, at++) = by_image * slope_x_(pixel, i);
+          effects(i, at) = by_image * slope_y_(pixel, i);
         }
         column += movement_count();
       }
@@ -231,6 +236,9 @@ class FrameFit {
       out.largest_gain = (gains.array() - gains.mean()).abs().maxCoeff();
       if (hypothesis_.has_free_steps)
         out.step_errors_rad = kPriorStep_rad * found.tail(shown_.cols());
+      else if (!hypothesis_.path.empty() && !hypothesis_.moves_part)
+        out.step_errors_rad = kPriorMovement_rad * found(count - 1) *
+                              Eigen::VectorXd::Map(hypothesis_.path.data(), shown_.cols());
     }
     double excess = 0.0;
     for (Eigen::Index i = 0; i < pixels_; ++i) {
@@ -316,17 +324,24 @@ class FrameFit {
     const double c = std::cos(hypothesis_.shifts_rad[frame]);
     const double s = std::sin(hypothesis_.shifts_rad[frame]);
     double sum = 0.0;
+    double others = 0.0;  // pixels that show something else
     for (Eigen::Index i = 0; i < pixels_; ++i) {
       const double counts = sample_.counts(i, static_cast<Eigen::Index>(frame));
       const double scale = sample_.scale_counts(i);
       const double predicted = values_(i, 0) + c * values_(i, 1) - s * values_(i, 2);
       const double error = 2.0 * sample_.variance(i) + std::pow(0.02 * modulation_(i), 2);
-      sum += log_of_mixture(
-          std::log(1.0 - kTorn) + log_normal(std::pow(counts - predicted, 2), error, 1.0),
+      const double shown =
+          std::log(1.0 - kTorn) + log_normal(std::pow(counts - predicted, 2), error, 1.0);
+      const double other =
           std::log(kTorn) +
-              log_normal(std::pow(counts - mean * scale, 2), variance * scale * scale, 1.0));
+          log_normal(std::pow(counts - mean * scale, 2), variance * scale * scale, 1.0);
+      sum += log_of_mixture(shown, other);
+      if (other > shown) others += 1.0;
     }
-    return sum;
+    // A frame that is a little off nearly everywhere is not torn.
+    constexpr double kLeast = 0.15;
+    return others < kLeast * static_cast<double>(pixels_) ? -std::numeric_limits<double>::infinity()
+                                                          : sum;
   }
 
   const FrameSample& sample_;

@@ -132,7 +132,7 @@ class GrayCodeSample {
     bool scattered = false;
   };
   [[nodiscard]] Start start_offset(const GrayTrial& trial) const {
-    const double period = fringes_.pattern.period_px;
+    const double period = trial.period_px;
     const Borders at = borders(trial);
     double cosine = 0.0;
     double sine = 0.0;
@@ -208,7 +208,7 @@ class GrayCodeSample {
   [[nodiscard]] bool agrees_with_fringes(const GrayTrial& trial,
                                          const CodedPixel& pixel,
                                          std::uint32_t stripe) const {
-    const double period = fringes_.pattern.period_px;
+    const double period = trial.period_px;
     const double limit = kPi * trial.code.stripe_px / period + options_.margin_rad;
     const double column = (stripe + 0.5) * trial.code.stripe_px - 0.5 - trial.code.offset_px;
     const auto measured = static_cast<double>(pixel.phase_rad);

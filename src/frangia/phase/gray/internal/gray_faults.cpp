@@ -9,13 +9,29 @@
 
 namespace frangia {
 
-std::vector<SequenceFault> missing_frames(const GrayCodeSample& sample, const Pattern& code) {
-  constexpr double kContradicted = 0.1;  // wrong codes at edges and of saturated pixels are fewer
+double max_start_of(const Pattern& fringes, const GrayCodeCheckOptions& options) {
+  return fringes.shifts_rad.size() <= 3 ? options.max_start_three_rad : options.max_start_rad;
+}
+
+bool passes(const GrayCodeSample& sample,
+            const GrayTrial& trial,
+            const Pattern& fringes,
+            const GrayCodeCheckOptions& options) {
+  const GrayCodeSample::Start start = sample.start_offset(trial);
+  return !start.scattered &&
+         std::abs(wrap_rad(start.offset_rad - trial.start_rad)) <= max_start_of(fringes, options) &&
+         sample.score(trial) >= options.min_agreement;
+}
+
+std::vector<SequenceFault> missing_frames(const GrayCodeSample& sample,
+                                          const Pattern& code,
+                                          const Pattern& fringes) {
+  constexpr double kContradicted = 0.02;  // wrong codes at edges and of saturated pixels are fewer
   std::vector<SequenceFault> out;
   for (std::size_t frame = 0; frame < static_cast<std::size_t>(code.frame_count()); ++frame) {
     const bool repeats = frame > 0 && sample.are_equal(frame, frame - 1);
     if (!repeats && !sample.is_blank(frame)) continue;
-    if (sample.contradiction_of(declared_trial(code), frame) < kContradicted) continue;
+    if (sample.contradiction_of(declared_trial(code, fringes), frame) < kContradicted) continue;
     out.push_back({SequenceFaultKind::Missing,
                    {code.name},
                    repeats
@@ -33,11 +49,9 @@ std::vector<SequenceFault> other_scales(const GrayCodeSample& sample,
                                         const GrayCodeCheckOptions& options) {
   std::vector<SequenceFault> fits;
   for (const double factor : {2.0, 0.5, 4.0, 0.25}) {
-    GrayTrial trial = declared_trial(code);
+    GrayTrial trial = declared_trial(code, fringes);
     trial.code.stripe_px *= factor;
-    if (!(std::abs(sample.start_offset(trial).offset_rad) <= options.max_start_rad) ||
-        sample.score(trial) < options.min_agreement)
-      continue;
+    if (!passes(sample, trial, fringes, options)) continue;
     fits.push_back(
         {SequenceFaultKind::Period,
          {code.name},
@@ -46,8 +60,11 @@ std::vector<SequenceFault> other_scales(const GrayCodeSample& sample,
          fmt::format("stripe_px = {:g}", trial.code.stripe_px)});
     break;
   }
-  const double period_px = sample.shown_period_px(declared_trial(code));
-  if (period_px > 0.0 && std::abs(period_px - fringes.period_px) > 1e-3 * fringes.period_px) {
+  const double period_px = sample.shown_period_px(declared_trial(code, fringes));
+  GrayTrial other = declared_trial(code, fringes);
+  other.period_px = period_px;
+  if (period_px > 0.0 && std::abs(period_px - fringes.period_px) > 1e-3 * fringes.period_px &&
+      passes(sample, other, fringes, options)) {
     fits.push_back(
         {SequenceFaultKind::Period,
          {fringes.name},

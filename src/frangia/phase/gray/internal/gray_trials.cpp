@@ -12,11 +12,11 @@
 namespace frangia {
 namespace {
 
-void add_code_trials(const Pattern& code, std::vector<GrayTrial>& out) {
+void add_code_trials(const Pattern& code, const Pattern& fringes, std::vector<GrayTrial>& out) {
   for (const bool other_order : {false, true}) {
     for (const bool other_code : {false, true}) {
       if (!other_order && !other_code) continue;
-      GrayTrial trial = declared_trial(code);
+      GrayTrial trial = declared_trial(code, fringes);
       std::vector<std::string> keys;
       if (other_order) {
         const bool msb = code.order == BitOrder::MostSignificantFirst;
@@ -35,7 +35,7 @@ void add_code_trials(const Pattern& code, std::vector<GrayTrial>& out) {
   }
   if (code.inverted == InvertedFrames::None) return;
   const bool after = code.inverted == InvertedFrames::After;
-  GrayTrial trial = declared_trial(code);
+  GrayTrial trial = declared_trial(code, fringes);
   trial.code.inverted = after ? InvertedFrames::Alternating : InvertedFrames::After;
   trial.fault.kind = SequenceFaultKind::Order;
   trial.fault.what = after ? "inverted frames that alternate" : "inverted frames after the others";
@@ -43,8 +43,8 @@ void add_code_trials(const Pattern& code, std::vector<GrayTrial>& out) {
   out.push_back(std::move(trial));
 }
 
-void add_frame_trials(const Pattern& code, std::vector<GrayTrial>& out) {
-  const GrayTrial declared = declared_trial(code);
+void add_frame_trials(const Pattern& code, const Pattern& fringes, std::vector<GrayTrial>& out) {
+  const GrayTrial declared = declared_trial(code, fringes);
   const std::size_t frames = declared.frame_of.size();
   for (std::size_t a = 0; a < frames; ++a) {
     for (std::size_t b = a + 1; b < frames; ++b) {
@@ -75,7 +75,7 @@ void add_fringe_trials(const Pattern& code, const Pattern& fringes, std::vector<
   for (const bool reversed : {false, true}) {
     for (const double start_deg : {0.0, 90.0, 180.0, 270.0}) {
       if (!reversed && start_deg == 0.0) continue;
-      GrayTrial trial = declared_trial(code);
+      GrayTrial trial = declared_trial(code, fringes);
       trial.start_rad = rad_from_deg(start_deg);
       trial.reversed = reversed;
       trial.fault.patterns = {fringes.name};
@@ -96,8 +96,9 @@ void add_fringe_trials(const Pattern& code, const Pattern& fringes, std::vector<
 
 }  // namespace
 
-GrayTrial declared_trial(const Pattern& code) {
+GrayTrial declared_trial(const Pattern& code, const Pattern& fringes) {
   GrayTrial trial;
+  trial.period_px = fringes.period_px;
   trial.fault.patterns = {code.name};
   trial.code = code;
   trial.frame_of.resize(static_cast<std::size_t>(code.frame_count()));
@@ -108,8 +109,8 @@ GrayTrial declared_trial(const Pattern& code) {
 
 std::vector<GrayTrial> gray_trials(const Pattern& code, const Pattern& fringes) {
   std::vector<GrayTrial> trials;
-  add_code_trials(code, trials);
-  add_frame_trials(code, trials);
+  add_code_trials(code, fringes, trials);
+  add_frame_trials(code, fringes, trials);
   add_fringe_trials(code, fringes, trials);
   return trials;
 }

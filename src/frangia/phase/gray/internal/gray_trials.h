@@ -16,10 +16,11 @@ struct GrayTrial {
   std::vector<bool> inverted;         ///< recorded frames that show their inverse
   double start_rad = 0.0;             ///< of the fringes
   bool reversed = false;              ///< shifts of the fringes
+  double period_px = 0.0;             ///< of the fringes
 };
 
 /// The supposition that code and fringes are as declared.
-[[nodiscard]] GrayTrial declared_trial(const Pattern& code);
+[[nodiscard]] GrayTrial declared_trial(const Pattern& code, const Pattern& fringes);
 
 /// Suppositions about the order of bits and frames, inversions, the code, and the fringes.
 [[nodiscard]] std::vector<GrayTrial> gray_trials(const Pattern& code, const Pattern& fringes);

@@ -98,6 +98,26 @@ std::vector<SequenceTrial> free_starts(const SequenceSample& sample, std::size_t
   return out;
 }
 
+/// Independent witnesses of a misfit. The medians of the pixels differ by 1.5 % by chance; what is
+/// beyond the noise, such as harmonics or indirect light, is a field over the image.
+double witnesses_of(const SequenceSample& sample, double best_misfit_rad) {
+  constexpr double kOfNoise = 60.0;
+  constexpr double kOfFields = 25.0;
+  constexpr double kNoise = 1.2;  // times the misfit of noise alone
+  return best_misfit_rad <= kNoise * sample.expected_misfit() ? kOfNoise : kOfFields;
+}
+
+/// Logarithm of the evidence for a declaration: the density of normal residuals of its misfit in
+/// all maps but one, which the place in the field takes, and a prior of 0.01 for each fault.
+double log_evidence(const RankedTrial& one, double witnesses, std::size_t maps) {
+  constexpr double kLeast_rad = 1e-4;  // exact phases
+  constexpr double kPriorFault = 0.01;
+  const auto freedom = static_cast<double>(std::max<std::size_t>(maps, 2) - 1);
+  const double faults = one.trial.fault.is_compound ? 2.0 : 1.0;
+  return faults * std::log(kPriorFault) -
+         witnesses * freedom * std::log(std::max(one.misfit_rad, kLeast_rad));
+}
+
 }  // namespace
 
 std::vector<SequenceTrial> all_trials(const SequenceSample& sample) {
@@ -164,28 +184,22 @@ std::vector<RankedTrial> with_free_starts(const SequenceSample& sample,
 
 std::vector<RankedTrial> plausible(const SequenceSample& sample,
                                    std::vector<RankedTrial> fitting,
-                                   const SequenceCheckOptions& options,
                                    bool absolute) {
-  constexpr double kConsidered = 1.6;  // times the least misfit
-  constexpr double kNoise = 1.2;       // times the misfit of noise alone
   if (fitting.empty()) return fitting;
-  const double limit = kConsidered * fitting.front().misfit_rad;
-  std::erase_if(fitting, [&](const RankedTrial& one) { return one.misfit_rad > limit; });
-  if (absolute) {
-    std::vector<RankedTrial> unsplit;
-    for (const RankedTrial& one : fitting)
-      if (sample.split_lines(one.trial) <= kUnsplit) unsplit.push_back(one);
-    fitting = std::move(unsplit);
+  const double witnesses = witnesses_of(sample, fitting.front().misfit_rad);
+  const auto evidence = [&](const RankedTrial& one) {
+    return log_evidence(one, witnesses, sample.patterns().size());
+  };
+  std::stable_sort(fitting.begin(), fitting.end(), [&](const auto& a, const auto& b) {
+    return evidence(a) > evidence(b);
+  });
+  const double odds = std::log(100.0);  // from which on a declaration loses
+  std::vector<RankedTrial> out;
+  for (RankedTrial& one : fitting) {
+    if (!out.empty() && evidence(one) <= evidence(out.front()) - odds) break;
+    if (!absolute || sample.split_lines(one.trial) <= kUnsplit) out.push_back(std::move(one));
   }
-  if (fitting.empty()) return fitting;
-  const double best = fitting.front().misfit_rad;
-  const bool noise_alone = best <= kNoise * sample.expected_misfit();
-  const double tie = noise_alone ? options.noise_tie : options.tie;
-  std::erase_if(fitting, [&](const RankedTrial& one) { return one.misfit_rad > tie * best; });
-  const auto is_compound = [](const RankedTrial& one) { return one.trial.fault.is_compound; };
-  if (!std::all_of(fitting.begin(), fitting.end(), is_compound))
-    std::erase_if(fitting, is_compound);
-  return fitting;
+  return out;
 }
 
 }  // namespace frangia

@@ -34,11 +34,10 @@ struct RankedTrial {
 [[nodiscard]] std::vector<RankedTrial> with_free_starts(const SequenceSample& sample,
                                                         std::vector<RankedTrial> found);
 
-/// Of ranked trials that fit nearly as well as the best one, those that do not split the surface,
-/// and of these the simple ones.
+/// Of trials that fit and do not split the surface, the one with the most evidence, and those that
+/// it does not beat by 100 : 1.
 [[nodiscard]] std::vector<RankedTrial> plausible(const SequenceSample& sample,
                                                  std::vector<RankedTrial> fitting,
-                                                 const SequenceCheckOptions& options,
                                                  bool absolute);
 
 }  // namespace frangia

@@ -220,36 +220,6 @@ double SequenceSample::split_lines(const SequenceTrial& trial) const {
   return lines_.empty() ? 0.0 : static_cast<double>(split) / static_cast<double>(lines_.size());
 }
 
-double SequenceSample::fit_residual(const Pattern& pattern, std::size_t frames_of) const {
-  const std::vector<double>& shifts = pattern.shifts_rad;
-  if (shifts.size() < 4) return 0.0;
-  const PhaseAlgorithm fit = least_squares(shifts);
-  const std::vector<Frame>& frames = frames_[frames_of];
-  std::vector<float> residuals;
-  for (const std::size_t pixel : compared_) {
-    double mean = 0.0;
-    double cosine = 0.0;
-    double sine = 0.0;
-    for (std::size_t k = 0; k < shifts.size(); ++k) {
-      const double counts = counts_of(frames[k], pixel);
-      mean += fit.mean[k] * counts;
-      cosine += fit.cosine[k] * counts;
-      sine += fit.sine[k] * counts;
-    }
-    double square = 0.0;
-    for (std::size_t k = 0; k < shifts.size(); ++k) {
-      const double model = mean + cosine * std::cos(shifts[k]) - sine * std::sin(shifts[k]);
-      square += std::pow(counts_of(frames[k], pixel) - model, 2);
-    }
-    // Over the modulation of all frames, which does not depend on their order.
-    const double modulation = maps_[frames_of].modulation_counts.pixels()[pixel];
-    const double size = std::max(modulation, std::hypot(cosine, sine));
-    residuals.push_back(
-        static_cast<float>(std::sqrt(square / static_cast<double>(shifts.size() - 3)) / size));
-  }
-  return static_cast<double>(median_in_place(std::span(residuals)));
-}
-
 std::vector<double> SequenceSample::slope_ratios(std::size_t map, std::size_t reference) const {
   constexpr int kRun = 8;             // pixels over which slopes are averaged
   constexpr double kMinChange = 0.8;  // rad over a run, of the reference

@@ -42,9 +42,6 @@ class SequenceSample {
   [[nodiscard]] double expected_misfit(std::span<const double> systematic_rad = {}) const;
   /// Share of the lines in which the ends of the field meet on a surface.
   [[nodiscard]] double split_lines(const SequenceTrial& trial = {}) const;
-  /// Median over the pixels of the residual of the fringe fit, per frame, over the modulation; 0
-  /// for three frames.
-  [[nodiscard]] double fit_residual(const Pattern& pattern, std::size_t frames_of) const;
   /// The residuals of all pixels as declared.
   [[nodiscard]] std::vector<PlacedResiduals> residuals() const;
   /// The number of fringes per unit that the frames of a map show if the other maps are right; 0

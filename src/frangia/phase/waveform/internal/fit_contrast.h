@@ -9,6 +9,9 @@
 
 namespace frangia {
 
+/// Largest standard deviation of an offset that frames determine, relative to the modulation.
+inline constexpr double kMaxOffsetSigma = 0.005;
+
 /// A harmonic and an offset that change the apparent contrast with the phase.
 struct ContrastFit {
   std::complex<double> harmonic = 0.0;  ///< relative to the fundamental

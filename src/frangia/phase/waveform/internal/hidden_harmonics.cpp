@@ -14,6 +14,8 @@ constexpr double kLeastThird = 0.02;
 constexpr double kMostEven = 0.2;    // second over third harmonic of a square wave
 constexpr double kMostTurned = 0.3;  // imaginary over real part
 constexpr double kShare = 0.25;      // of what is added, its standard deviation
+constexpr std::size_t kThree =
+    3;  // frames that show the third harmonic in the logarithm of their mean
 
 constexpr std::size_t index_of(int order) {
   return static_cast<std::size_t>(order - 2);
@@ -28,8 +30,7 @@ std::complex<double> harmonic_of(const WaveformFit& fit, int order) {
 /// the phase to which they refer it, which makes it seem smaller.
 double apparent_third(std::size_t frames, double blur_rad, double mean_over_modulation) {
   constexpr int kPhases = 120;
-  constexpr std::size_t kThree = 3;  // show it in the logarithm of their mean
-  constexpr std::size_t kSix = 6;    // show it as what alternates from frame to frame
+  constexpr std::size_t kSix = 6;  // show it as what alternates from frame to frame
   const auto count = static_cast<double>(frames);
   const bool is_real = frames == kThree || frames == kSix;
   double sums = 0.0;   // of weight, wave and value
@@ -80,8 +81,27 @@ double blur_of(double found, double low, const Value& value) {
   return 0.5 * (low + high);
 }
 
+/// Three frames of a sharp wave measure few different phases, which makes their third harmonic seem
+/// up to 7 % smaller, and the blur that follows from it larger.
+void add_uncertainty_of_blur(double blur, WaveformFit& fit) {
+  constexpr double kApparent = 0.07;
+  constexpr double kProbe_rad = 0.01;
+  const double mean = std::max(1.0, fit.mean_over_modulation);
+  const double slope =
+      (apparent_third(kThree, blur + kProbe_rad, mean) - apparent_third(kThree, blur, mean)) /
+      kProbe_rad;
+  if (!(slope > 0.0)) return;
+  const double blur_sigma = -kApparent * apparent_third(kThree, blur, mean) / slope;
+  for (int order = 5; order <= kHighest; order += 2) {
+    const double size = std::abs(square_harmonic(order, blur));
+    const double share = std::min(1.0, (order * order - 1) * blur * blur_sigma);
+    fit.sigma[index_of(order)] = std::max(fit.sigma[index_of(order)], share * size);
+  }
+}
+
 /// Replaces what frames of a square wave seem to show by its odd harmonics.
 void add_square_wave(std::size_t frames, double third, WaveformFit& fit) {
+  fit.is_square = true;
   constexpr std::size_t kFour = 4;
   // Four frames show the sum of the third and the fifth, which is least at exp(8 x^2) = 1.8.
   const double blur =
@@ -101,6 +121,7 @@ void add_square_wave(std::size_t frames, double third, WaveformFit& fit) {
     fit.waveform.harmonics[index_of(order)] = square_harmonic(order, blur);
     if (order > 3) fit.sigma[index_of(order)] = kShare * std::abs(square_harmonic(order, blur));
   }
+  if (frames == kThree) add_uncertainty_of_blur(blur, fit);
   if (frames != kFour) return;
   // A sharper wave has the same sum, within what the contrast tells.
   constexpr double kAmbiguous = -0.12;
@@ -124,8 +145,9 @@ void add_power_law(const std::optional<std::complex<double>>& measured_third, Wa
   fit.waveform.harmonics.resize(size, 0.0);
   fit.sigma.resize(size, 0.0);
   fit.waveform.harmonics[index_of(4)] = fourth;
-  // What the fourth is more, the second was found too large: the phase shifts by twice as much.
-  fit.sigma[index_of(4)] = 2.0 * std::hypot(kLeastShare * second, kDeparture * departure);
+  // What the fourth is more, the second was found too large: the phase shifts by more than
+  // the fourth says.
+  fit.sigma[index_of(4)] = 1.5 * std::hypot(kLeastShare * second, kDeparture * departure);
 }
 
 }  // namespace
