@@ -64,7 +64,9 @@ def measure(study, case, seed):
     scan = study.digital(SUBJECT, "binocular", "--views", VIEWS, *FAULTS.get(fault, ()))
     change = METHODS[what] if fault in FAULTS else lambda text: turned(text, float(what))
     mesh, folder = study.work / "mesh.ply", changed(study, scan, change)
-    process = study.process("--json", "reconstruct", folder, "--undo-response", "none", "-o", mesh, allowed=(0, NOT_TRUSTWORTHY))
+    process = study.process(
+        "--json", "reconstruct", folder, "--undo-response", "none", "-o", mesh, allowed=(0, NOT_TRUSTWORTHY)
+    )
     error = (
         study.run("inspect", mesh, "--reference", folder / "truth.ply", "--scan", scan)
         if process.returncode == 0
