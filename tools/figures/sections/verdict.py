@@ -18,7 +18,7 @@ LEVELS = (12, 8, 5.5)  # T over U95 of a patch
 EXCESSES = {"0": None, "T": 0, "T + U": 1, "T + 2U": 2}
 DEFECTS = ("dent", "bent tip", "hole 0.2 mm off", "missing boss")
 RECONSTRUCTED = ("shaft", "blade", "bust", "bracket", "groove", "plate", "ball-bar")
-TURNED = ("blade", "bust", "groove")  # shape alone tells how they lie in a second setup
+TURNED = {"blade": "180", "bust": "180", "bracket": "90,180"}  # degrees of the setups that their shape alone joins
 RATIOS = (4, 6, 8, 12, 16, 24)  # T over the median U95 of a vertex
 CASES = {
     **{f"reconstructed {part}": 1 for part in RECONSTRUCTED},
@@ -91,7 +91,7 @@ def is_there(case, at):
 
 def measure_reconstructed(study, part, seed):
     """The verdict of a part that was scanned standing and turned over, or with its base excluded, at each tolerance."""
-    setups = ("--setups", 180) if part in TURNED else ()
+    setups = ("--setups", TURNED[part]) if part in TURNED else ()
     scan = study.digital(part, study.half_rig, *setups, "--seed", seed)
     mesh, plan = study.reconstructed(scan)[0], study.work / "inspection.toml"
 
@@ -170,7 +170,8 @@ def report(text, results):
             wrong.append(f"{defect}: {there} of {len(results[defect])} out at that place")
     text.add(
         "\nParts scanned with half the pixels of the digital rig (`simulate PART`), four rays a pixel, reconstructed and compared with the true "
-        f"surface: {', '.join(TURNED)} in two setups of 8 views (`--setups 180`), the others in one, with the base excluded. T is that "
+        f"surface: {', '.join(TURNED)} in setups of 8 views (`--setups {', '.join(TURNED.values())}`), the others, which look alike when "
+        "turned over, in one, with the base excluded; what lies below them is not measured. Strips along edges are not judged. T is that "
         "many times the median U95 of a vertex, which is the largest U95 that proves a patch in at T = 4 U. Coverage in brackets.\n"
     )
     text.table("part", "U95, mm", "strips, mm", "of the area", *(f"T = {ratio} U" for ratio in RATIOS))
