@@ -211,8 +211,12 @@ std::vector<SurfacePlace> places_of(const SurfacePatches& patches,
                ? std::max(limits.lower - place.deviation_mm, place.deviation_mm - limits.upper)
                : 0.0;
   };
+  // What lacks a measurement is told by its size, whatever the measurement lacks.
+  const auto rank = [](PatchDecision decision) {
+    return is_gap(decision) ? PatchDecision::NotWellMeasured : decision;
+  };
   std::stable_sort(places.begin(), places.end(), [&](const auto& a, const auto& b) {
-    if (a.decision != b.decision) return a.decision < b.decision;
+    if (rank(a.decision) != rank(b.decision)) return rank(a.decision) < rank(b.decision);
     if (a.decision == PatchDecision::Out) return excess(a) > excess(b);
     return a.area_mm2 > b.area_mm2;
   });

@@ -58,7 +58,8 @@ void add_deviation(HtmlPage& page, const InspectionReport& report) {
       {"largest U95 that proves \"in\", of the half-width",
        share_text(v.rule.max_uncertainty_share)},
       {"least half-width of a tolerance that the measurement is good enough for, mm",
-       number_text(v.decidable_mm, 4)}};
+       std::isfinite(v.decidable_mm) ? number_text(v.decidable_mm, 4)
+                                     : "none: too little was measured"}};
   for (const ExcludedBox& box : v.rule.excluded)
     rows.push_back({"excluded by the plan: " + box.name,
                     place_text(box.min_mm) + " to " + place_text(box.max_mm)});

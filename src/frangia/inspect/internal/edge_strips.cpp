@@ -16,6 +16,7 @@ namespace {
 using Eigen::Vector3f;
 
 constexpr double kFlat = 0.9998;           // cosine of 1 degree: no bend
+constexpr double kLeastTurn = 0.5;         // rad over the width, half of what makes an edge
 constexpr float kTurned = 0.5F;            // cosine of 60 degrees
 constexpr float kSameSide = -0.2F;         // cosine: as the limit of DeviationStatus::OtherSide
 constexpr double kStepsOfWidth = 3.0;      // points along an edge, in a width
@@ -27,14 +28,27 @@ struct BentEdge {
   float length_mm;
 };
 
-std::vector<Vector3f> normals_of(const Mesh& mesh) {
-  std::vector<Vector3f> normals;
-  normals.reserve(mesh.triangles.size());
+/// Vectors along the normals of the triangles, of twice their area.
+std::vector<Vector3f> crosses_of(const Mesh& mesh) {
+  std::vector<Vector3f> crosses;
+  crosses.reserve(mesh.triangles.size());
   for (const auto& [a, b, c] : mesh.triangles) {
     const auto& at = mesh.vertices_mm;
-    normals.push_back((at[b] - at[a]).cross(at[c] - at[a]).normalized());
+    crosses.push_back((at[b] - at[a]).cross(at[c] - at[a]));
   }
-  return normals;
+  return crosses;
+}
+
+/// Whether a surface that bends between two triangles as around them turns far enough within a
+/// width to matter: most of the edges of a fine tessellation do not.
+bool bends(const Vector3f& one, const Vector3f& other, float length_mm, double width_mm) {
+  const double areas = static_cast<double>(one.norm()) * static_cast<double>(other.norm());
+  const double cosine = static_cast<double>(one.dot(other)) / areas;
+  if (!(cosine < kFlat)) return false;  // also without an area
+  if (cosine < std::cos(kSharpEdge)) return true;
+  // The centroids lie a third of the triangles' heights from the edge.
+  const auto apart = static_cast<double>((one.norm() + other.norm()) / (3.0F * length_mm));
+  return std::acos(cosine) * width_mm >= kLeastTurn * apart;
 }
 
 }  // namespace
@@ -43,24 +57,23 @@ EdgeStrips::EdgeStrips(const Mesh& nominal, double width_mm)
     : width_mm_(width_mm), grid_(std::max(width_mm, 1e-6)) {
   if (!(width_mm > 0.0)) return;
   const HalfEdges edges(nominal);
-  const std::vector<Vector3f> normals = normals_of(nominal);
+  const std::vector<Vector3f> crosses = crosses_of(nominal);
   std::vector<BentEdge> bent;
   double length_mm = 0.0;
   for (std::uint32_t edge = 0; edge < edges.count(); ++edge) {
     if (!edges.has_twin(edge) || edges.twin(edge) < edge) continue;
-    const double cosine = static_cast<double>(normals[edge / 3].dot(normals[edges.twin(edge) / 3]));
-    if (!(cosine < kFlat)) continue;
     const Vector3f way = nominal.vertices_mm[target_vertex(nominal, edge)] -
                          nominal.vertices_mm[source_vertex(nominal, edge)];
-    if (!way.allFinite()) continue;
-    bent.push_back({edge, way.norm()});
-    length_mm += static_cast<double>(way.norm());
+    const float length = way.norm();
+    if (!bends(crosses[edge / 3], crosses[edges.twin(edge) / 3], length, width_mm)) continue;
+    bent.push_back({edge, length});
+    length_mm += static_cast<double>(length);
   }
   const double step_mm = std::max(width_mm / kStepsOfWidth, length_mm / kMostPoints);
   const double sharp = std::cos(kSharpEdge);
   for (const BentEdge& edge : bent) {
-    const Vector3f& one = normals[edge.half_edge / 3];
-    const Vector3f& other = normals[edges.twin(edge.half_edge) / 3];
+    const Vector3f one = crosses[edge.half_edge / 3].normalized();
+    const Vector3f other = crosses[edges.twin(edge.half_edge) / 3].normalized();
     const Vector3f& from = nominal.vertices_mm[source_vertex(nominal, edge.half_edge)];
     const Vector3f& to = nominal.vertices_mm[target_vertex(nominal, edge.half_edge)];
     const auto points = static_cast<std::size_t>(
