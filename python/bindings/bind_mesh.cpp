@@ -1,4 +1,5 @@
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -114,12 +115,14 @@ py::dict inspect(const Mesh& mesh,
                  double min_feature_mm,
                  double min_coverage,
                  double max_gap_mm,
+                 const std::optional<double>& edge_mm,
                  const py::object& progress) {
   SurfaceRule rule;
   rule.limits = {lower_mm, upper_mm};
   rule.min_feature_mm = min_feature_mm;
   rule.min_coverage = min_coverage;
   rule.max_gap_mm = max_gap_mm;
+  rule.edge_mm = edge_mm;
   const SurfaceInspection found = result_of(progress, [&](const Run& run) {
     return inspect_surface(mesh, RayScene(reference, run), rule, {}, run);
   });
@@ -128,10 +131,13 @@ py::dict inspect(const Mesh& mesh,
   out["verdict"] = std::string(name_of(verdict.conformity));
   out["sentence"] = sentence_of(verdict);
   for (std::size_t i = 0; i < kPatchDecisions; ++i) {
+    if (static_cast<PatchDecision>(i) == PatchDecision::AtEdge) continue;
     const std::string name(name_of(static_cast<PatchDecision>(i)));
     out[py::str(name + "_share")] = verdict.share.at(i);
   }
   out["coverage"] = verdict.coverage;
+  out["edge_mm"] = verdict.rule.edge_mm.value_or(0.0);
+  out["edge_share"] = verdict.edge_share;
   out["gap_mm"] = verdict.gap_mm;
   out["patch_mm"] = verdict.rule.min_feature_mm;
   out["min_mm"] = found.summary.min_mm;
@@ -256,9 +262,12 @@ void bind_mesh(py::module_& module) {
              py::arg("min_feature_mm") = 0.0,
              py::arg("min_coverage") = 0.9,
              py::arg("max_gap_mm") = 0.0,
+             py::arg("edge_mm") = py::none(),
              py::arg("progress") = py::none(),
              "The verdict about a surface against a reference in the same frame, by ISO 14253-1, "
-             "with its sentence, shares of the nominal area and places; 0: the default.");
+             "with its sentence, shares of the nominal area and places; 0: the default. edge_mm: "
+             "width of the strips along edges that are not judged, by default the mean distance of "
+             "the vertices.");
   module.def("deviations",
              &deviations,
              py::arg("mesh"),

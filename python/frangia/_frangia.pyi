@@ -542,8 +542,8 @@ def edit(mesh: Mesh, steps: Iterable[Any], *, progress: Callable[[float, str], o
     """Applies steps of `frangia edit`: names, or pairs of a name and a value, such as [('fill-holes', '10mm'), 'remove-spikes']."""
     ...
 
-def inspect_surface(mesh: Mesh, reference: Mesh, *, lower_mm: float = -0.1, upper_mm: float = 0.1, min_feature_mm: float = 0.0, min_coverage: float = 0.9, max_gap_mm: float = 0.0, progress: Callable[[float, str], object] | None = None) -> dict[Any, Any]:
-    """The verdict about a surface against a reference in the same frame, by ISO 14253-1, with its sentence, shares of the nominal area and places; 0: the default."""
+def inspect_surface(mesh: Mesh, reference: Mesh, *, lower_mm: float = -0.1, upper_mm: float = 0.1, min_feature_mm: float = 0.0, min_coverage: float = 0.9, max_gap_mm: float = 0.0, edge_mm: float | None = None, progress: Callable[[float, str], object] | None = None) -> dict[Any, Any]:
+    """The verdict about a surface against a reference in the same frame, by ISO 14253-1, with its sentence, shares of the nominal area and places; 0: the default. edge_mm: width of the strips along edges that are not judged, by default the mean distance of the vertices."""
     ...
 
 def least_squares(shifts_rad: Iterable[float]) -> PhaseAlgorithm:

@@ -10,6 +10,7 @@
 #include "frangia/core/random.h"
 #include "frangia/geometry/ray_scene.h"
 
+#include "support/measured_plate.h"
 #include "support/test_meshes.h"
 
 namespace frangia {
@@ -18,51 +19,9 @@ namespace {
 using Eigen::Vector3d;
 using Eigen::Vector3f;
 
-constexpr float kSigma = 0.005F;
-
-/// A plate of 60 x 60 mm with a vertex a millimetre, its noise and a height.
-class Plate {
- public:
-  Plate() : nominal_(testing::level_grid(61, 61)), mesh_(nominal_) {
-    mesh_.sigma_mm.assign(mesh_.vertices_mm.size(), kSigma);
-  }
-
-  Plate& raise(const std::function<double(const Vector3f&)>& height) {
-    for (Vector3f& vertex : mesh_.vertices_mm)
-      vertex.z() += static_cast<float>(height(vertex));
-    return *this;
-  }
-
-  Plate& add_noise(std::uint64_t seed, double sigma) {
-    for (std::size_t i = 0; i < mesh_.vertices_mm.size(); ++i)
-      mesh_.vertices_mm[i].z() += static_cast<float>(sigma * normal_from(hash(seed, i)));
-    return *this;
-  }
-
-  Plate& remove(const std::function<bool(const Vector3f&)>& gone) {
-    std::erase_if(mesh_.triangles, [&](const Mesh::Triangle& triangle) {
-      return std::any_of(triangle.begin(), triangle.end(), [&](std::uint32_t v) {
-        return gone(mesh_.vertices_mm[v]);
-      });
-    });
-    return *this;
-  }
-
-  Mesh& mesh() { return mesh_; }
-
-  [[nodiscard]] SurfaceVerdict verdict(const SurfaceRule& rule) const {
-    const RayScene reference(nominal_);
-    return judge_surface(mesh_, deviations_of(mesh_, reference), reference, rule);
-  }
-
- private:
-  Mesh nominal_;
-  Mesh mesh_;
-};
-
-double distance_from(const Vector3f& vertex, double x, double y) {
-  return std::hypot(static_cast<double>(vertex.x()) - x, static_cast<double>(vertex.y()) - y);
-}
+using testing::distance_from;
+using testing::kSigma;
+using testing::Plate;
 
 TEST(SurfaceVerdict, OfAMeshAgainstItselfIsIn) {
   Mesh mesh = testing::sphere({0, 0, 0}, 20.0, 40);
@@ -127,47 +86,6 @@ TEST(SurfaceVerdict, DoesNotHideAPlaceWithoutAnyGoodVertex) {
   EXPECT_LT(verdict.coverage, 0.995);
 }
 
-TEST(SurfaceVerdict, AveragesNoiseAndKeepsTheSystematicPart) {
-  Plate plate;
-  plate.add_noise(5, 0.02);
-  Mesh& mesh = plate.mesh();
-  mesh.sigma_noise_mm.assign(mesh.vertices_mm.size(), 0.02F);
-  mesh.sigma_systematic_mm.assign(mesh.vertices_mm.size(), 0.005F);
-  mesh.sigma_mm.assign(mesh.vertices_mm.size(), std::hypot(0.02F, 0.005F));
-  const RayScene reference(testing::level_grid(61, 61));
-  const Deviations found = deviations_of(mesh, reference);
-  const SurfacePatches patches = surface_patches(mesh, found, reference, 8.0);
-  EXPECT_LT(patches.noise_factor, 1.5);
-  for (std::size_t i = 0; i < patches.size(); ++i) {
-    const Vector3f& at = patches.center_mm[i];
-    if (at.head<2>().minCoeff() < 5.0F || at.head<2>().maxCoeff() > 55.0F) continue;
-    // A circle of 8 mm holds 50 vertices.
-    EXPECT_NEAR(
-        patches.noise_mm[i] / std::sqrt(patches.noise_factor), 0.02 / std::sqrt(50.3), 4e-4);
-    EXPECT_NEAR(patches.systematic_mm[i], 0.005, 1e-6);
-  }
-  std::size_t within = 0;
-  for (const float deviation : patches.deviation_mm)
-    within += std::abs(deviation) < 2.5F * 0.02F / 7.0F ? 1U : 0U;
-  EXPECT_GT(within, patches.size() * 95 / 100);
-}
-
-TEST(SurfaceVerdict, CountsNoiseThatNeighborsShare) {
-  Plate plate;
-  // All vertices of squares of 3 x 3 err alike: a mean of nine is no better than one vertex.
-  plate.raise([](const Vector3f& at) {
-    const auto column = static_cast<std::uint64_t>(at.x()) / 3U;
-    const auto row = static_cast<std::uint64_t>(at.y()) / 3U;
-    return 0.01 * normal_from(hash(7U + column, row));
-  });
-  plate.mesh().sigma_mm.assign(plate.mesh().vertices_mm.size(), 0.01F);
-  const RayScene reference(testing::level_grid(61, 61));
-  const SurfacePatches patches =
-      surface_patches(plate.mesh(), deviations_of(plate.mesh(), reference), reference, 6.0);
-  EXPECT_GT(patches.noise_factor, 4.0);
-  EXPECT_LT(patches.noise_factor, 13.0);
-}
-
 TEST(SurfaceVerdict, OfADentIsOutAtItsPlace) {
   const double u = static_cast<double>(kSigma) / std::sqrt(3.1);  // of a patch of 2 mm
   const double depth = 0.05 + 3.0 * 1.96 * u;
@@ -196,6 +114,13 @@ TEST(SurfaceVerdict, ProvesOutButNeverInWhereTheUncertaintyIsLarge) {
   EXPECT_EQ(open.reason, UndecidedReason::Noise);
   EXPECT_EQ(open.share_of(PatchDecision::In), 0.0);
   EXPECT_NE(sentence_of(open).find("mostly noise"), std::string::npos) << sentence_of(open);
+  // The tolerance that it asks for is decided.
+  ASSERT_GT(open.decidable_mm, 0.1);
+  EXPECT_EQ(noisy.verdict({.limits = {-open.decidable_mm, open.decidable_mm}}).conformity,
+            Conformity::In);
+  EXPECT_NE(
+      noisy.verdict({.limits = {-0.9 * open.decidable_mm, 0.9 * open.decidable_mm}}).conformity,
+      Conformity::In);
   Mesh& mesh = noisy.mesh();
   mesh.sigma_noise_mm.assign(mesh.vertices_mm.size(), 0.001F);
   const SurfaceVerdict biased = noisy.verdict({.limits = {-0.1, 0.1}});
@@ -226,6 +151,22 @@ TEST(SurfaceVerdict, CountsTheNominalAreaThatWasNotMeasured) {
   EXPECT_EQ(plate.verdict(rule).conformity, Conformity::In);
   rule.min_coverage = 0.97;
   EXPECT_EQ(plate.verdict(rule).conformity, Conformity::Undecided);
+}
+
+/// Many small places that are uncertain do not hide the large one that was not measured.
+TEST(SurfaceVerdict, NamesTheLargestOfThePlacesThatLackAMeasurementFirst) {
+  Plate plate;
+  for (int i = 0; i < 36; ++i) {
+    for (std::size_t v = 0; v < plate.mesh().vertices_mm.size(); ++v) {
+      if (distance_from(plate.mesh().vertices_mm[v], 5 + 10 * (i % 6), 5 + 10 * (i / 6)) < 2.5)
+        plate.mesh().sigma_mm[v] = 0.5F;
+    }
+  }
+  plate.remove([](const Vector3f& at) { return distance_from(at, 30, 30) < 12.2; });
+  const SurfaceVerdict verdict = plate.verdict({.limits = {-0.05, 0.05}});
+  ASSERT_GE(verdict.places.size(), 24U);
+  EXPECT_EQ(verdict.places.front().decision, PatchDecision::NotMeasured);
+  EXPECT_LT(distance_from(verdict.places.front().at_mm.cast<float>(), 30, 30), 4.0);
 }
 
 /// Nominal: a box of 40 x 40 x 10 mm with a round boss. Measured: its top without the boss, and

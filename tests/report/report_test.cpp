@@ -94,6 +94,7 @@ TEST(InspectionPlan, MeasuresItsFeaturesAndDecides) {
 TEST(InspectionPlan, StatesHowTheSurfaceIsJudgedAndTheHeadOfTheReport) {
   const InspectionPlan plan = plan_from(
       "min_feature_mm = 3\nmax_uncertainty_share = 0.2\nmin_coverage = 0.95\nmax_gap_mm = 8\n"
+      "edge_mm = 0\n"
       "[[excluded]]\nname = \"base\"\nmin_mm = [-50, -50, -1]\nmax_mm = [50, 50, 0.5]\n"
       "[report]\ndrawing = \"D-17\"\noperator = \"A. Smith\"\npaper = \"Letter\"\n"
       "logo = \"logo.png\"\n");
@@ -101,6 +102,8 @@ TEST(InspectionPlan, StatesHowTheSurfaceIsJudgedAndTheHeadOfTheReport) {
   EXPECT_EQ(plan.surface.max_uncertainty_share, 0.2);
   EXPECT_EQ(plan.surface.min_coverage, 0.95);
   EXPECT_EQ(plan.surface.max_gap_mm, 8.0);
+  EXPECT_EQ(plan.surface.edge_mm, 0.0);  // all is judged
+  EXPECT_FALSE(plan_from("min_feature_mm = 3\n").surface.edge_mm);
   ASSERT_EQ(plan.surface.excluded.size(), 1U);
   EXPECT_EQ(plan.surface.excluded[0].max_mm.z(), 0.5);
   EXPECT_EQ(plan.report.drawing, "D-17");
@@ -138,6 +141,7 @@ TEST(InspectionPlan, NamesTheKeyThatIsWrong) {
   expect("align = \"datum\"\n", "datums must name one to three of [[features]]");
   expect("datums = [\"A\"]\n", "datums names \"A\", which is no name of [[features]]");
   expect("min_coverage = 1.5\n", "min_coverage must be 1 at most");
+  expect("edge_mm = -1\n", "edge_mm must be 0 or more");
   expect("[report]\npaper = \"A3\"\n", "paper is \"A3\"; it must be A4 or Letter");
   expect("[[excluded]]\nname = \"b\"\nmin_mm = [0, 0, 0]\nmax_mm = [1, 1, 0]\n",
          "max_mm must be larger than min_mm");

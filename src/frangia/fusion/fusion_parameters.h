@@ -73,10 +73,16 @@ struct HermiteParameters {
   /// uncertain of its coefficients enters by the covariance of the calibration. See
   /// docs/parameters.md.
   double lateral_px = 0.01;
-  /// RMS error of the position of a pixel at the boundary of the data, px: the part fills a share
-  /// of its square between 1 and 1/2, so the centroid of that share is off by 0 to 1/4, evenly
-  /// distributed: 1 / (4 sqrt 3).
-  double boundary_lateral_px = 0.144;
+  /// RMS error of the position of a point at the boundary of the data, px: the part fills a share
+  /// of a pixel's square between 1 and 1/2, so the centroid of that share is off by 0 to 1/4,
+  /// evenly distributed: 1 / (4 sqrt 3). A local fit over 5 pixels takes half of its value there
+  /// from pixels further in: the means of columns weigh 0.6, 0.4, 0.2, 0, -0.2 in the outermost,
+  /// and 0.4, 0.3, 0.2, 0.1, 0 in the next one.
+  double boundary_lateral_px = 0.072;
+  /// The same of a slope steeper than `small_window_incidence_rad` that no window of 5 x 5 pixels
+  /// fits: pixels on the two sides of a step make it, which lies anywhere within a pixel, evenly
+  /// distributed: 1 / sqrt 12.
+  double step_lateral_px = 0.289;
   /// A second face counts from this share of the weight of the first.
   double lesser_share = 0.1;
 };

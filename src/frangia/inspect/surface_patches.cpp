@@ -12,6 +12,7 @@
 #include "frangia/core/median.h"
 #include "frangia/core/missing.h"
 #include "frangia/geometry/sample_surface.h"
+#include "frangia/inspect/internal/edge_strips.h"
 #include "frangia/inspect/internal/missing_patches.h"
 #include "frangia/inspect/internal/patch_filter.h"
 #include "frangia/inspect/internal/patch_grid.h"
@@ -22,6 +23,7 @@ namespace {
 
 using Eigen::Vector3d;
 using Eigen::Vector3f;
+using inspect::EdgeStrips;
 using inspect::PatchFilter;
 using inspect::PatchGrid;
 using inspect::PatchMean;
@@ -57,16 +59,26 @@ bool is_excluded(const Vector3d& point, const std::vector<ExcludedBox>& excluded
   });
 }
 
-/// How much more the means of patches beside each other differ than independent noise explains.
-/// Neighboring vertices share pixels, so that their errors are alike.
-double noise_factor_of(const SurfacePatches& patches, const PatchGrid& grid) {
+/// How much more the means of patches near each other differ than independent noise explains.
+/// Neighboring vertices share pixels, so that their errors are alike: in a mesh that fusion
+/// samples, by 0.7 at a spacing, 0.3 at two and less than 0.1 at three, which the patches must be
+/// apart.
+double noise_factor_of(const SurfacePatches& patches, const PatchGrid& grid, double spacing_mm) {
+  constexpr double kAlike = 3.0;       // spacings over which errors are alike
+  constexpr double kLargestGap = 2.0;  // diameters; triangles may be larger than patches
+  const double nearest_mm =
+      patches.diameter_mm + std::min(kAlike * spacing_mm, kLargestGap * patches.diameter_mm);
+  const double farthest_mm = nearest_mm + 0.5 * patches.diameter_mm;
   std::vector<double> ratios;
+  const auto counts = [&](std::size_t i) {
+    return patches.is_measured(i) && patches.at_edge[i] == 0;
+  };
   for (std::size_t i = 0; i < patches.size(); ++i) {
-    if (!patches.is_measured(i) || !(patches.noise_mm[i] > 0.0F)) continue;
+    if (!counts(i) || !(patches.noise_mm[i] > 0.0F)) continue;
     std::optional<double> ratio;
-    grid.within(patches.center_mm[i], 1.5 * patches.diameter_mm, [&](std::uint32_t k, float d2) {
-      const bool apart = static_cast<double>(d2) >= patches.diameter_mm * patches.diameter_mm;
-      if (ratio || k <= i || !apart || !patches.is_measured(k)) return;
+    grid.within(patches.center_mm[i], farthest_mm, [&](std::uint32_t k, float d2) {
+      const bool apart = static_cast<double>(d2) >= nearest_mm * nearest_mm;
+      if (ratio || k <= i || !apart || !counts(k)) return;
       if (patches.normal[i].dot(patches.normal[k]) < 0.95F) return;
       const auto difference =
           static_cast<double>(patches.deviation_mm[i] - patches.deviation_mm[k]);
@@ -80,6 +92,38 @@ double noise_factor_of(const SurfacePatches& patches, const PatchGrid& grid) {
   constexpr double kMedianOfSquare = 0.45494;  // of a normal number's square
   if (ratios.size() < kEnough) return 1.0;
   return std::max(1.0, median_in_place(std::span<double>(ratios)) / kMedianOfSquare);
+}
+
+/// How much the errors of the points in a patch are alike, from 0 to 1: the mean correlation of two
+/// of them, by which their scatter about the mean falls short of what independent noise makes. The
+/// median over the patches, because the form of the surface scatters them, too.
+double correlation_of(const SurfacePatches& patches,
+                      const std::vector<std::optional<PatchMean>>& means) {
+  constexpr double kMostOfOne = 0.5;         // weight of a point: two points and more
+  constexpr double kErrorOfMedian = 1.2533;  // over that of the mean
+  std::vector<double> ratios;
+  double area_mm2 = 0.0;
+  double variance = 0.0;  // of a ratio, summed
+  for (std::size_t i = 0; i < patches.size(); ++i) {
+    if (!means[i] || patches.at_edge[i] != 0 || !(means[i]->one_point_mm > 0.0)) continue;
+    const double one = means[i]->point_share;
+    if (one > kMostOfOne) continue;
+    const double freedom = 1.0 / one - 1.0;
+    const double expected = means[i]->one_point_mm * means[i]->one_point_mm * (1.0 - one);
+    // The median of chi squared over its degrees of freedom (Wilson and Hilferty).
+    const double median = std::pow(1.0 - 2.0 / (9.0 * freedom), 3);
+    ratios.push_back(means[i]->scatter_mm2 / (expected * median));
+    area_mm2 += patches.area_mm2[i];
+    variance += 2.0 / freedom;
+  }
+  if (ratios.empty()) return 0.0;
+  // As many patches are independent as fit beside each other.
+  const double disk = 0.25 * std::numbers::pi * patches.diameter_mm * patches.diameter_mm;
+  const double independent = std::max(1.0, area_mm2 / disk);
+  const double sigma =
+      kErrorOfMedian * std::sqrt(variance / static_cast<double>(ratios.size()) / independent);
+  const double short_by = 1.0 - median_in_place(std::span<double>(ratios));
+  return std::clamp(short_by - 2.0 * sigma, 0.0, 1.0);  // what is not significant is not counted
 }
 
 void find_neighbors(SurfacePatches& patches, const PatchGrid& grid) {
@@ -113,11 +157,32 @@ double default_feature_mm(const Mesh& mesh) {
   return 2.0 * std::sqrt(area_of(mesh) / count);
 }
 
+double default_edge_mm(const Mesh& mesh, const Mesh& reference) {
+  constexpr std::size_t kSamples = 4000;
+  constexpr double kMostInStrips = 0.25;  // of the area
+  constexpr int kMostHalvings = 6;
+  double width_mm =
+      0.5 * std::min(default_feature_mm(mesh), kLargestShare * diagonal_of(reference));
+  const auto samples = sample_surface(reference, kSamples);
+  for (int i = 0; i < kMostHalvings; ++i) {
+    const EdgeStrips strips(reference, width_mm);
+    const auto held = std::count_if(samples.begin(), samples.end(), [&](const auto& sample) {
+      return strips.hold(sample.point_mm.template cast<float>(),
+                         sample.normal.template cast<float>());
+    });
+    if (static_cast<double>(held) <= kMostInStrips * static_cast<double>(samples.size()))
+      return width_mm;
+    width_mm *= 0.5;
+  }
+  return 0.0;
+}
+
 SurfacePatches surface_patches(const Mesh& mesh,
                                const Deviations& deviations,
                                const RayScene& reference,
                                double diameter_mm,
                                const std::vector<ExcludedBox>& excluded,
+                               double edge_mm,
                                const Run& run) {
   run.stage("patches");
   const double wanted = diameter_mm > 0.0 ? diameter_mm
@@ -139,13 +204,16 @@ SurfacePatches surface_patches(const Mesh& mesh,
   const double sample_area = nominal_area / static_cast<double>(samples.size());
   Eigen::AlignedBox3d box;
   PatchGrid grid(patches.diameter_mm);
+  const EdgeStrips strips(reference.mesh(), edge_mm);
   std::vector<std::uint8_t> kept(samples.size(), 0);
+  std::vector<std::uint8_t> in_strip(samples.size(), 0);
   for (std::size_t i = 0; i < samples.size(); ++i) {
     const Vector3f point = samples[i].point_mm.cast<float>();
     const Vector3f normal = samples[i].normal.cast<float>();
     box.extend(samples[i].point_mm);
     if (is_excluded(samples[i].point_mm, excluded)) continue;
     kept[i] = 1;
+    in_strip[i] = strips.hold(point, normal) ? 1 : 0;
     bool free = true;
     grid.within(point, 0.5 * patches.diameter_mm, [&](std::uint32_t k, float) {
       free = free && normal.dot(patches.normal[k]) < kSameFace;
@@ -154,6 +222,7 @@ SurfacePatches surface_patches(const Mesh& mesh,
     grid.add(point);
     patches.center_mm.push_back(point);
     patches.normal.push_back(normal);
+    patches.at_edge.push_back(in_strip[i]);
   }
   require(patches.size() > 0, "the plan excludes all of the reference; make its boxes smaller");
   patches.size_mm = box.diagonal().norm();
@@ -167,21 +236,25 @@ SurfacePatches surface_patches(const Mesh& mesh,
     float least = std::numeric_limits<float>::infinity();
     const auto visit = [&](std::uint32_t k, float squared) {
       if (normal.dot(patches.normal[k]) < kSameFace) return;
+      if (in_strip[i] != 0 && patches.at_edge[k] == 0) return;
       inside[k] += sample_area;
-      if (squared < least) {
+      if (in_strip[i] == patches.at_edge[k] && squared < least) {
         least = squared;
         best = k;
       }
     };
     grid.within(samples[i].point_mm.cast<float>(), 0.5 * patches.diameter_mm, visit);
-    if (!std::isfinite(least)) continue;
+    if (in_strip[i] != 0) patches.edge_area_mm2 += sample_area;
+    if (in_strip[i] != 0 || !std::isfinite(least)) continue;
     patches.area_mm2[best] += sample_area;
     patches.total_area_mm2 += sample_area;
   }
+  require(patches.total_area_mm2 > 0.0,
+          "all of the reference lies in strips along its edges; state a smaller edge_mm");
   patches.deviation_mm.assign(patch_count, kMissing);
   patches.noise_mm.assign(patch_count, 0.0F);
   patches.systematic_mm.assign(patch_count, 0.0F);
-  const PatchFilter filter(mesh, deviations, reference, grid, patches, run);
+  const PatchFilter filter(mesh, deviations, reference, grid, patches, strips, run);
   std::vector<std::optional<PatchMean>> means(patch_count);
   run.check();
   for (std::size_t i = 0; i < patch_count; ++i) {
@@ -193,12 +266,22 @@ SurfacePatches surface_patches(const Mesh& mesh,
     patches.systematic_mm[i] = static_cast<float>(means[i]->systematic_mm);
   }
   if (patches.uncertainty_known) {
-    patches.noise_factor = noise_factor_of(patches, grid);
-    const double alike = std::sqrt(patches.noise_factor);
+    // What the points in a patch share shows in their scatter; what is beyond the stated noise, in
+    // the differences of patches.
+    const double shared = correlation_of(patches, means);
     for (std::size_t i = 0; i < patch_count; ++i) {
       if (!means[i]) continue;
+      const double apart2 = means[i]->noise_mm * means[i]->noise_mm;
+      const double alike2 = std::max(0.0, std::pow(means[i]->one_point_mm, 2) - apart2);
+      patches.noise_mm[i] = static_cast<float>(std::sqrt(apart2 + shared * alike2));
+    }
+    patches.noise_factor = noise_factor_of(patches, grid, 0.5 * default_feature_mm(mesh));
+    const double more = std::sqrt(patches.noise_factor);
+    for (std::size_t i = 0; i < patch_count; ++i) {
+      if (!means[i]) continue;
+      const auto noise = static_cast<double>(patches.noise_mm[i]);
       patches.noise_mm[i] = static_cast<float>(std::hypot(
-          std::min(alike * means[i]->noise_mm, means[i]->one_point_mm), means[i]->place_mm));
+          std::max(noise, std::min(more * noise, means[i]->one_point_mm)), means[i]->place_mm));
     }
   }
   find_neighbors(patches, grid);

@@ -62,7 +62,7 @@ OutGuard out_guard_of(const SurfacePatches& patches) {
   std::vector<double> noises;
   std::vector<double> systematics;
   for (std::size_t i = 0; i < patches.size(); ++i) {
-    if (!patches.is_measured(i)) continue;
+    if (!patches.is_measured(i) || patches.at_edge[i] != 0) continue;
     area += patches.area_mm2[i];
     ++measured;
     if (!std::isfinite(patches.u_mm(i))) continue;
@@ -88,6 +88,7 @@ PatchDecision decide(const SurfacePatches& patches,
                      const SurfaceRule& rule,
                      const OutGuard& guard) {
   if (patches.missing[i] != 0) return PatchDecision::Out;
+  if (patches.at_edge[i] != 0) return PatchDecision::AtEdge;
   if (!patches.is_measured(i)) return PatchDecision::NotMeasured;
   const auto value = static_cast<double>(patches.deviation_mm[i]);
   const double u = patches.u_mm(i);
@@ -106,6 +107,10 @@ bool is_gap(PatchDecision decision) {
   return decision == PatchDecision::NotMeasured || decision == PatchDecision::NotWellMeasured;
 }
 
+bool is_decided(PatchDecision decision) {
+  return !is_gap(decision) && decision != PatchDecision::AtEdge;
+}
+
 /// Distance of each patch, over the surface, from the nearest one that is decided; infinite where
 /// none can be reached.
 std::vector<double> gap_distances(const SurfacePatches& patches,
@@ -114,7 +119,7 @@ std::vector<double> gap_distances(const SurfacePatches& patches,
   std::priority_queue<Step, std::vector<Step>, std::greater<>> next;
   std::vector<double> distance(patches.size(), std::numeric_limits<double>::infinity());
   for (std::uint32_t i = 0; i < patches.size(); ++i) {
-    if (is_gap(decided[i])) continue;
+    if (!is_decided(decided[i])) continue;
     distance[i] = 0.0;
     next.emplace(0.0, i);
   }
@@ -136,8 +141,10 @@ std::vector<double> gap_distances(const SurfacePatches& patches,
 /// Finds the widest gap: its width is twice the largest distance of its patches.
 void find_gap(SurfaceVerdict& verdict,
               const SurfacePatches& patches,
+              const std::vector<PatchDecision>& decided,
               const std::vector<double>& distance) {
   for (std::size_t i = 0; i < patches.size(); ++i) {
+    if (decided[i] == PatchDecision::AtEdge) continue;
     const double width = std::min(2.0 * distance[i], patches.size_mm);
     if (width <= verdict.gap_mm) continue;
     verdict.gap_mm = width;
@@ -166,7 +173,9 @@ std::vector<SurfacePlace> places_of(const SurfacePatches& patches,
   std::vector<SurfacePlace> places;
   std::vector<std::uint8_t> seen(patches.size(), 0);
   for (std::uint32_t first = 0; first < patches.size(); ++first) {
-    if (seen[first] != 0 || decided[first] == PatchDecision::In) continue;
+    if (seen[first] != 0 || decided[first] == PatchDecision::In ||
+        decided[first] == PatchDecision::AtEdge)
+      continue;
     SurfacePlace place;
     place.decision = decided[first];
     std::uint32_t worst = first;
@@ -202,8 +211,12 @@ std::vector<SurfacePlace> places_of(const SurfacePatches& patches,
                ? std::max(limits.lower - place.deviation_mm, place.deviation_mm - limits.upper)
                : 0.0;
   };
+  // What lacks a measurement is told by its size, whatever the measurement lacks.
+  const auto rank = [](PatchDecision decision) {
+    return is_gap(decision) ? PatchDecision::NotWellMeasured : decision;
+  };
   std::stable_sort(places.begin(), places.end(), [&](const auto& a, const auto& b) {
-    if (a.decision != b.decision) return a.decision < b.decision;
+    if (rank(a.decision) != rank(b.decision)) return rank(a.decision) < rank(b.decision);
     if (a.decision == PatchDecision::Out) return excess(a) > excess(b);
     return a.area_mm2 > b.area_mm2;
   });
@@ -217,6 +230,22 @@ Extreme extreme_of(const SurfacePatches& patches, std::size_t i) {
   extreme.at_mm = patches.center_mm[i].cast<double>();
   extreme.normal = patches.normal[i].cast<double>();
   return extreme;
+}
+
+double decidable_of(const SurfacePatches& patches, const SurfaceRule& rule) {
+  if (!patches.uncertainty_known) return kMissing;
+  std::vector<std::pair<double, double>> needs;  // half-widths, and the areas that need them
+  for (std::size_t i = 0; i < patches.size(); ++i) {
+    if (patches.is_measured(i) && std::isfinite(patches.u_mm(i)))
+      needs.emplace_back(k95 * patches.u_mm(i) / rule.max_uncertainty_share, patches.area_mm2[i]);
+  }
+  std::sort(needs.begin(), needs.end());
+  double area_mm2 = 0.0;
+  for (const auto& [half_mm, more_mm2] : needs) {
+    area_mm2 += more_mm2;
+    if (area_mm2 >= rule.min_coverage * patches.total_area_mm2) return half_mm;
+  }
+  return kMissing;
 }
 
 void conclude(SurfaceVerdict& verdict, double noise_share) {
@@ -251,6 +280,7 @@ void SurfaceRule::check() const {
   limits.check();
   require(std::isfinite(min_feature_mm) && min_feature_mm >= 0.0,
           "min_feature_mm must be 0 or more");
+  require(!edge_mm || (std::isfinite(*edge_mm) && *edge_mm >= 0.0), "edge_mm must be 0 or more");
   require(max_uncertainty_share > 0.0 && max_uncertainty_share <= 1.0,
           "max_uncertainty_share must be above 0, and 1 at most");
   require(min_coverage >= 0.0 && min_coverage <= 1.0, "min_coverage must be from 0 to 1");
@@ -269,6 +299,8 @@ SurfaceVerdict judge_surface(const SurfacePatches& patches, const SurfaceRule& r
   verdict.rule.min_feature_mm = patches.diameter_mm;
   if (!(rule.max_gap_mm > 0.0)) verdict.rule.max_gap_mm = kGapOverSize * patches.size_mm;
   verdict.area_mm2 = patches.total_area_mm2;
+  verdict.edge_share =
+      patches.edge_area_mm2 / std::max(patches.edge_area_mm2 + patches.total_area_mm2, 1e-300);
   verdict.noise_factor = patches.noise_factor;
   const OutGuard guard = out_guard_of(patches);
   verdict.independent = guard.independent;
@@ -284,7 +316,7 @@ SurfaceVerdict judge_surface(const SurfacePatches& patches, const SurfaceRule& r
     if (decided.back() == PatchDecision::NotWellMeasured &&
         patches.noise_mm[i] > patches.systematic_mm[i])
       noise_share += share;
-    if (!patches.is_measured(i)) continue;
+    if (!patches.is_measured(i) || decided.back() == PatchDecision::AtEdge) continue;
     if (patches.uncertainty_known && std::isfinite(patches.u_mm(i)))
       known_u.push_back(patches.u_mm(i));
     if (is_gap(decided.back())) continue;
@@ -295,11 +327,12 @@ SurfaceVerdict judge_surface(const SurfacePatches& patches, const SurfaceRule& r
   }
   verdict.coverage = 1.0 - verdict.share_of(PatchDecision::NotMeasured) -
                      verdict.share_of(PatchDecision::NotWellMeasured);
+  verdict.decidable_mm = decidable_of(patches, rule);
   if (lowest < patches.size()) verdict.lowest = extreme_of(patches, lowest);
   if (highest < patches.size()) verdict.highest = extreme_of(patches, highest);
   if (!known_u.empty()) verdict.median_u_mm = median_in_place(std::span<double>(known_u));
   const std::vector<double> distance = gap_distances(patches, decided);
-  find_gap(verdict, patches, distance);
+  find_gap(verdict, patches, decided, distance);
   conclude(verdict, noise_share);
   verdict.places = places_of(patches, decided, rule.limits, distance);
   if (verdict.places.size() > kMostPlaces) verdict.places.resize(kMostPlaces);
@@ -312,8 +345,10 @@ SurfaceVerdict judge_surface(const Mesh& mesh,
                              const SurfaceRule& rule,
                              const Run& run) {
   rule.check();
-  const SurfacePatches patches =
-      surface_patches(mesh, deviations, reference, rule.min_feature_mm, rule.excluded, run);
+  SurfaceRule chosen = rule;
+  if (!chosen.edge_mm) chosen.edge_mm = default_edge_mm(mesh, reference.mesh());
+  const SurfacePatches patches = surface_patches(
+      mesh, deviations, reference, rule.min_feature_mm, rule.excluded, *chosen.edge_mm, run);
   if (rule.min_feature_mm > 0.0 && patches.diameter_mm > 1.001 * rule.min_feature_mm) {
     run.warn(fmt::format(
         "the surface is judged by patches of {:.3g} mm and not of {:.3g} mm, of which there would "
@@ -322,7 +357,7 @@ SurfaceVerdict judge_surface(const Mesh& mesh,
         rule.min_feature_mm,
         patches.diameter_mm));
   }
-  return judge_surface(patches, rule);
+  return judge_surface(patches, chosen);
 }
 
 }  // namespace frangia

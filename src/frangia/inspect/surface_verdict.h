@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -20,6 +21,9 @@ struct SurfaceRule {
   ToleranceLimits limits{-0.1, 0.1};  ///< of the deviation, mm
   /// Diameter of the patches; 0: twice the mean spacing of the vertices, 2 % of the size at most.
   double min_feature_mm = 0.0;
+  /// Width of the strips along edges of the reference that are not judged; 0: none. Nothing:
+  /// `default_edge_mm`.
+  std::optional<double> edge_mm;
   double max_uncertainty_share = 0.25;  ///< largest U95 that proves "in", of the half-width
   double min_coverage = 0.9;            ///< least share of the nominal area that is decided
   double max_gap_mm = 0.0;              ///< widest gap; 0: a tenth of the reference's diagonal
@@ -35,13 +39,14 @@ enum class PatchDecision : std::uint8_t {
   Out,              ///< proven to be beyond a limit, or its material is missing
   NearLimit,        ///< within the guard band of a limit
   NotWellMeasured,  ///< its U95 is too large to prove "in"
-  NotMeasured       ///< nothing was compared
+  NotMeasured,      ///< nothing was compared
+  AtEdge            ///< not judged: in a strip along an edge
 };
-inline constexpr std::size_t kPatchDecisions = 5;  ///< number of values of `PatchDecision`
+inline constexpr std::size_t kPatchDecisions = 6;  ///< number of values of `PatchDecision`
 
 /// A connected part of the surface whose patches were decided alike.
 struct SurfacePlace {
-  PatchDecision decision = PatchDecision::In;         ///< never `In`
+  PatchDecision decision = PatchDecision::In;         ///< never `In` or `AtEdge`
   Eigen::Vector3d at_mm = Eigen::Vector3d::Zero();    ///< its worst patch
   Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();  ///< of the nominal surface there
   double deviation_mm = kMissing;                     ///< of that patch; NaN: not measured
@@ -67,23 +72,27 @@ enum class UndecidedReason : std::uint8_t {
   NearLimit     ///< values lie within the guard band of a limit
 };
 
-/// The decision about a surface. Shares are of the nominal area, less what is excluded; they sum
-/// to 1.
+/// The decision about a surface. Shares are of the nominal area, less what is excluded and the
+/// strips along edges; they sum to 1, that of `AtEdge` is 0.
 struct SurfaceVerdict {
-  Conformity conformity = Conformity::Undecided;        ///< of the surface
-  UndecidedReason reason = UndecidedReason::None;       ///< the one of the largest share
-  SurfaceRule rule;                                     ///< with the values that were chosen
-  std::array<double, kPatchDecisions> share{};          ///< by `PatchDecision`
-  double coverage = 0.0;                                ///< share that is decided
-  double area_mm2 = 0.0;                                ///< nominal, less what is excluded
-  double gap_mm = 0.0;                                  ///< width of the widest gap
+  Conformity conformity = Conformity::Undecided;   ///< of the surface
+  UndecidedReason reason = UndecidedReason::None;  ///< the one of the largest share
+  SurfaceRule rule;                                ///< with the values that were chosen
+  std::array<double, kPatchDecisions> share{};     ///< by `PatchDecision`
+  double coverage = 0.0;                           ///< share that is decided
+  double area_mm2 = 0.0;    ///< nominal, less what is excluded and the strips along edges
+  double edge_share = 0.0;  ///< of the strips, of the nominal area with them
+  double gap_mm = 0.0;      ///< width of the widest gap
   Eigen::Vector3d gap_at_mm = Eigen::Vector3d::Zero();  ///< its middle
   std::size_t patches = 0;                              ///< that were decided
   std::size_t independent = 0;                          ///< effective number of those
   double noise_factor = 1.0;                            ///< as in `SurfacePatches`
   double median_u_mm = kMissing;                        ///< of a patch; NaN when none is known
-  Extreme lowest;                                       ///< of the patches
-  Extreme highest;                                      ///< of the patches
+  /// Least half-width of a tolerance for which `min_coverage` of the nominal area is measured well
+  /// enough; NaN when too little was measured for any, or no uncertainty is known.
+  double decidable_mm = kMissing;
+  Extreme lowest;                    ///< of the patches
+  Extreme highest;                   ///< of the patches
   std::vector<SurfacePlace> places;  ///< those that are out or undecided, the worst first
 
   [[nodiscard]] double share_of(PatchDecision decision) const;  ///< of the nominal area
@@ -107,7 +116,7 @@ struct SurfaceVerdict {
                                            const SurfaceRule& rule,
                                            const Run& run = {});
 
-/// The name in files: in, out, near_limit, not_well_measured, not_measured.
+/// The name in files: in, out, near_limit, not_well_measured, not_measured, at_edge.
 [[nodiscard]] std::string_view name_of(PatchDecision decision);
 
 /// The verdict in a sentence: "in, over 97.3 % of the nominal area"; of an undecided surface the

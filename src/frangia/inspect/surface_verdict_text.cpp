@@ -41,6 +41,20 @@ std::string gap_text(const SurfaceVerdict& verdict) {
       "the widest gap is {:.3g} mm at {}", verdict.gap_mm, place_text(verdict.gap_at_mm));
 }
 
+/// What is not judged along edges.
+std::string edges_text(const SurfaceVerdict& verdict) {
+  if (!(verdict.edge_share > 0.0)) return "";
+  return fmt::format("; not judged are strips of {:.2g} mm along edges, {} of the area",
+                     verdict.rule.edge_mm.value_or(0.0),
+                     share_text(verdict.edge_share));
+}
+
+/// The tolerance that the measurement is good enough for.
+std::string decidable_text(const SurfaceVerdict& verdict) {
+  if (!std::isfinite(verdict.decidable_mm)) return "";
+  return fmt::format("; it is good enough for a half-width of {:.3g} mm", verdict.decidable_mm);
+}
+
 std::string too_uncertain(const SurfaceVerdict& verdict) {
   const SurfaceRule& rule = verdict.rule;
   return fmt::format(
@@ -69,7 +83,7 @@ std::string place_text(const Eigen::Vector3d& at_mm) {
 
 std::string_view name_of(PatchDecision decision) {
   constexpr std::array<std::string_view, kPatchDecisions> kNames{
-      "in", "out", "near_limit", "not_well_measured", "not_measured"};
+      "in", "out", "near_limit", "not_well_measured", "not_measured", "at_edge"};
   return kNames.at(static_cast<std::size_t>(decision));
 }
 
@@ -78,16 +92,18 @@ std::string sentence_of(const SurfaceVerdict& verdict) {
   if (verdict.conformity == Conformity::In) {
     std::string text = fmt::format("in, over {} of the nominal area", share_text(verdict.coverage));
     if (verdict.gap_mm > 0.0) text += "; " + gap_text(verdict);
-    return text;
+    return text + edges_text(verdict);
   }
   switch (verdict.reason) {
     case UndecidedReason::Noise:
       return too_uncertain(verdict) +
-             ", mostly noise; take more views, a longer exposure or a finer pattern";
+             ", mostly noise; take more views, a longer exposure or a finer pattern" +
+             decidable_text(verdict);
     case UndecidedReason::Systematic:
       return too_uncertain(verdict) +
              ", mostly calibration and alignment; calibrate again, or state a tolerance that this "
-             "rig can decide";
+             "rig can decide" +
+             decidable_text(verdict);
     case UndecidedReason::NearLimit: {
       const SurfacePlace* worst = worst_place(verdict, PatchDecision::NearLimit);
       std::string text =

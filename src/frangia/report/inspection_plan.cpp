@@ -132,6 +132,10 @@ void read_surface_rule(TomlReader& top, SurfaceRule& rule) {
   };
   if (top.has("min_feature_mm")) rule.min_feature_mm = top.positive("min_feature_mm");
   if (top.has("max_gap_mm")) rule.max_gap_mm = top.positive("max_gap_mm");
+  if (top.has("edge_mm")) {
+    rule.edge_mm = top.number("edge_mm");
+    if (*rule.edge_mm < 0.0) top.fail("edge_mm", "must be 0 or more");
+  }
   share("max_uncertainty_share", rule.max_uncertainty_share);
   share("min_coverage", rule.min_coverage);
 }

@@ -32,7 +32,10 @@ void add_deviation(HtmlPage& page, const InspectionReport& report) {
   Rows rows{
       {"tolerance, mm",
        fmt::format("{:+.4g} to {:+.4g}", v.rule.limits.lower, v.rule.limits.upper)},
-      {"nominal area, less what is excluded, mm²", number_text(v.area_mm2, 1)},
+      {"nominal area, less what is excluded and strips along edges, mm²",
+       number_text(v.area_mm2, 1)},
+      {"strips along edges, which are not judged: width, mm, and share of the nominal area",
+       fmt::format("{:.2g}, {}", v.rule.edge_mm.value_or(0.0), share_text(v.edge_share))},
       {"proven in", share(PatchDecision::In)},
       {"proven out", share(PatchDecision::Out)},
       {"within the guard band of a limit", share(PatchDecision::NearLimit)},
@@ -53,7 +56,10 @@ void add_deviation(HtmlPage& page, const InspectionReport& report) {
       {"patches, and effective number of independent ones",
        fmt::format("{}, {}", v.patches, v.independent)},
       {"largest U95 that proves \"in\", of the half-width",
-       share_text(v.rule.max_uncertainty_share)}};
+       share_text(v.rule.max_uncertainty_share)},
+      {"least half-width of a tolerance that the measurement is good enough for, mm",
+       std::isfinite(v.decidable_mm) ? number_text(v.decidable_mm, 4)
+                                     : "none: too little was measured"}};
   for (const ExcludedBox& box : v.rule.excluded)
     rows.push_back({"excluded by the plan: " + box.name,
                     place_text(box.min_mm) + " to " + place_text(box.max_mm)});

@@ -77,8 +77,14 @@ struct ViewSampler {
     if (std::abs(distance) < set.near_mm) {
       const bool at_boundary = is_at_boundary(u, v);
       if (at_boundary && !has_surface_at(p - distance * plane.normal)) return;
-      support(
-          at, {p, plane.normal, distance, quad->weight, at_boundary, systematic_at(u, v)}, outward);
+      support(at,
+              {p,
+               plane.normal,
+               distance,
+               quad->weight,
+               off_px(plane, p, at_boundary),
+               systematic_at(u, v)},
+              outward);
     } else if (distance > set.free_space_mm && is_free_space(u, v, p)) {
       const float cosine = quad->distance_mm * view.inverse_depth_at(u, v);
       at.all[at.number].free_space_weight +=
@@ -129,7 +135,12 @@ struct ViewSampler {
     const float distance = pixel.normal.dot(point) + pixel.tangent_distance_mm;
     if (!has_surface_at(point - distance * pixel.normal)) return;
     support(at,
-            {point, pixel.normal, distance, set.boundary_share * pixel.weight, true, parts},
+            {point,
+             pixel.normal,
+             distance,
+             set.boundary_share * pixel.weight,
+             off_px(pixel, point, true),
+             parts},
             outward);
   }
 
@@ -145,6 +156,17 @@ struct ViewSampler {
   [[nodiscard]] bool is_at_boundary(float u, float v) const {
     return view.quad_at(u - 1.0F, v) == nullptr || view.quad_at(u + 1.0F, v) == nullptr ||
            view.quad_at(u, v - 1.0F) == nullptr || view.quad_at(u, v + 1.0F) == nullptr;
+  }
+
+  /// RMS error of the position of a plane in the image, near a point in front of it. `at_boundary`:
+  /// a neighbouring quad has no surface.
+  [[nodiscard]] float off_px(const LocalPlanes::Plane& plane,
+                             const Eigen::Vector3f& point,
+                             bool at_boundary) const {
+    const bool may_be_step = plane.window == WindowKind::Small &&
+                             -plane.normal.dot(point) < set.small_window_incidence * point.norm();
+    if (may_be_step) return set.step_lateral_px;
+    return at_boundary ? set.boundary_lateral_px : set.lateral_px;
   }
 
   /// Returns the face whose normal agrees, or a new second face.
@@ -169,7 +191,7 @@ struct ViewSampler {
     const Eigen::Vector3f& normal;
     float distance_mm;
     float weight;
-    bool at_boundary;       ///< a neighbouring quad has no surface
+    float off_px;           ///< RMS error of its position in the image
     Systematic systematic;  ///< of the pixel, along its ray
   };
 
@@ -191,10 +213,9 @@ struct ViewSampler {
     face.offset_squared += w * observation.distance_mm * observation.distance_mm;
     face.noise += w * variance;
     face.noise_squared += w * w * variance;
-    const float off_px = observation.at_boundary ? set.boundary_lateral_px : set.lateral_px;
     const float pixel_mm = observation.point.z() * pixel_rad;
-    face.lateral_squared +=
-        w * w * off_px * off_px * pixel_mm * pixel_mm * std::max(0.0F, 1.0F - cosine2);
+    face.lateral_squared += w * w * observation.off_px * observation.off_px * pixel_mm * pixel_mm *
+                            std::max(0.0F, 1.0F - cosine2);
     face.spacing += w * pixel_mm / std::sqrt(cosine);
     face.normal += w * normal;
     ++face.views;

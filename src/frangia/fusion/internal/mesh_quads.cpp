@@ -15,6 +15,7 @@
 #include "frangia/fusion/internal/find_quads.h"
 #include "frangia/fusion/internal/remove_foldovers.h"
 #include "frangia/fusion/internal/remove_slivers.h"
+#include "frangia/fusion/internal/settle_bends.h"
 #include "frangia/fusion/internal/sharpen_edges.h"
 
 namespace frangia {
@@ -225,6 +226,7 @@ Mesh mesh_quads(PlacedVertices vertices,
   const std::vector<std::uint8_t> sharp = sharpen_edges(mesh, voxel_mm, parameters.edges);
   remove_slivers(mesh, sharp, sliver_mm, parameters.cleanup);
   remove_foldovers(mesh, sharp, parameters.cleanup);
+  settle_bends(vertices, sharp);
 
   return std::move(vertices.mesh);
 }

@@ -32,7 +32,13 @@ float mean_views(const LoopSamples& loop) {
   return sum / static_cast<float>(loop.count);
 }
 
-/// Returns the variance of the mean of the samples, plus that of the curvature. `flat`: the planes
+/// Variance of a vertex, mm2.
+struct VertexVariance {
+  float of_samples = 0.0F;
+  float of_bend = 0.0F;  ///< see `variance_of`
+};
+
+/// Returns the variance of the mean of the samples, and that of the curvature. `flat`: the planes
 /// belong to one face; otherwise the vertex was placed where they meet.
 ///
 /// The noise of samples that share pixels is correlated and does not average out. The common
@@ -41,7 +47,7 @@ float mean_views(const LoopSamples& loop) {
 /// angle * edge / 4 above. Evenly distributed over that range, its variance is range^2 / 12. Planes
 /// of two faces do not bend: there the vertex is off by what the planes do, which the views fit to
 /// within `kMostTurn` near an edge.
-float variance_of(const LoopSamples& loop, bool flat, const PlacementInput& input) {
+VertexVariance variance_of(const LoopSamples& loop, bool flat, const PlacementInput& input) {
   // Vertices on the edges of simulated shafts, brackets, blades and blocks are 0.02 to 0.05 voxels
   // off, whatever the angle of the edge.
   constexpr float kMostTurn = 0.6F;
@@ -62,8 +68,8 @@ float variance_of(const LoopSamples& loop, bool flat, const PlacementInput& inpu
   }
   if (!flat) largest_turn2 = std::min(largest_turn2, kMostTurn * kMostTurn);
   const auto n = static_cast<float>(loop.count);
-  return sum / (n * n) + common_variance / n +
-         largest_turn2 * input.edge_mm * input.edge_mm / (16.0F * 12.0F);
+  return {sum / (n * n) + common_variance / n,
+          largest_turn2 * input.edge_mm * input.edge_mm / (16.0F * 12.0F)};
 }
 
 Eigen::Vector3i corner_offset(int corner) {
@@ -107,7 +113,9 @@ void place_vertex(PlacedVertices& placed,
   placed.in_cell_mm[vertex] =
       cell.contains(point) ? point : solve_position(loop, flat, input.min_eigenvalue, cell);
   mesh.normals[vertex] = loop.normal;
-  mesh.sigma_mm[vertex] = std::sqrt(variance_of(loop, flat, input));
+  const VertexVariance variance = variance_of(loop, flat, input);
+  mesh.sigma_mm[vertex] = std::sqrt(variance.of_samples + variance.of_bend);
+  placed.bend_mm[vertex] = std::sqrt(variance.of_bend);
   if (input.hermite.has_systematic())
     mesh.sigma_systematic_mm[vertex] = loop.systematic_mm / static_cast<float>(loop.count);
   mesh.views[vertex] = static_cast<std::uint16_t>(std::lround(mean_views(loop)));
@@ -167,6 +175,7 @@ PlacedVertices place_vertices(const EdgeCrossings& crossings,
   if (hermite.has_systematic()) placed.mesh.sigma_systematic_mm.resize(crossings.vertices);
   placed.mesh.views.resize(crossings.vertices);
   placed.sharp.resize(crossings.vertices);
+  placed.bend_mm.resize(crossings.vertices);
   parallel_chunks(crossings.blocks.size(), 16, [&](std::size_t begin, std::size_t end) {
     for (std::size_t block = begin; block < end; ++block)
       place_in_block(placed, input, block);

@@ -16,6 +16,7 @@ struct PlacedVertices {
   Mesh mesh;
   LargeVector<Eigen::Vector3f> in_cell_mm;  ///< position of each vertex confined to its cell
   std::vector<std::uint8_t> sharp;          ///< 1 for a vertex on an edge or corner of the object
+  std::vector<float> bend_mm;               ///< part of sigma: the surface may bend within the cell
 };
 
 /// Places one vertex for each loop of each cell where the planes at the loop's crossings intersect.

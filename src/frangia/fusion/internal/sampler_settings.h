@@ -23,7 +23,8 @@ struct SamplerSettings {
         small_window_incidence(cosine(options.parameters.small_window_incidence_rad)),
         interpolated_variance(static_cast<float>(options.parameters.interpolated_variance)),
         lateral_px(static_cast<float>(options.parameters.lateral_px)),
-        boundary_lateral_px(static_cast<float>(options.parameters.boundary_lateral_px)) {}
+        boundary_lateral_px(static_cast<float>(options.parameters.boundary_lateral_px)),
+        step_lateral_px(static_cast<float>(options.parameters.step_lateral_px)) {}
 
   static float cosine(double angle_rad) { return static_cast<float>(std::cos(angle_rad)); }
 
@@ -41,6 +42,7 @@ struct SamplerSettings {
   float interpolated_variance;
   float lateral_px;
   float boundary_lateral_px;
+  float step_lateral_px;
 };
 
 }  // namespace frangia

@@ -41,6 +41,7 @@ class PointFinder {
               const RayScene& reference,
               const PatchGrid& grid,
               const SurfacePatches& patches,
+              const EdgeStrips& strips,
               const Run& run,
               PatchFilter& out)
       : mesh_(mesh),
@@ -48,6 +49,7 @@ class PointFinder {
         reference_(reference),
         grid_(grid),
         patches_(patches),
+        strips_(strips),
         normals_(vertex_normals(mesh)),
         reference_boundary_(boundary_flags(reference.mesh())),
         run_(run),
@@ -202,7 +204,9 @@ class PointFinder {
   void add(const MeasuredPoint& point, double area) {
     const auto number = static_cast<std::uint32_t>(out_.points_.size());
     out_.points_.push_back({point.deviation_mm, point.sigma});
+    const bool in_strip = strips_.hold(point.foot, point.normal);
     grid_.within(point.foot, 0.5 * patches_.diameter_mm, [&](std::uint32_t patch, float) {
+      if (in_strip && patches_.at_edge[patch] == 0) return;
       if (point.normal.dot(patches_.normal[patch]) >= kSameFace)
         out_.points_of_[patch].emplace_back(number, area);
     });
@@ -213,6 +217,7 @@ class PointFinder {
   const RayScene& reference_;
   const PatchGrid& grid_;
   const SurfacePatches& patches_;
+  const EdgeStrips& strips_;
   std::vector<Vector3f> normals_;
   std::vector<std::uint8_t> reference_boundary_;
   double most_noise_mm_ = std::numeric_limits<double>::infinity();
@@ -226,9 +231,10 @@ PatchFilter::PatchFilter(const Mesh& mesh,
                          const RayScene& reference,
                          const PatchGrid& grid,
                          const SurfacePatches& patches,
+                         const EdgeStrips& strips,
                          const Run& run)
     : points_of_(patches.size()) {
-  PointFinder(mesh, deviations, reference, grid, patches, run, *this).add_all();
+  PointFinder(mesh, deviations, reference, grid, patches, strips, run, *this).add_all();
 }
 
 std::pair<PatchMean, double> PatchFilter::average(std::size_t patch) const {
@@ -243,6 +249,8 @@ std::pair<PatchMean, double> PatchFilter::average(std::size_t patch) const {
   PatchMean mean;
   double total = 0.0;
   double squares = 0.0;
+  double weights_squared = 0.0;
+  double deviations_squared = 0.0;
   for (const auto& [point, area] : points_of_[patch]) {
     const Point& one = points_[point];
     const double u = u_of(point);
@@ -251,6 +259,8 @@ std::pair<PatchMean, double> PatchFilter::average(std::size_t patch) const {
     total += weight;
     mean.deviation_mm += weight * one.deviation_mm;
     squares += weight * weight * one.sigma.noise_mm * one.sigma.noise_mm;
+    weights_squared += weight * weight;
+    deviations_squared += weight * one.deviation_mm * one.deviation_mm;
     mean.one_point_mm += weight * one.sigma.noise_mm;
     mean.place_mm += weight * one.sigma.place_mm;
     mean.systematic_mm += weight * one.sigma.systematic_mm;
@@ -258,6 +268,9 @@ std::pair<PatchMean, double> PatchFilter::average(std::size_t patch) const {
   for (double* sum : {&mean.deviation_mm, &mean.one_point_mm, &mean.place_mm, &mean.systematic_mm})
     *sum /= total;
   mean.noise_mm = std::sqrt(squares) / total;
+  mean.scatter_mm2 =
+      std::max(0.0, deviations_squared / total - mean.deviation_mm * mean.deviation_mm);
+  mean.point_share = weights_squared / (total * total);
   return {mean, total};
 }
 

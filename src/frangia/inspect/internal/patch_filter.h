@@ -7,6 +7,7 @@
 
 #include "frangia/geometry/ray_scene.h"
 #include "frangia/inspect/deviation.h"
+#include "frangia/inspect/internal/edge_strips.h"
 #include "frangia/inspect/internal/patch_grid.h"
 #include "frangia/inspect/surface_patches.h"
 
@@ -19,6 +20,8 @@ struct PatchMean {
   double one_point_mm = 0.0;  ///< noise of a point: the most that points which err alike have
   double place_mm = 0.0;      ///< noise that points of this place share
   double systematic_mm = 0.0;
+  double scatter_mm2 = 0.0;  ///< weighted mean square of the differences of the points from it
+  double point_share = 1.0;  ///< sum of the squares of the weights, whose sum is 1: 1 / points
 };
 
 /// The standard uncertainty of a point, in parts that average differently, mm.
@@ -35,12 +38,14 @@ struct PointSigma {
 /// mesh are measured between their corners, which lie at edges.
 class PatchFilter {
  public:
-  /// Collects the points of a mesh. `grid` holds the centers of the patches.
+  /// Collects the points of a mesh. `grid` holds the centers of the patches. Points in strips along
+  /// edges count for the patches there alone.
   PatchFilter(const Mesh& mesh,
               const Deviations& deviations,
               const RayScene& reference,
               const PatchGrid& grid,
               const SurfacePatches& patches,
+              const EdgeStrips& strips,
               const Run& run);
 
   /// Mean over the well measured points of a patch, and their area, mm2. A point that is less
