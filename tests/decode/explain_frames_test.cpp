@@ -2,6 +2,7 @@
 #include "frangia/decode/explain/explain_frames.h"
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <string>
 #include <vector>
@@ -168,6 +169,23 @@ TEST(ExplainFrames, NamesALampOf25Counts) {
     EXPECT_TRUE(found.has_fault()) << steps;
     EXPECT_EQ(found.best.cause, FrameCause::Lamp) << steps << describe(found.explanation);
     EXPECT_EQ(found.best.lamp_on, 3U) << steps;
+  }
+}
+
+TEST(ExplainFrames, BlamesNothingForACameraWithAResponseThatSeesOneSideOfAFringe) {
+  for (const int steps : {3, 4, 5, 6}) {
+    for (const double period_px : {350.0, 500.0}) {
+      for (const unsigned seed : {1U, 2U, 3U}) {
+        const RenderedScene scene{.period_px = period_px, .ambient = 8.0, .seed = seed};
+        const FrameExplanation found = explained(scene, steps, [](RenderedFrames& f) {
+          for (auto& frame : f.frames) {
+            for (double& light : frame)
+              light = 255.0 * std::pow(light / 255.0, 1.0 / 2.2);
+          }
+        });
+        EXPECT_FALSE(found.has_fault()) << steps << " " << describe(found.explanation);
+      }
+    }
   }
 }
 

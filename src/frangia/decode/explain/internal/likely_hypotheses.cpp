@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <limits>
 #include <map>
 #include <optional>
@@ -86,6 +87,19 @@ bool show_whole_fringe(const FrameSample& sample, const FrameHypothesis& hypothe
   return (brightest > kBright * sample.scale_counts).cast<double>().mean() > kMost;
 }
 
+/// Whether the sample sees the second harmonic of the fringes with both signs. A part that sees one
+/// side of a coarse fringe alone does not tell it from uneven steps, nor, with four frames, from
+/// light in one of them, where a camera's response makes the harmonic differ with the brightness.
+bool sees_both_sides(const FrameSample& sample, const FrameHypothesis& declared) {
+  constexpr double kOneSided = 0.3;
+  Eigen::ArrayXcd phasor = Eigen::ArrayXcd::Zero(sample.counts.rows());
+  for (std::size_t k = 0; k < declared.shifts_rad.size(); ++k)
+    phasor += sample.counts.col(static_cast<Eigen::Index>(k)).cast<std::complex<double>>() *
+              std::polar(1.0, -declared.shifts_rad[k]);
+  const Eigen::ArrayXcd doubled = phasor.square() / phasor.abs2().max(1e-12);
+  return std::abs(doubled.mean()) < kOneSided;
+}
+
 /// An eighth of the blocks of a sample.
 FrameSample thinned(const FrameSample& sample) {
   constexpr int kEvery = 8;
@@ -157,10 +171,14 @@ std::vector<FrameHypothesis> likely_singles(const FrameSample& sample,
   std::vector<FrameHypothesis> others;  // `rough_score` does not model them
   std::vector<FrameHypothesis> all = frame_hypotheses(pattern);
   const FrameHypothesis declared = all.front();
+  constexpr std::size_t kFourSteps = 4;
+  const bool both_sides = sees_both_sides(sample, declared);
   for (FrameHypothesis& one : all) {
     if (one.cause == FrameCause::Gain && !fit_gain(moments, one.frames.front(), one)) continue;
     if (!one.path.empty() || one.has_free_steps || one.lamp_on) {
-      others.push_back(std::move(one));
+      const bool like_harmonic =
+          one.lamp_on ? declared.shifts_rad.size() <= kFourSteps : one.has_free_steps;
+      if (both_sides || !like_harmonic) others.push_back(std::move(one));
       continue;
     }
     if (predict_alike(one, declared) || !show_whole_fringe(sample, one)) continue;
