@@ -46,6 +46,17 @@ TEST(Reconstruct, MarksAMeshOfViewsThatContradictEachOther) {
     EXPECT_EQ(note.find("views agree"), std::string::npos) << note;
 }
 
+TEST(Reconstruct, NamesTwoViewsThatHoldTheSameFrames) {
+  const TemporaryFolder folder;
+  const Scan scan = small_scan(folder.path(), "bracket", "digital", 6, {}, 3);
+  std::filesystem::remove_all(folder.path() / "views/4");
+  std::filesystem::copy(folder.path() / "views/1", folder.path() / "views/4");
+  const Reconstruction result = reconstruct(scan);
+  EXPECT_NE(result.untrusted_reason.find("views/1 and views/4 hold the same frames"),
+            std::string::npos)
+      << result.untrusted_reason;
+}
+
 TEST(Reconstruct, KeepsARightRigWhereFewViewsOverlapTooLittleToRefineIt) {
   const Rig rig = read_rig(FRANGIA_SOURCE_DIR "/examples/python/small-rig.toml");
   // The refined axis slid along flat faces: errors of 0.8, 2.1, 0.1 and 1.4 mm.

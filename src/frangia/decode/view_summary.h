@@ -17,6 +17,8 @@ struct ViewSummary {
   double sigma_mm = kMissing;  ///< median noise of the points along their rays; NaN without points
   bool left_out = false;       ///< not part of the mesh; a warning gives the reason
   std::string reason{};        ///< why its frames are not used; empty if they are
+  std::string same_as{};       ///< an earlier view with the same phase at every pixel, to the last
+                               ///< bit; empty for none
   ViewQuality quality{};       ///< of the frames of the reference camera
 };
 

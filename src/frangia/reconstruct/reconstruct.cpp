@@ -8,6 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include <fmt/format.h>
+
 #include "frangia/core/missing.h"
 #include "frangia/core/release_cached_pixels.h"
 #include "frangia/decode/scan_decoding.h"
@@ -62,6 +64,17 @@ std::string untrusted_reason_of(const Reconstruction& result) {
     reason =
         "the views show that the rig is not what rig.toml states, and do not determine how: "
         "calibrate the rig again";
+  }
+  if (reason.empty()) return reason;
+  // Camera noise makes each capture another one. Without noise, views of a round part may be equal,
+  // but then they do not contradict each other.
+  for (const ViewSummary& view : result.view_summaries) {
+    if (view.same_as.empty()) continue;
+    return fmt::format(
+        "{} and {} hold the same frames to the last count, so that one of them is a copy; capture "
+        "both again",
+        view.same_as,
+        view.name);
   }
   return reason;
 }

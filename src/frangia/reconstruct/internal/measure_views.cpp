@@ -2,8 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <map>
 #include <memory>
+#include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -173,6 +177,14 @@ std::size_t count_points(const MeasuredView& measured) {
   return points;
 }
 
+/// A number that differs between images unless they are equal to the last bit.
+std::size_t fingerprint(const Image<float>& image) {
+  const std::span<const float> pixels = image.pixels();
+  return std::hash<std::string_view>{}(
+      {reinterpret_cast<const char*>(pixels.data()),  // NOLINT(*-reinterpret-cast)
+       pixels.size_bytes()});
+}
+
 }  // namespace
 
 MeasuredViews measure_views(const Scan& scan,
@@ -188,6 +200,7 @@ MeasuredViews measure_views(const Scan& scan,
         std::make_unique<ViewDecoder>(camera->scan, camera->rays, camera->options, run);
   }
   const std::vector<double> times_s = read_capture_times(scan);
+  std::map<std::size_t, std::string> names;  // of the views, by the fingerprint of their phase
   MeasuredViews all;
   all.cameras.resize(cameras.size());
   for (std::size_t i = 0; i < scan.views.size(); ++i) {
@@ -209,6 +222,9 @@ MeasuredViews measure_views(const Scan& scan,
     }
     DecodedDirection& leading = decoded.front().decoded.directions[fit.leading()];
     all.coarsest = leading.coarsest;
+    const auto [earlier, is_new] =
+        names.try_emplace(fingerprint(leading.phase.phase_rad), summary.name);
+    if (!is_new) summary.same_as = earlier->second;
     MeasuredView measured =
         fuse_view_cameras(scan.rig, decoded, decode.directions, mixed_pixels, run);
     if (measured.directions.pixels > 0) {
