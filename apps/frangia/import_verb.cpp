@@ -192,6 +192,10 @@ void add_pattern_options(CLI::App& verb, ImportArguments& arguments) {
           "of frames with an EXIF orientation: stored, as in the file, or shown, turned; by "
           "default as fits the rig")
       ->check(one_of({"stored", "shown"}));
+  verb.add_option("--skip",
+                  arguments.options.skip,
+                  "numbers of frames, as the names state them, that are left out, such as 0,13")
+      ->delimiter(',');
   verb.add_flag("--horizontal",
                 arguments.options.horizontal,
                 "the phase varies with the projector's row instead of its column");
@@ -216,7 +220,8 @@ void add_import_verb(CLI::App& program, Terminal& terminal) {
   verb->add_option("--names",
                    arguments->options.names,
                    "template of the file names with {pattern}, {frame}, {view} and {camera}; "
-                   "{frame:02} is a number of two digits; guessed by default");
+                   "{frame:02} is a number of two digits, {*} any text such as a time; guessed by "
+                   "default");
   verb->add_option("--reference",
                    arguments->options.reference,
                    "the reference camera among those of {camera}; by default the one that the rig "

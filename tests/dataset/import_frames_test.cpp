@@ -60,6 +60,51 @@ TEST_F(ImportFrames, SortsFramesByPatternAndNumberWithoutChangingAPixel) {
   EXPECT_EQ(scan.rig.reference().white_level, 255);
 }
 
+TEST_F(ImportFrames, LeavesOutFramesThatAreSkippedAndFilesThatFitNothing) {
+  for (int k = 0; k < 6; ++k)
+    write(fmt::format("shot_{:02}.png", k), 10 * k);
+  write("preview.png", 99);
+  options_.names.clear();
+  options_.skip = {0, 5};
+  const ImportPlan plan = plan_import(images(), options_);
+  EXPECT_EQ(plan.names, "shot_{frame:02}.png");
+  ASSERT_EQ(plan.frames.size(), 4U);
+  EXPECT_EQ(plan.frames.front().file.filename(), "shot_01.png");
+  EXPECT_EQ(plan.left_out.size(), 2U);
+  options_.skip = {2};
+  expect_complaint("5");
+}
+
+TEST_F(ImportFrames, TakesFoldersOfPatternsAndFramesInTheOrderOfTheirTimes) {
+  for (const char* pattern : {"coarse", "fine"}) {
+    std::filesystem::create_directories(images() / "run" / pattern);
+    for (const auto& [time, value] :
+         {std::pair{"12-59-58.9", 0}, {"12-59-59.4", 1}, {"13-00-00.1", 2}, {"13-00-00.7", 3}})
+      write(fmt::format("run/{}/{}.png", pattern, time), value);
+  }
+  options_.names.clear();
+  options_.period_px = {{"coarse", 80.0}, {"fine", 20.0}};
+  const ImportPlan plan = plan_import(images(), options_);
+  EXPECT_EQ(plan.names, "run/{pattern}/{*}-{*}-{*}.{*}.png");
+  ASSERT_EQ(plan.frames.size(), 8U);
+  for (std::size_t k = 0; k < 4; ++k)
+    EXPECT_EQ(plan.frames[k].frame, k);
+  EXPECT_EQ(plan.frames[3].file.filename(), "13-00-00.7.png");
+}
+
+TEST_F(ImportFrames, TakesTheBoardOfAFileOfPatterns) {
+  write_fringes("p");
+  const auto file = images() / "patterns.toml";
+  std::ofstream(file) << "[[pattern]]\nname = \"p\"\nkind = \"fringe\"\nperiod_px = 20\n"
+                         "shifts_deg = [0, 90, 180, 270]\n"
+                         "[board]\nkind = \"checkerboard\"\ncorners = [10, 7]\nsquare_mm = 15\n";
+  options_.patterns = file;
+  options_.period_px.clear();
+  const Scan scan = import();
+  ASSERT_TRUE(scan.board);
+  EXPECT_EQ(scan.board->columns, 10);
+}
+
 TEST_F(ImportFrames, PutsEachCamerasFramesIntoAFolderOfItsName) {
   options_.names = "{camera}/{pattern}_{frame:02}.png";
   options_.projector_px = {1280, 800};

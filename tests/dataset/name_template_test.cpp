@@ -74,6 +74,46 @@ TEST(GuessNameTemplate, FindsTheUsualForms) {
   EXPECT_EQ(guess_name_template({"shot0", "shot1"}), "shot{frame}");  // raw files
 }
 
+TEST(GuessNameTemplate, TakesFoldersOfPatternsAndTwoLevelsOfThem) {
+  EXPECT_EQ(guess_name_template({"coarse/0.png", "coarse/1.png", "fine/0.png", "fine/1.png"}),
+            "{pattern}/{frame}.png");
+  EXPECT_EQ(guess_name_template({"p8/0.png", "p8/1.png", "p64-a/0.png", "p64-a/1.png"}),
+            "{pattern}/{frame}.png");
+  EXPECT_EQ(guess_name_template({"fringes8/0.png", "fringes8/1.png", "fringes64/0.png"}),
+            "{pattern}/{frame}.png");
+  EXPECT_EQ(guess_name_template(
+                {"run 1/v0/a_0.png", "run 1/v0/b_0.png", "run 1/v1/a_0.png", "run 1/v1/b_0.png"}),
+            "run 1/v{view}/{pattern}_{frame}.png");
+  EXPECT_EQ(guess_name_template({"left/fine/0.png", "left/coarse/0.png", "right/fine/0.png"}),
+            "{camera}/{pattern}/{frame}.png");
+}
+
+TEST(GuessNameTemplate, TellsTheNumberOfAFrameFromItsTime) {
+  EXPECT_EQ(guess_name_template({"f_000_20240501T123059.100.png",
+                                 "f_001_20240501T123100.204.png",
+                                 "f_002_20240501T123100.311.png"}),
+            "f_{frame:03}_20240501T{*}.{*}.png");
+  EXPECT_EQ(guess_name_template({"2024-05-01_12-30-50_0 (1).png",
+                                 "2024-05-01_12-30-51_1 (1).png",
+                                 "2024-05-01_12-30-52_2 (1).png"}),
+            "2024-05-01_12-30-{*}_{frame} (1).png");
+  EXPECT_EQ(guess_name_template({"12-59-58.310.png", "12-59-59.001.png", "13-00-00.415.png"}),
+            "{*}-{*}-{*}.{*}.png");
+}
+
+TEST(GuessNameTemplate, LooksPastAnOddName) {
+  EXPECT_EQ(guess_name_template({"a_0.png", "a_1.png", "a_2.png", "a_3.png", "preview.png"}),
+            "a_{frame}.png");
+}
+
+TEST(NameTemplate, PassesOverAnyText) {
+  const NameTemplate timed("f_{frame:02}_{*}.png");
+  const auto readings = timed.match("f_07_2024-05-01.png");
+  ASSERT_EQ(readings.size(), 1U);
+  EXPECT_EQ(readings[0].frame, 7);
+  EXPECT_TRUE(timed.match("f_07_.png").empty());
+}
+
 TEST(GuessNameTemplate, RefusesNamesThatShowNothing) {
   const std::string error = error_of([] {
     static_cast<void>(guess_name_template({"left.png", "right.png"}));

@@ -137,6 +137,8 @@ Scan scan_of(const ImportPlan& plan, const std::vector<WrittenFrame>& written, c
   Scan scan;
   scan.rig = plan.rig;
   scan.patterns = plan.patterns;
+  scan.board = plan.board;
+  scan.artifact = plan.artifact;
   for (std::size_t view = 0; view < plan.views; ++view) {
     const double angle = plan.options.angles_rad.empty() ? 0.0 : plan.options.angles_rad[view];
     scan.views.push_back({angle, view_folder(view)});

@@ -37,6 +37,7 @@ struct ImportOptions {
   std::vector<double> shifts_rad;       ///< of each frame; empty: equal steps over 360°
   bool reverse_shifts = false;          ///< shifts of the opposite sign
   double origin_rad = 0.0;              ///< phase at the projector's first column
+  std::vector<int> skip{};              ///< numbers of {frame} that are left out
   bool horizontal = false;              ///< the phase varies with the projector's row
   std::filesystem::path rig;            ///< rig.toml; empty: sizes alone are known
   std::optional<ProjectorSize> projector_px{};  ///< size of the projector, without `rig`
@@ -78,6 +79,8 @@ struct ImportPlan {
   Rig rig;                                      ///< of `options.rig`, or with the sizes alone
   bool rig_has_projector = false;               ///< the size of the projector is known
   std::vector<Pattern> patterns;                ///< in the order of the frames
+  std::optional<Board> board{};                 ///< that all views show, by `options.patterns`
+  std::optional<Artifact> artifact{};           ///< likewise
   std::size_t views = 1;                        ///< number of views
   std::vector<ImportedFrame> frames;            ///< view by view, pattern by pattern
   std::vector<std::filesystem::path> left_out;  ///< images that a scan does not hold

@@ -63,22 +63,24 @@ void NameTemplate::add_field(const std::string& field) {
   std::string width = colon == std::string::npos ? "" : field.substr(colon + 1);
   static const std::map<std::string, Kind> kKinds = {{"pattern", Kind::PatternText},
                                                      {"camera", Kind::CameraText},
+                                                     {"*", Kind::AnyText},
                                                      {"frame", Kind::FrameNumber},
                                                      {"view", Kind::ViewNumber}};
   const auto kind = kKinds.find(name);
   if (kind == kKinds.end()) {
     refuse_template(
         text_,
-        fmt::format("in which {{{}}} is unknown; fields are {{pattern}}, {{camera}}, {{frame}} and "
-                    "{{view}}",
+        fmt::format("in which {{{}}} is unknown; fields are {{pattern}}, {{camera}}, {{frame}}, "
+                    "{{view}} and {{*}}",
                     field));
   }
-  if (has(kind->second)) refuse_template(text_, fmt::format("in which {{{}}} occurs twice", name));
+  if (has(kind->second) && kind->second != Kind::AnyText)
+    refuse_template(text_, fmt::format("in which {{{}}} occurs twice", name));
   if (width.ends_with('d')) width.pop_back();
   const bool number = width.size() <= 2 && std::all_of(width.begin(), width.end(), is_digit);
   const std::size_t digits = number && !width.empty() ? std::stoul(width) : 0;
   if (!number || digits > kMaxDigits ||
-      ((kind->second == Kind::PatternText || kind->second == Kind::CameraText) && digits > 0)) {
+      (kind->second != Kind::FrameNumber && kind->second != Kind::ViewNumber && digits > 0)) {
     refuse_template(
         text_,
         fmt::format("in which {{{}}} has no valid width; write a number as in {{frame:02}}",
@@ -124,17 +126,21 @@ void NameTemplate::read_on(std::size_t token, std::size_t at, Search& search) co
     if (fits) read_on(token + 1, at + now.literal.size(), search);
     return;
   }
-  if (now.kind == Kind::PatternText || now.kind == Kind::CameraText) {
-    read_text(token, at, search);
-  } else {
+  if (now.kind == Kind::FrameNumber || now.kind == Kind::ViewNumber) {
     read_number(token, at, search);
+  } else {
+    read_text(token, at, search);
   }
 }
 
 void NameTemplate::read_text(std::size_t token, std::size_t at, Search& search) const {
   const std::string& name = search.name;
-  const bool is_pattern = tokens_[token].kind == Kind::PatternText;
-  std::string& field = is_pattern ? search.fields.pattern : search.fields.camera;
+  const Kind kind = tokens_[token].kind;
+  const bool is_pattern = kind == Kind::PatternText;
+  std::string ignored;
+  std::string& field = is_pattern              ? search.fields.pattern
+                       : kind == Kind::AnyText ? ignored
+                                               : search.fields.camera;
   for (std::size_t end = at + 1; end <= name.size() && name[end - 1] != '/'; ++end) {
     field = name.substr(at, end - at);
     const bool known =
@@ -172,7 +178,8 @@ std::vector<NameFields> NameTemplate::match(const std::string& name,
     least = std::min(least, inexact);
   std::vector<NameFields> readings;
   for (const auto& [inexact, fields] : search.found) {
-    if (inexact == least) readings.push_back(fields);
+    const bool is_new = std::find(readings.begin(), readings.end(), fields) == readings.end();
+    if (inexact == least && is_new) readings.push_back(fields);
   }
   return readings;
 }

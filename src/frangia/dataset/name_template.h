@@ -21,8 +21,10 @@ struct NameFields {
 /// A template of file names such as "{pattern}_{frame:02}.bmp", relative to a folder.
 ///
 /// The fields are {pattern} and {camera}, texts, {frame} and {view}, numbers. {frame:02} is a
-/// number that printf's "%02d" writes. "{{" and "}}" stand for braces. Other letters stand for
-/// themselves, small or capital. Names may lead into subfolders: "view{view:03}/{frame}.png".
+/// number that printf's "%02d" writes. {*} is any text, such as a time stamp, and may occur several
+/// times; without {frame}, the files are frames in the order of their names. "{{" and "}}" stand
+/// for braces. Other letters stand for themselves, small or capital. Names may lead into
+/// subfolders: "view{view:03}/{frame}.png".
 class NameTemplate {
  public:
   /// Parses a template.
@@ -36,6 +38,7 @@ class NameTemplate {
   [[nodiscard]] bool has_frame() const { return has(Kind::FrameNumber); }    ///< holds {frame}
   [[nodiscard]] bool has_view() const { return has(Kind::ViewNumber); }      ///< holds {view}
   [[nodiscard]] bool has_camera() const { return has(Kind::CameraText); }    ///< holds {camera}
+  [[nodiscard]] bool has_any() const { return has(Kind::AnyText); }          ///< holds {*}
   [[nodiscard]] int depth() const;  ///< number of folders that names lead into
 
   /// Returns every reading of a name; none if it does not fit. A reading whose numbers have exactly
@@ -45,7 +48,7 @@ class NameTemplate {
                                               const std::vector<std::string>& patterns = {}) const;
 
  private:
-  enum class Kind { Literal, PatternText, CameraText, FrameNumber, ViewNumber };
+  enum class Kind { Literal, PatternText, CameraText, AnyText, FrameNumber, ViewNumber };
   struct Token {
     Kind kind = Kind::Literal;
     std::string literal;
@@ -64,7 +67,9 @@ class NameTemplate {
 
 /// Guesses the template of a folder's image files: the last number of a name is the frame, what
 /// precedes it is the pattern where it differs, and a number in the names of subfolders is the
-/// view. Subfolders such as left and right, or cam0 and cam1, are cameras.
+/// view. Subfolders such as left and right, or cam0 and cam1, are cameras; those with other names
+/// are patterns. Where several numbers differ in each name, the one that counts by one is the
+/// frame, and the others are a time. A few names of another kind than all others do not count.
 ///
 /// @errors   Error(Input) when the names do not suggest a template
 [[nodiscard]] std::string guess_name_template(const std::vector<std::string>& names);

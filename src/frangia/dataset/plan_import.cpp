@@ -3,6 +3,7 @@
 #include <fstream>
 #include <map>
 #include <utility>
+#include <variant>
 
 #include <fmt/format.h>
 
@@ -83,11 +84,18 @@ std::vector<std::string> pattern_names(const std::map<std::string, ImageSequence
 std::vector<std::size_t> frames_per_pattern(const std::map<std::string, ImageSequence>& view,
                                             const std::vector<std::string>& names,
                                             const ImportOptions& options) {
+  const auto kept = [&](const ImageSequence& images) {
+    return static_cast<std::size_t>(
+        std::count_if(images.begin(), images.end(), [&](const auto& image) {
+          return std::find(options.skip.begin(), options.skip.end(), image.first) ==
+                 options.skip.end();
+        }));
+  };
   std::vector<std::size_t> counts;
   for (const std::string& name : names)
-    counts.push_back(view.at(name).size());
+    counts.push_back(kept(view.at(name)));
   if (!names.empty()) return counts;
-  const std::size_t all = view.begin()->second.size();
+  const std::size_t all = kept(view.begin()->second);
   const std::size_t patterns = std::max(options.fringes.size(), options.period_px.size());
   if (patterns > 0 && all % patterns != 0) {
     refuse_import(
@@ -206,8 +214,15 @@ ImportPlan start_plan(const fs::path& source,
   plan.folder = is_file && source.has_parent_path() ? source.parent_path() : source;
   if (is_file && !source.has_parent_path()) plan.folder = ".";
   find_rig(plan, run);
-  if (!options.patterns.empty())
-    plan.patterns = read_patterns_file(options.patterns, plan.rig, run);
+  if (!options.patterns.empty()) {
+    DescribedFrames described = read_patterns_file(options.patterns, plan.rig, run);
+    plan.patterns = std::move(described.patterns);
+    if (described.board) {
+      if (const auto* board = std::get_if<Board>(&*described.board)) plan.board = *board;
+      if (const auto* artifact = std::get_if<Artifact>(&*described.board))
+        plan.artifact = *artifact;
+    }
+  }
   plan.names = options.names;
   if (plan.names.empty() && known != nullptr) plan.names = known->names;
   if (plan.names.empty() && is_file) plan.names = guess_name_template({source.filename().string()});

@@ -24,8 +24,16 @@ void require_consecutive(const ImageSequence& sequence,
   }
 }
 
+/// The images of a sequence but those of these numbers.
+ImageSequence without(const std::vector<int>& numbers, ImageSequence sequence) {
+  for (const int number : numbers)
+    sequence.erase(number);
+  return sequence;
+}
+
 /// "cam_01.png to cam_42.png".
 std::string range_text(const ImageSequence& sequence, const std::vector<NamedFile>& files) {
+  if (sequence.empty()) return "all are left out by `skip`";
   const std::string first = files[sequence.begin()->second.file].name;
   const std::string last = files[sequence.rbegin()->second.file].name;
   return first == last ? first : fmt::format("{} to {}", first, last);
@@ -52,9 +60,17 @@ class FrameAssigner {
   void add(const NamedImage& image, std::size_t pattern, std::size_t frame, std::size_t view) {
     plan_.frames.push_back({files_[image.file].path, image.page, pattern, frame, view, camera_});
   }
+  void leave_out(const ImageSequence& images) {
+    for (const int number : plan_.options.skip) {
+      const auto skipped = images.find(number);
+      if (skipped != images.end()) plan_.left_out.push_back(files_[skipped->second.file].path);
+    }
+  }
   /// Images that are numbered through all patterns.
-  void assign_sequence(std::size_t view, const ImageSequence& images) {
-    require_consecutive(images, "", files_);
+  void assign_sequence(std::size_t view, const ImageSequence& all) {
+    require_consecutive(all, "", files_);
+    const ImageSequence images = without(plan_.options.skip, all);
+    leave_out(all);
     std::vector<std::optional<std::pair<std::size_t, std::size_t>>> places;
     if (layout_ != nullptr) {
       places = layout_->images;
@@ -95,19 +111,21 @@ class FrameAssigner {
                         described.name));
       }
       require_consecutive(found->second, described.name, files_);
+      const ImageSequence images_of = without(plan_.options.skip, found->second);
+      leave_out(found->second);
       const auto frames = static_cast<std::size_t>(described.frame_count());
-      if (found->second.size() != frames) {
+      if (images_of.size() != frames) {
         refuse_import(
             fmt::format("pattern \"{}\" has {} frames, but {} {} found, {}; a file is "
                         "missing or surplus, or the pattern is described wrongly",
                         described.name,
                         frames,
-                        found->second.size(),
-                        found->second.size() == 1 ? "was" : "were",
-                        range_text(found->second, files_)));
+                        images_of.size(),
+                        images_of.size() == 1 ? "was" : "were",
+                        range_text(images_of, files_)));
       }
       std::size_t frame = 0;
-      for (const auto& [number, image] : found->second)
+      for (const auto& [number, image] : images_of)
         add(image, pattern, frame++, view);
     }
   }

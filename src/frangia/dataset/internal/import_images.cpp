@@ -1,7 +1,10 @@
 #include "frangia/dataset/internal/import_images.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <exception>
+#include <optional>
+#include <tuple>
 #include <utility>
 
 #include <fmt/format.h>
@@ -14,6 +17,8 @@ namespace frangia {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr int kMostFolders = 2;  // between a folder and its frames: views or cameras, and patterns
 
 /// "1 file", "2 files".
 std::string files_text(std::size_t count) {
@@ -46,6 +51,19 @@ std::string kind_of(const ImageInfo& image) {
                      image.channels == 3 ? " of three channels" : "");
 }
 
+/// Numbers files whose names state no frame in the order of their names, where they are several of
+/// one pattern.
+void number_frames(std::vector<NamedFile>& files) {
+  std::map<std::tuple<std::string, std::optional<int>, std::string>, std::vector<NamedFile*>>
+      groups;
+  for (NamedFile& file : files)
+    groups[{file.fields.pattern, file.fields.view, file.fields.camera}].push_back(&file);
+  for (auto& [key, group] : groups) {
+    for (std::size_t i = 0; group.size() > 1 && i < group.size(); ++i)
+      group[i]->fields.frame = static_cast<int>(i);
+  }
+}
+
 }  // namespace
 
 void refuse_import(const std::string& sentence) {
@@ -53,18 +71,17 @@ void refuse_import(const std::string& sentence) {
 }
 
 std::vector<std::string> images_below(const fs::path& folder, bool raw) {
-  for (int depth = 0; depth <= 1; ++depth) {
-    std::map<std::string, std::vector<std::string>> by_extension;
-    for (const std::string& name : files_below(folder, depth)) {
-      if (has_image_extension(name) || (raw && depth == 0))
-        by_extension[fs::path(name).extension().string()].push_back(name);
-    }
-    const auto most = std::max_element(
-        by_extension.begin(), by_extension.end(), [](const auto& a, const auto& b) {
-          return a.second.size() < b.second.size();
-        });
-    if (most != by_extension.end()) return most->second;
+  // By depth and extension: a preview beside the folders of the frames is none of them.
+  std::map<std::pair<std::ptrdiff_t, std::string>, std::vector<std::string>> kinds;
+  for (const std::string& name : files_below(folder, kMostFolders)) {
+    const std::ptrdiff_t depth = std::count(name.begin(), name.end(), '/');
+    if (has_image_extension(name) || (raw && depth == 0))
+      kinds[{depth, fs::path(name).extension().string()}].push_back(name);
   }
+  const auto most = std::max_element(kinds.begin(), kinds.end(), [](const auto& a, const auto& b) {
+    return a.second.size() < b.second.size();
+  });
+  if (most != kinds.end()) return most->second;
   refuse_import(fmt::format("{}: holds no images; name a folder with images", folder.string()));
 }
 
@@ -108,6 +125,7 @@ std::vector<NamedFile> matching_files(const fs::path& folder,
                          others.size() == 1 ? "is" : "are",
                          others.front()));
   }
+  if (names.has_any() && !names.has_frame()) number_frames(files);
   return files;
 }
 

@@ -32,8 +32,8 @@ using ImageSequence = std::map<int, NamedImage>;
 /// Throws Error(Input).
 [[noreturn]] void refuse_import(const std::string& sentence);
 
-/// The names of the images in a folder, or else in its subfolders: those with the most frequent
-/// extension. With `raw`, any extension is that of an image.
+/// The names of the images in a folder or at most two subfolders down: the most that have one
+/// extension and one depth. With `raw`, any extension is that of an image, in the folder itself.
 ///
 /// @errors   Error(Input) that names a folder without images
 [[nodiscard]] std::vector<std::string> images_below(const std::filesystem::path& folder, bool raw);

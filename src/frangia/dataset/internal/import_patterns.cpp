@@ -103,9 +103,9 @@ bool is_light_alone(const std::string& pattern, const std::vector<Pattern>& desc
   return found->kind == PatternKind::White || found->kind == PatternKind::Ambient;
 }
 
-std::vector<Pattern> read_patterns_file(const std::filesystem::path& path,
-                                        const Rig& rig,
-                                        const Run& run) {
+DescribedFrames read_patterns_file(const std::filesystem::path& path,
+                                   const Rig& rig,
+                                   const Run& run) {
   const std::string text = read_text_file(path);
   check_toml_nesting(text, path);
   toml::table table;
@@ -120,7 +120,9 @@ std::vector<Pattern> read_patterns_file(const std::filesystem::path& path,
   TomlReader reader(path, "", table);
   for (const auto* known : {"format", "version", "name", "view", "setup", "frames"})
     reader.ignore(known);  // a whole scan.toml serves, too
-  std::vector<Pattern> patterns;
+  DescribedFrames out;
+  if (reader.has("board")) out.board = read_board(reader.table("board"), run);
+  std::vector<Pattern>& patterns = out.patterns;
   for (const TomlReader& pattern : reader.tables("pattern"))
     patterns.push_back(read_pattern(pattern, rig, run));
   if (patterns.empty()) reader.fail("[[pattern]]", "is missing; list the patterns of the frames");
@@ -134,7 +136,7 @@ std::vector<Pattern> read_patterns_file(const std::filesystem::path& path,
     }
   }
   reader.warn_of_unused_keys(run);
-  return patterns;
+  return out;
 }
 
 std::vector<Pattern> patterns_from_options(const ImportOptions& options,

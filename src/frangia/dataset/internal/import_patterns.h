@@ -6,15 +6,22 @@
 
 #include "frangia/core/run.h"
 #include "frangia/dataset/import_frames.h"
+#include "frangia/dataset/internal/read_board.h"
 
 namespace frangia {
 
-/// Reads the [[pattern]] tables of a TOML file.
+/// What a file of patterns describes.
+struct DescribedFrames {
+  std::vector<Pattern> patterns;           ///< of `[[pattern]]`
+  std::optional<BoardOrArtifact> board{};  ///< of `[board]`, which the views show
+};
+
+/// Reads the [[pattern]] tables and [board] of a TOML file.
 ///
 /// @errors   Error(Input) that names the file and the key
-[[nodiscard]] std::vector<Pattern> read_patterns_file(const std::filesystem::path& path,
-                                                      const Rig& rig,
-                                                      const Run& run);
+[[nodiscard]] DescribedFrames read_patterns_file(const std::filesystem::path& path,
+                                                 const Rig& rig,
+                                                 const Run& run);
 
 /// Whether a pattern is a white or ambient frame: as described, or without descriptions by its name
 /// (white, texture, color; ambient, black, dark).
