@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "frangia/acquisition/internal/display_probe.h"
 #include "frangia/acquisition/internal/exposure_search.h"
 #include "frangia/acquisition/internal/flash_code.h"
 #include "frangia/acquisition/internal/room_light.h"
@@ -119,6 +120,32 @@ TEST_F(MeasureDisplay, TellsABlurredPictureFromASharpOneAndWhereBlackIsCutOff) {
   EXPECT_LT(blurred.sharpness, 0.8 * sharp.sharpness);
   EXPECT_GT(blurred.dark_zeros, 0.5);
   EXPECT_NE(blurred.findings.back().find("level of black"), std::string::npos);
+}
+
+/// The part is white: the room adds its share of white to each pixel at the reference exposure.
+TEST_F(MeasureDisplay, KnowsHowMuchTheRoomFlickersInBrightAndInDimLight) {
+  constexpr double kAmbient = 0.1;
+  constexpr double kFlicker = 0.5;
+  constexpr double kShare = 0.8;  // of the reference exposure
+  const std::string camera = devices_["camera"] + "ambient = 0.1\n";
+  for (const double reference_ms : {10.0, 100.0}) {
+    const std::string one =
+        camera + "reference_exposure_ms = " + std::to_string(reference_ms) + "\n";
+    devices_["camera"] = one;
+    double full_counts = 0.0;
+    {
+      RigDevices devices = open();
+      const CaptureOptions options;
+      const frangia::Run run;
+      DisplayProbe probe(devices, plan_.rig, options, run);
+      probe.expose_for(kShare * reference_ms);
+      const auto frames = probe.stack_of(dark_and_bright()).frames;
+      full_counts = LitPixels(frames[0], frames[1], 255, 0.15).light_counts();
+    }
+    devices_["camera"] = one + "mains_hz = 50\nroom_flicker = 0.5\n";
+    const double expected = kFlicker * kAmbient * kShare * 255.0 / full_counts;
+    EXPECT_NEAR(measured().room_flicker, expected, 0.1 * expected) << reference_ms;
+  }
 }
 
 /// 4 ms leave most of the flicker of 120 Hz, and any longer exposure is too bright.

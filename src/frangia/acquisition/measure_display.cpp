@@ -148,7 +148,7 @@ class Measurer {
     static_cast<void>(probe_.take(flash_, 0));
     probe_.set_skipped(0);
     const RoomLight room = measure_room_light(
-        probe_, lit_, lit_.light_counts() / found_.exposure_ms, devices_.reference()->info());
+        probe_, lit_, lit_.light_counts() / found_.exposure_ms, found_.exposure_ms);
     probe_.set_delay(kLongestDelay_s);
     probe_.set_skipped(kMostUnderWay);
     found_.mains_hz = room.mains_hz;

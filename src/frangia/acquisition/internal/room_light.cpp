@@ -1,6 +1,5 @@
 #include "frangia/acquisition/internal/room_light.h"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -10,6 +9,16 @@
 
 namespace frangia {
 namespace {
+
+/// Exposures of half a period more than whole ones, of both frequencies nearly, and of whole
+/// periods of 100 and of 120 Hz alone.
+struct Exposures {
+  double odd_ms;
+  std::array<double, 2> even_ms;
+};
+constexpr Exposures kShort{5.0, {10.0, 1000.0 / 120.0}};
+/// In a dim picture short exposures have no counts that could flicker.
+constexpr Exposures kLong{45.0, {40.0, 5000.0 / 120.0}};
 
 /// Standard deviation of the light of frames at scattered times, counts a ms; light that becomes
 /// brighter or darker evenly has none.
@@ -44,27 +53,26 @@ double flicker_left(double exposure_ms, double light_hz) {
 RoomLight measure_room_light(DisplayProbe& probe,
                              const LitPixels& lit,
                              double full_light,
-                             const CameraInfo& camera) {
+                             double exposure_ms) {
   constexpr double kLeast = 0.001;  // of the full light: below the noise of 8 bits
-  constexpr double kShort_ms = 4.0;
   constexpr std::array<double, 2> kMains_hz{50.0, 60.0};
   constexpr double kClear = 4.0;  // times what exposures of whole periods leave
-  const double short_ms = std::clamp(kShort_ms, camera.min_exposure_ms, camera.max_exposure_ms);
-  const double scatter = scatter_of(probe, lit, short_ms);
+  const Exposures exposures = exposure_ms >= kLong.odd_ms ? kLong : kShort;
+  const double scatter = scatter_of(probe, lit, exposures.odd_ms);
   std::array<double, 2> left{};
   for (std::size_t i = 0; i < kMains_hz.size(); ++i)
-    left[i] = scatter_of(probe, lit, 1000.0 / (2.0 * kMains_hz[i]));
+    left[i] = scatter_of(probe, lit, exposures.even_ms[i]);
   const std::size_t best = left[0] <= left[1] ? 0 : 1;
-  RoomLight room;
-  room.flickers = scatter > kClear * left[best] && scatter > kLeast * full_light;
-  if (!room.flickers) return room;
-  // The other exposure leaves what a sine of this frequency leaves of it.
   const double light_hz = 2.0 * kMains_hz[best];
-  const double expected = flicker_left(1000.0 / (2.0 * kMains_hz[1 - best]), light_hz) /
-                          flicker_left(short_ms, light_hz);
+  const double odd_left = flicker_left(exposures.odd_ms, light_hz);
+  RoomLight room;
+  room.amplitude = std::sqrt(2.0) * scatter / odd_left / full_light;
+  room.flickers = scatter > kClear * left[best] && room.amplitude > kLeast;
+  if (!room.flickers) return {};
+  // The other exposure leaves what a sine of this frequency leaves of it.
+  const double expected = flicker_left(exposures.even_ms[1 - best], light_hz) / odd_left;
   const double ratio = left[1 - best] / scatter;
   if (ratio > 0.5 * expected && ratio < 2.0 * expected) room.mains_hz = kMains_hz[best];
-  room.amplitude = std::sqrt(2.0) * scatter / flicker_left(short_ms, light_hz) / full_light;
   return room;
 }
 

@@ -16,14 +16,14 @@ struct RoomLight {
 /// @source   the mean of a sine over an interval, sin(x) / x
 [[nodiscard]] double flicker_left(double exposure_ms, double light_hz);
 
-/// Compares frames of three exposures: over a period of the light, 1/100 s or 1/120 s, it is even.
+/// Compares frames of three exposures: over whole periods of 1/100 s or 1/120 s the light is even.
 /// Leaves the camera at one of them and the display dark, with another delay.
 ///
-/// @units    full_light: of the display, counts a ms
+/// @units    full_light: of the display, counts a ms; exposure_ms: at which its pictures are bright
 [[nodiscard]] RoomLight measure_room_light(DisplayProbe& probe,
                                            const LitPixels& lit,
                                            double full_light,
-                                           const CameraInfo& camera);
+                                           double exposure_ms);
 
 /// Shortest exposure of whole periods of both, in which they agree within 1 %; the first one where
 /// there is none up to six of them. 0 for a light that is steady.
