@@ -102,7 +102,7 @@ TEST(AssessPlaces, StatesThePlacesAsWellAsTheViewsAgree) {
   // With the error of the options, 0.0026 mm, the bends would be 10 times what is stated.
   const double ratio = error_over_stated(testing::MisalignedTable(8), 0.03);
   EXPECT_GT(ratio, 0.5);
-  EXPECT_LT(ratio, 2.0);
+  EXPECT_LT(ratio, 1.6);
 }
 
 TEST(AssessPlaces, DoNotBelieveATurntableThatTheViewsContradict) {
@@ -112,7 +112,7 @@ TEST(AssessPlaces, DoNotBelieveATurntableThatTheViewsContradict) {
   table.given.angle_sigma_rad = 0.0;
   const double ratio = error_over_stated(table, 0.03);
   EXPECT_GT(ratio, 0.5);
-  EXPECT_LT(ratio, 2.0);
+  EXPECT_LT(ratio, 1.6);
 }
 
 }  // namespace

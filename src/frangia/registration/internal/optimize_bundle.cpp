@@ -16,10 +16,30 @@ double effective_weight(const Bundle& bundle, const BundleSums& sums) {
   return std::min(1.0, independent / pairs);
 }
 
+namespace {
+
+/// Orders the surfels of a view by quarters of its image, which are its regions: the mean of a
+/// strip across the whole view would not show an error that tilts it along the strip.
+void order_by_quarters(std::vector<SurfelMap::Surfel>& surfels) {
+  const auto sort_by = [](auto begin, auto end, int axis) {
+    std::stable_sort(begin, end, [axis](const auto& one, const auto& other) {
+      return one.point_mm[axis] * other.point_mm.z() < other.point_mm[axis] * one.point_mm.z();
+    });
+  };
+  const auto middle = surfels.begin() + static_cast<std::ptrdiff_t>(surfels.size() / 2);
+  sort_by(surfels.begin(), surfels.end(), 0);
+  sort_by(surfels.begin(), middle, 1);
+  sort_by(middle, surfels.end(), 1);
+}
+
+}  // namespace
+
 SurfelLists pick_all_surfels(const std::vector<SurfelMap>& maps, std::size_t count) {
   SurfelLists surfels;
-  for (const SurfelMap& map : maps)
+  for (const SurfelMap& map : maps) {
     surfels.push_back(pick_surfels(map, count));
+    order_by_quarters(surfels.back());
+  }
   return surfels;
 }
 

@@ -30,6 +30,8 @@ struct Bundle {
 /// One list of surfels a view.
 using SurfelLists = std::vector<std::vector<SurfelMap::Surfel>>;
 
+/// Picks surfels of each view as `pick_surfels` does. Each quarter of a list is one region of the
+/// view.
 [[nodiscard]] SurfelLists pick_all_surfels(const std::vector<SurfelMap>& maps, std::size_t count);
 
 /// Distance in front of another view's surface from which a point contradicts it.

@@ -12,9 +12,6 @@
 namespace frangia {
 namespace {
 
-constexpr std::size_t kSurfelsPerChunk =
-    512;  // surfels; fixed, so that sums do not depend on threads
-
 /// The views that are compared, in one state.
 struct BundleViews {
   std::span<const SurfelMap> maps;
@@ -202,28 +199,34 @@ void add_chunk(BundleSums& all,
 
 }  // namespace
 
+std::vector<SurfelChunk> chunks_of(std::span<const std::vector<SurfelMap::Surfel>> surfels) {
+  constexpr std::size_t kMost = 512;  // fixed, so that sums do not depend on threads
+  std::vector<SurfelChunk> chunks;
+  for (std::size_t view = 0; view < surfels.size(); ++view) {
+    const std::size_t count = surfels[view].size();
+    for (std::size_t region = 0; region < kRegionsPerView; ++region) {
+      const std::size_t end = count * (region + 1) / kRegionsPerView;
+      for (std::size_t first = count * region / kRegionsPerView; first < end; first += kMost)
+        chunks.push_back({view, region, first, std::min(kMost, end - first)});
+    }
+  }
+  return chunks;
+}
+
 BundleSums sum_bundle(std::span<const std::vector<SurfelMap::Surfel>> surfels,
                       std::span<const SurfelMap> maps,
                       const FastCameraModel& model,
                       const TableState& state,
                       const ViewPairs& pairs,
                       const BundleOptions& options) {
-  struct Chunk {
-    std::size_t view;
-    std::size_t first;
-  };
   const BundleViews views{maps, model, state, pairs};
-  std::vector<Chunk> chunks;
-  for (std::size_t view = 0; view < surfels.size(); ++view) {
-    for (std::size_t first = 0; first < surfels[view].size(); first += kSurfelsPerChunk)
-      chunks.push_back({view, first});
-  }
+  const std::vector<SurfelChunk> chunks = chunks_of(surfels);
   std::vector<ChunkSums> parts(chunks.size());
   parallel_chunks(chunks.size(), 1, [&](std::size_t begin, std::size_t /*end*/) {
-    const Chunk& chunk = chunks[begin];
+    const SurfelChunk& chunk = chunks[begin];
     BundleAccumulator accumulator(views, options, chunk.view);
     const std::span<const SurfelMap::Surfel> own(surfels[chunk.view]);
-    accumulator.add(own.subspan(chunk.first, std::min(kSurfelsPerChunk, own.size() - chunk.first)));
+    accumulator.add(own.subspan(chunk.first, chunk.count));
     parts[begin] = std::move(accumulator.sums);
   });
   BundleSums all;
@@ -238,8 +241,8 @@ BundleSums sum_bundle(std::span<const std::vector<SurfelMap::Surfel>> surfels,
   all.distances_mm.reserve(distances);
   all.over_sigma.reserve(distances);
   for (std::size_t chunk = 0; chunk < chunks.size(); ++chunk) {
-    const auto [view, first] = chunks[chunk];
-    add_chunk(all, view, kRegionsPerView * first / surfels[view].size(), pairs[view], parts[chunk]);
+    const SurfelChunk& of = chunks[chunk];
+    add_chunk(all, of.view, of.region, pairs[of.view], parts[chunk]);
   }
   return all;
 }

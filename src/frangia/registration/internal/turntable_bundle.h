@@ -30,8 +30,20 @@ struct PairTally {
   [[nodiscard]] double mean_mm() const { return weighted_mm / weight; }
 };
 
-/// Regions of a view: its surfels, row by row, in parts of equal size.
+/// Regions of a view: quarters of its surfels, as `pick_all_surfels` orders them.
 constexpr std::size_t kRegionsPerView = 4;
+
+/// Surfels of one region of a view that are summed at once.
+struct SurfelChunk {
+  std::size_t view = 0;
+  std::size_t region = 0;
+  std::size_t first = 0;
+  std::size_t count = 0;
+};
+
+/// All surfels in chunks, view by view and region by region.
+[[nodiscard]] std::vector<SurfelChunk> chunks_of(
+    std::span<const std::vector<SurfelMap::Surfel>> surfels);
 
 /// Normal equations of all point-to-plane distances between views, in one state.
 ///

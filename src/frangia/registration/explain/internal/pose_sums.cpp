@@ -13,8 +13,6 @@ namespace {
 
 using Row6 = Eigen::Matrix<double, 6, 1>;
 
-constexpr std::size_t kPosesPerChunk = 512;  // surfels; fixed: sums do not depend on threads
-
 /// Sums over one chunk of a view's surfels. Its unknowns: six of the view itself and the changes of
 /// the rig in it, then the same of each paired view.
 struct PoseChunk {
@@ -280,26 +278,16 @@ NormalEquations PoseSums::all() const {
 }
 
 PoseSums sum_poses(const Bundle& bundle, const SurfelLists& surfels, const PosedViews& views) {
-  struct Place {
-    std::size_t view;
-    std::size_t first;
-  };
-  std::vector<Place> places;
-  for (std::size_t view = 0; view < surfels.size(); ++view) {
-    for (std::size_t first = 0; first < surfels[view].size(); first += kPosesPerChunk)
-      places.push_back({view, first});
-  }
+  const std::vector<SurfelChunk> places = chunks_of(surfels);
   const double margin_mm = free_space_margin_mm(bundle);
   std::vector<PoseChunk> parts(places.size());
-  const auto sum_chunk = [&](auto accumulator, const Place& place) {
-    const std::vector<SurfelMap::Surfel>& own = surfels[place.view];
-    const std::size_t end = std::min(place.first + kPosesPerChunk, own.size());
-    for (std::size_t i = place.first; i < end; ++i)
-      accumulator.add(own[i]);
+  const auto sum_chunk = [&](auto accumulator, const SurfelChunk& place) {
+    for (std::size_t i = place.first; i < place.first + place.count; ++i)
+      accumulator.add(surfels[place.view][i]);
     return std::move(accumulator.sums);
   };
   parallel_chunks(places.size(), 1, [&](std::size_t begin, std::size_t /*end*/) {
-    const Place& place = places[begin];
+    const SurfelChunk& place = places[begin];
     parts[begin] =
         views.rig == nullptr
             ? sum_chunk(PoseAccumulator<6>(bundle, views, place.view, margin_mm), place)
@@ -317,11 +305,12 @@ PoseSums sum_poses(const Bundle& bundle, const SurfelLists& surfels, const Posed
   all.fit.regions.resize(kRegionsPerView * bundle.maps.size() * bundle.maps.size());
   all.region_rows.resize(all.fit.regions.size());
   for (std::size_t i = 0; i < places.size(); ++i) {
-    const auto [view, first] = places[i];
-    const std::size_t region = kRegionsPerView * first / surfels[view].size();
-    const std::vector<std::size_t>& others = bundle.pairs[view];
-    of_views.add(all.halves.at(region % 2), parts[i].equations, view, others);
-    add_fit(all, view, region, others, parts[i]);
+    const SurfelChunk& place = places[i];
+    const std::vector<std::size_t>& others = bundle.pairs[place.view];
+    // Opposite quarters: either half of a view is all over it.
+    const std::size_t half = place.region == 0 || place.region == 3 ? 0 : 1;
+    of_views.add(all.halves.at(half), parts[i].equations, place.view, others);
+    add_fit(all, place.view, place.region, others, parts[i]);
   }
   return all;
 }
