@@ -86,9 +86,9 @@ bool show_whole_fringe(const FrameSample& sample, const FrameHypothesis& hypothe
   return (brightest > kBright * sample.scale_counts).cast<double>().mean() > kMost;
 }
 
-/// An eighth of the blocks of a sample.
+/// A quarter of the blocks of a sample.
 FrameSample thinned(const FrameSample& sample) {
-  constexpr int kEvery = 8;
+  constexpr int kEvery = 4;
   std::vector<Eigen::Index> kept;
   FrameSample out;
   // By the order in which blocks occur: by their number, whole columns of blocks would be left out.
