@@ -55,6 +55,10 @@ inline void add_decode_options(CLI::App& verb, DecodeOptions& options) {
       "the "
       "harmonics that the frames show are corrected where they shift the phase), none (they are "
       "counted in sigma), or a rig.toml with its [projector.response]");
+  verb.add_flag_callback(
+      "--ignore-blur",
+      [&options] { options.undo_blur = false; },
+      "leave what the blur of the camera does to the phase where the brightness changes");
   CLI::Option* phase = verb.add_option_function<std::string>(
       "--phase",
       [&options](const std::string& folder) {

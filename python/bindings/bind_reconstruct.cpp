@@ -44,6 +44,7 @@ DecodeOptions decode_options(const py::object& algorithm,
                              const std::string& directions,
                              float max_sigma_rad,
                              bool undo_response,
+                             bool undo_blur,
                              bool accept_inconsistent,
                              const py::object& wrap,
                              const py::object& unwrap_spatially,
@@ -57,6 +58,7 @@ DecodeOptions decode_options(const py::object& algorithm,
   options.directions = directions_of(directions);
   options.wrap.max_sigma_rad = max_sigma_rad;
   options.undo_own_response = undo_response;
+  options.undo_blur = undo_blur;
   options.accept_inconsistent = accept_inconsistent;
   options.own = own_stages(wrap, unwrap_spatially, unwrap);
   return options;
@@ -181,6 +183,7 @@ void bind_reconstruct(py::module_& module) {
          const std::string& directions,
          float max_sigma_rad,
          bool undo_response,
+         bool undo_blur,
          bool accept_inconsistent,
          const py::object& wrap,
          const py::object& unwrap_spatially,
@@ -190,6 +193,7 @@ void bind_reconstruct(py::module_& module) {
                                                      directions,
                                                      max_sigma_rad,
                                                      undo_response,
+                                                     undo_blur,
                                                      accept_inconsistent,
                                                      wrap,
                                                      unwrap_spatially,
@@ -204,6 +208,7 @@ void bind_reconstruct(py::module_& module) {
       py::arg("directions") = "fused",
       py::arg("max_sigma_rad") = 0.1F,
       py::arg("undo_response") = DecodeOptions{}.undo_own_response,
+      py::arg("undo_blur") = DecodeOptions{}.undo_blur,
       py::arg("accept_inconsistent") = false,
       py::arg("wrap") = py::none(),
       py::arg("unwrap_spatially") = py::none(),
@@ -231,6 +236,7 @@ void bind_reconstruct(py::module_& module) {
          const std::string& directions,
          float max_sigma_rad,
          bool undo_response,
+         bool undo_blur,
          bool accept_inconsistent,
          const py::object& wrap,
          const py::object& unwrap_spatially,
@@ -247,6 +253,7 @@ void bind_reconstruct(py::module_& module) {
                                         directions,
                                         max_sigma_rad,
                                         undo_response,
+                                        undo_blur,
                                         accept_inconsistent,
                                         wrap,
                                         unwrap_spatially,
@@ -265,6 +272,7 @@ void bind_reconstruct(py::module_& module) {
       py::arg("directions") = "fused",
       py::arg("max_sigma_rad") = 0.1F,
       py::arg("undo_response") = DecodeOptions{}.undo_own_response,
+      py::arg("undo_blur") = DecodeOptions{}.undo_blur,
       py::arg("accept_inconsistent") = false,
       py::arg("wrap") = py::none(),
       py::arg("unwrap_spatially") = py::none(),

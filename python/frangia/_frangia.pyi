@@ -522,7 +522,7 @@ def algorithms() -> list[str]:
     """Names of the published phase-shift algorithms."""
     ...
 
-def decode(scan: Scan, view: int = 0, *, algorithm: str | LinearAlgorithm = 'auto', directions: str = 'fused', max_sigma_rad: float = 0.10000000149011612, undo_response: bool = True, accept_inconsistent: bool = False, wrap: Callable[[FrameStack, PhaseAlgorithm, NoiseModel], Any] | None = None, unwrap_spatially: Callable[[WrappedPhase], Any] | None = None, unwrap: Callable[[list[WrappedPhase]], Any] | None = None, progress: Callable[[float, str], object] | None = None) -> DecodedView:
+def decode(scan: Scan, view: int = 0, *, algorithm: str | LinearAlgorithm = 'auto', directions: str = 'fused', max_sigma_rad: float = 0.10000000149011612, undo_response: bool = True, undo_blur: bool = True, accept_inconsistent: bool = False, wrap: Callable[[FrameStack, PhaseAlgorithm, NoiseModel], Any] | None = None, unwrap_spatially: Callable[[WrappedPhase], Any] | None = None, unwrap: Callable[[list[WrappedPhase]], Any] | None = None, progress: Callable[[float, str], object] | None = None) -> DecodedView:
     """Decodes a view of a scan. wrap, unwrap_spatially and unwrap are functions of yours in place of a stage, see the package's help."""
     ...
 
@@ -582,7 +582,7 @@ def read_scan(folder: str | os.PathLike[str], *, rig: str = 'complete') -> Scan:
     """Reads scan.toml and rig.toml of a folder. rig: complete; start-values, before a calibration; phase-only, to decode without geometry."""
     ...
 
-def reconstruct(scan: Scan, *, algorithm: str | LinearAlgorithm = 'auto', directions: str = 'fused', max_sigma_rad: float = 0.10000000149011612, undo_response: bool = True, accept_inconsistent: bool = False, wrap: Callable[[FrameStack, PhaseAlgorithm, NoiseModel], Any] | None = None, unwrap_spatially: Callable[[WrappedPhase], Any] | None = None, unwrap: Callable[[list[WrappedPhase]], Any] | None = None, voxel_mm: float = 0.0, register_views: bool = True, indirect_light: bool = True, keep_islands: bool = False, watertight: bool = False, clip_below_mm: float = ..., progress: Callable[[float, str], object] | None = None) -> Reconstruction:
+def reconstruct(scan: Scan, *, algorithm: str | LinearAlgorithm = 'auto', directions: str = 'fused', max_sigma_rad: float = 0.10000000149011612, undo_response: bool = True, undo_blur: bool = True, accept_inconsistent: bool = False, wrap: Callable[[FrameStack, PhaseAlgorithm, NoiseModel], Any] | None = None, unwrap_spatially: Callable[[WrappedPhase], Any] | None = None, unwrap: Callable[[list[WrappedPhase]], Any] | None = None, voxel_mm: float = 0.0, register_views: bool = True, indirect_light: bool = True, keep_islands: bool = False, watertight: bool = False, clip_below_mm: float = ..., progress: Callable[[float, str], object] | None = None) -> Reconstruction:
     """Frames to one surface, as `frangia reconstruct`. A voxel of 0 mm is derived from the scan."""
     ...
 

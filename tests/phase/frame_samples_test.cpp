@@ -58,6 +58,10 @@ TEST(SampleRows, TakesEvenlySpacedRows) {
   }
   EXPECT_EQ(height_of(sample_rows(numbered_frames(), 24 * 5).frames[0]), 6) << "every third row";
   EXPECT_EQ(height_of(sample_rows(numbered_frames(), 1).frames[0]), 1);
+  const FrameStack bands = sample_rows(numbered_frames(), 24 * 6, 3);
+  ASSERT_EQ(height_of(bands.frames[0]), 9) << "every second band of three";
+  for (int y = 0; y < 9; ++y)
+    EXPECT_EQ(counts_at(bands.frames[0], 0, y), 24 * (y / 3 * 6 + y % 3));
   EXPECT_EQ(height_of(sample_rows(numbered_frames(), 1'000'000).frames[0]), 16);
 }
 

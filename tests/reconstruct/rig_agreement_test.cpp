@@ -93,6 +93,8 @@ TEST_F(RigAgreementOfAView, LeavesADisagreementInSigmaThatIsNoContradiction) {
         Eigen::AngleAxisd(rad_from_deg(0.001), Eigen::Vector3d::UnitX()) * rig.projector.rotation;
   });
   EXPECT_EQ(found.untrusted_reason, "");
+  const std::string text = found.agreements.front().text();
+  EXPECT_NE(text.find("the difference is in sigma"), std::string::npos) << text;
   EXPECT_GT(found.sigma.systematic_mm, 0.5 * found.agreements.front().median_mm);
   EXPECT_GT(found.sigma.combined_mm, sound.sigma.combined_mm);
 }

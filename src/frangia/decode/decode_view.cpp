@@ -29,6 +29,18 @@ std::vector<FrameAssessment> assessments_of_used(const DecodedView& view) {
   return used;
 }
 
+std::vector<std::string> corrections_of(const DecodedView& view) {
+  std::vector<std::string> all;
+  const std::string response = describe_corrections(assessments_of(view));
+  if (!response.empty()) all.push_back(response);
+  for (const DecodedDirection& direction : view.directions) {
+    if (!direction.blur) continue;
+    all.push_back(describe(*direction.blur));
+    break;  // the other direction has the same camera
+  }
+  return all;
+}
+
 std::string misfit_of(const DecodedView& view) {
   std::vector<SequenceCheck> checks;
   for (const DecodedDirection& direction : view.directions)

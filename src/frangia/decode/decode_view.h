@@ -15,6 +15,7 @@
 #include "frangia/frames/frame_stack.h"
 #include "frangia/frames/png.h"
 #include "frangia/fringe_order/resolve_regions.h"
+#include "frangia/phase/blur/estimate_blur.h"
 #include "frangia/phase/temporal/sequence_check.h"
 #include "frangia/phase/waveform/assess_frames.h"
 #include "frangia/phase/wrap/phase_map.h"
@@ -32,6 +33,7 @@ struct DecodedDirection {
   std::optional<RelativePhase> relative;     ///< of a spatially unwrapped scan
   std::vector<ProfilePoint> profile;         ///< of the laser sheet, where the scan has one
   AbsolutePhase phase;                       ///< of the finest fringes
+  std::optional<ImageBlur> blur;             ///< of the camera, for which `phase` was corrected
   std::optional<SequenceCheck> check;        ///< of the patterns with each other; none without maps
   /// What explains the frames of the fringe patterns, coarse to fine; empty where frames are merged
   /// from several exposures.
@@ -52,6 +54,9 @@ struct DecodedView {
 /// The same without the directions whose frames are at fault, so that nothing is measured with
 /// them.
 [[nodiscard]] std::vector<FrameAssessment> assessments_of_used(const DecodedView& view);
+
+/// What is corrected in the phases of a view, a clause for each.
+[[nodiscard]] std::vector<std::string> corrections_of(const DecodedView& view);
 
 /// What the patterns of the directions do not fit, as `describe` says it; empty if all fits.
 [[nodiscard]] std::string misfit_of(const DecodedView& view);

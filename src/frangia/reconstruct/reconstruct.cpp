@@ -236,7 +236,8 @@ Reconstruction reconstruct(const Scan& scan, const ReconstructOptions& given, co
 
   // Fringe orders from the other views, and registration, setup by setup.
   run.stage("views");
-  if (!measured.response.empty()) run.note(measured.response);
+  for (const std::string& correction : measured.corrections)
+    run.note(correction);
   std::vector<MeasuredSetup> setups = split_setups(std::move(measured));
   FringeOrderCorrectionOptions correction = options.fringe_order_correction;
   correction.mixed_pixels = options.mixed_pixels;

@@ -118,14 +118,15 @@ AbsolutePhase inside_field(const DirectionInput& input, AbsolutePhase phase) {
 
 /// What is left to do with a phase, wherever its orders come from.
 DecodedDirection finished(const DirectionInput& input, DirectionMaps maps) {
-  DecodedDirection view = std::move(maps.view);
+  DecodedDirection& view = maps.view;
   if (input.options.keep_maps && view.check->consistent && !view.relative) {
     const IndirectLightCheck indirect = check_indirect_light(view.wrapped, view.phase);
     if (indirect.found) input.run.warn(describe(indirect));
   }
+  undo_blur(input, maps);
   if (!input.options.keep_maps) view.wrapped.clear();
   fill_enclosed(view.phase, input.options.fill);
-  return view;
+  return std::move(view);
 }
 
 DecodedDirection decode_from(const FromCallers& /*source*/, const DirectionInput& input) {

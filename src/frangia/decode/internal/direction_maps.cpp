@@ -8,10 +8,13 @@
 #include "frangia/core/error.h"
 #include "frangia/decode/internal/wrap_pattern.h"
 #include "frangia/decode/select_stacks.h"
+#include "frangia/phase/blur/correct_blur.h"
+#include "frangia/phase/blur/estimate_blur.h"
 #include "frangia/phase/temporal/check_sequence.h"
 #include "frangia/phase/waveform/frame_samples.h"
 #include "frangia/phase/waveform/systematic_phase.h"
 #include "frangia/phase/wrap/decode_sequence.h"
+#include "frangia/phase/wrap/merge_exposures.h"
 
 namespace frangia {
 namespace {
@@ -84,6 +87,28 @@ DirectionMaps wrap_maps(const DirectionInput& input, DirectionMaps fitted, Wrapp
   }
   out.view.check = check_of(input, out);
   return out;
+}
+
+void undo_blur(const DirectionInput& input, DirectionMaps& maps) {
+  constexpr std::size_t kSampledPixels = 200'000;
+  if (!input.options.undo_blur || input.options.own.any() || maps.fringes.size() < 2) return;
+  const auto bands_of = [&](std::size_t m) {
+    return wrap_phase(sample_rows(*maps.fringes[m], kSampledPixels, kBlurBandRows),
+                      maps.fits[m].algorithm,
+                      maps.view.noise,
+                      input.options.wrap);
+  };
+  maps.view.blur = estimate_blur(bands_of(0), bands_of(maps.fringes.size() - 1));
+  if (!maps.view.blur) return;
+  const FrameStack* coarsest = maps.fringes.front();
+  const WrappedPhase map =
+      coarsest->pattern.exposure_count() > 1
+          ? merge_exposures(exposures_of(coarsest),
+                            maps.fits.front().shifts_rad,
+                            maps.view.noise,
+                            input.options.wrap)
+          : wrap_phase(*coarsest, maps.fits.front().algorithm, maps.view.noise, input.options.wrap);
+  correct_blur(maps.view.phase, map.modulation_counts, *maps.view.blur);
 }
 
 bool allow_one_pass(const DirectionInput& input, const DirectionMaps& fitted) {

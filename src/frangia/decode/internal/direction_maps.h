@@ -55,6 +55,10 @@ enum class WrappedParts {
                                       DirectionMaps fitted,
                                       WrappedParts parts = WrappedParts::All);
 
+/// Removes the error of the phase of `maps` that the blur of the camera makes where the brightness
+/// changes, if two of its patterns show how wide it is.
+void undo_blur(const DirectionInput& input, DirectionMaps& maps);
+
 /// Whether the frames can be decoded in one pass: nothing but their algorithms is applied to them,
 /// and nobody asks for the maps.
 [[nodiscard]] bool allow_one_pass(const DirectionInput& input, const DirectionMaps& fitted);

@@ -42,23 +42,27 @@ Eigen::ArrayXXf sample_frames(const FrameStack& stack, std::size_t wanted) {
   return counts;
 }
 
-FrameStack sample_rows(const FrameStack& stack, std::size_t wanted) {
+FrameStack sample_rows(const FrameStack& stack, std::size_t wanted, int together) {
   const int width = width_of(stack.frames.front());
   const int height = height_of(stack.frames.front());
-  const auto rows = static_cast<std::size_t>(height);
-  const std::size_t most = std::max<std::size_t>(1, wanted / static_cast<std::size_t>(width));
-  const std::size_t stride = std::max<std::size_t>(1, rows / most);
+  const int bands = std::max(1, height / together);
+  together = std::min(together, height);
+  const auto most = static_cast<int>(std::clamp<std::size_t>(
+      wanted / (static_cast<std::size_t>(width) * static_cast<std::size_t>(together)),
+      1,
+      static_cast<std::size_t>(bands)));
+  const int stride = std::max(1, bands / most);
   FrameStack out{.pattern = stack.pattern,
                  .frames = {},
                  .white_level = stack.white_level,
                  .exposure = stack.exposure};
-  const int kept = static_cast<int>((rows + stride - 1) / stride);
+  const int kept = (bands + stride - 1) / stride * together;
   for (const Frame& frame : stack.frames) {
     std::visit(
         [&](const auto& image) {
           std::remove_cvref_t<decltype(image)> some(width, kept, Uninitialized{});
           for (int y = 0; y < kept; ++y) {
-            const auto* row = &image(0, y * static_cast<int>(stride));
+            const auto* row = &image(0, y / together * stride * together + y % together);
             std::copy(row, row + width, &some(0, y));
           }
           out.frames.emplace_back(std::move(some));

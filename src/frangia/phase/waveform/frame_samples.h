@@ -16,9 +16,9 @@ namespace frangia {
 /// @units    counts
 [[nodiscard]] Eigen::ArrayXXf sample_frames(const FrameStack& stack, std::size_t wanted);
 
-/// Samples evenly spaced rows that hold about `wanted` pixels, for estimates that do not need all
-/// rows.
-[[nodiscard]] FrameStack sample_rows(const FrameStack& stack, std::size_t wanted);
+/// Samples evenly spaced bands of `together` rows that hold about `wanted` pixels, for estimates
+/// that do not need all rows.
+[[nodiscard]] FrameStack sample_rows(const FrameStack& stack, std::size_t wanted, int together = 1);
 
 /// Samples single pixels, for the phase at a few of them.
 ///

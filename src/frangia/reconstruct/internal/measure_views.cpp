@@ -198,7 +198,7 @@ MeasuredViews measure_views(const Scan& scan,
     const ViewFit& fit = decoded.front().fit;
     const auto assessments = assessments_of(decoded.front().decoded);
     summary.quality = view_quality(assessments);
-    if (i == 0) all.response = describe_corrections(assessments);
+    if (i == 0) all.corrections = corrections_of(decoded.front().decoded);
     if (!fit.fits()) {
       summary.left_out = true;
       summary.reason = fit.reason;

@@ -35,8 +35,8 @@ struct MeasuredViews {
   std::vector<DepthAgreement> camera_agreements;
   Pattern first;  ///< of the phases of the two directions
   Pattern second;
-  std::string response;  ///< what is corrected in the phase of the first view; may be empty
-  std::vector<ViewSummary> summaries;  ///< of all views of the scan, also of those left out
+  std::vector<std::string> corrections;  ///< of the phase of the first view, a clause for each
+  std::vector<ViewSummary> summaries;    ///< of all views of the scan, also of those left out
 
   [[nodiscard]] const ViewStore& reference() const { return cameras.front(); }  ///< camera 0
   [[nodiscard]] ViewStore& reference() { return cameras.front(); }              ///< camera 0

@@ -1,0 +1,154 @@
+#include "frangia/phase/blur/estimate_blur.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <iterator>
+#include <limits>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "frangia/core/angles.h"
+#include "frangia/core/median.h"
+
+namespace frangia {
+namespace {
+
+/// The logarithm of the ratio of two modulations over 2 pi^2 times the difference of f^2.
+struct Weakening {
+  double x = 0.0;
+  double log_ratio = 0.0;
+  std::size_t block = 0;  ///< of the image
+};
+
+constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+constexpr std::size_t kBlocks = 8;  // columns of the image whose slopes give the uncertainty
+
+/// Change of a wrapped phase over one pixel, NaN where its neighbours disagree.
+double slope_of(float before, float here, float after) {
+  constexpr double kBent_rad = 0.5;
+  const auto wrapped = [](double rad) { return std::remainder(rad, kTwoPi); };
+  const double back = wrapped(static_cast<double>(here) - static_cast<double>(before));
+  const double on = wrapped(static_cast<double>(after) - static_cast<double>(here));
+  if (!(std::abs(on - back) < kBent_rad)) return kUnknown;
+  return 0.5 * (back + on);
+}
+
+std::vector<Weakening> weakenings(const WrappedPhase& coarse, const WrappedPhase& fine) {
+  // A phase this certain has a modulation whose logarithm has no bias by noise worth mentioning.
+  constexpr float kCertain_rad = 0.05F;
+  const double ratio = coarse.pattern.fringes_per_unit() / fine.pattern.fringes_per_unit();
+  const Image<float>& phase = fine.phase_rad;
+  std::vector<Weakening> out;
+  for (int y = 1; y + 1 < phase.height(); y += kBlurBandRows) {
+    for (int x = 1; x + 1 < phase.width(); ++x) {
+      if (!(fine.sigma_rad(x, y) < kCertain_rad && coarse.sigma_rad(x, y) < kCertain_rad)) continue;
+      const double across = slope_of(phase(x - 1, y), phase(x, y), phase(x + 1, y));
+      const double down = slope_of(phase(x, y - 1), phase(x, y), phase(x, y + 1));
+      const double square = 0.5 * (across * across + down * down);  // 2 pi^2 f^2
+      if (std::isnan(square)) continue;
+      const auto weaker = static_cast<double>(fine.modulation_counts(x, y));
+      const auto whole = static_cast<double>(coarse.modulation_counts(x, y));
+      out.push_back(
+          {square * (1.0 - ratio * ratio),
+           std::log(weaker / whole),
+           static_cast<std::size_t>(x) * kBlocks / static_cast<std::size_t>(phase.width())});
+    }
+  }
+  return out;
+}
+
+/// A line through the medians of groups of equal size, which single edges do not bend.
+struct Line {
+  double slope = kUnknown;
+  double spread = 0.0;  ///< of the slope's predictions over all groups
+  double rms = 0.0;     ///< of the medians about the line
+};
+
+Line line_through(std::vector<Weakening> samples) {
+  constexpr std::size_t kGroups = 24;
+  constexpr std::size_t kLeast = 20;  // samples of a group
+  Line line;
+  if (samples.size() < kGroups * kLeast) return line;
+  std::sort(samples.begin(), samples.end(), [](const auto& a, const auto& b) { return a.x < b.x; });
+  std::vector<std::array<double, 2>> medians;
+  for (std::size_t g = 0; g < kGroups; ++g) {
+    std::vector<double> x;
+    std::vector<double> y;
+    const std::size_t end = (g + 1) * samples.size() / kGroups;
+    for (std::size_t i = g * samples.size() / kGroups; i < end; ++i) {
+      x.push_back(samples[i].x);
+      y.push_back(samples[i].log_ratio);
+    }
+    medians.push_back({median(std::move(x)), median(std::move(y))});
+  }
+  double mean_x = 0.0;
+  double mean_y = 0.0;
+  for (const auto& [x, y] : medians) {
+    mean_x += x / kGroups;
+    mean_y += y / kGroups;
+  }
+  double xx = 0.0;
+  double xy = 0.0;
+  for (const auto& [x, y] : medians) {
+    xx += (x - mean_x) * (x - mean_x);
+    xy += (x - mean_x) * (y - mean_y);
+  }
+  line.slope = xy / xx;
+  line.spread = std::abs(line.slope) * std::sqrt(xx / kGroups);
+  for (const auto& [x, y] : medians)
+    line.rms += std::pow(y - mean_y - line.slope * (x - mean_x), 2) / kGroups;
+  line.rms = std::sqrt(line.rms);
+  return line;
+}
+
+/// The standard uncertainty of the slope: how much it changes without each block of the image,
+/// whose samples have more in common than noise.
+double jackknifed(const std::vector<Weakening>& samples) {
+  std::vector<double> slopes;
+  for (std::size_t left_out = 0; left_out < kBlocks; ++left_out) {
+    std::vector<Weakening> rest;
+    std::copy_if(samples.begin(), samples.end(), std::back_inserter(rest), [&](const auto& sample) {
+      return sample.block != left_out;
+    });
+    if (rest.size() < samples.size()) slopes.push_back(line_through(std::move(rest)).slope);
+  }
+  const auto count = static_cast<double>(slopes.size());
+  if (slopes.size() < 2) return kUnknown;
+  const double mean = std::accumulate(slopes.begin(), slopes.end(), 0.0) / count;
+  double square = 0.0;
+  for (const double slope : slopes)
+    square += std::pow(slope - mean, 2);
+  return std::sqrt(square * (count - 1.0) / count);
+}
+
+}  // namespace
+
+std::optional<ImageBlur> estimate_blur(const WrappedPhase& coarse, const WrappedPhase& fine) {
+  constexpr double kLeastRatio = 2.0;   // of the numbers of fringes
+  constexpr double kLeast_px2 = 0.2;    // less than half a pixel shifts no phase noticeably
+  constexpr double kMost_px2 = 25.0;    // no fringes remain
+  constexpr double kStraight = 0.35;    // of the line's own spread
+  constexpr double kSignificant = 5.0;  // times its uncertainty
+  if (fine.pattern.fringes_per_unit() < kLeastRatio * coarse.pattern.fringes_per_unit()) return {};
+  const std::vector<Weakening> samples = weakenings(coarse, fine);
+  const Line line = line_through(samples);
+  ImageBlur blur{.variance_px2 = -line.slope};
+  if (!(blur.variance_px2 > kLeast_px2 && blur.variance_px2 < kMost_px2)) return {};
+  if (line.rms > kStraight * line.spread) return {};
+  blur.u_px2 = jackknifed(samples);
+  if (!(blur.variance_px2 > kSignificant * blur.u_px2)) return {};
+  return blur;
+}
+
+std::string describe(const ImageBlur& blur) {
+  return fmt::format(
+      "the phase is corrected at edges of brightness for the blur of the camera, {:.2f} px "
+      "(`ignore_blur` leaves it)",
+      blur.sigma_px());
+}
+
+}  // namespace frangia

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <cmath>
+#include <optional>
+#include <string>
+
+#include "frangia/phase/wrap/phase_map.h"
+
+namespace frangia {
+
+/// The blur of an image, as the normal distribution over which the light of a point spreads.
+struct ImageBlur {
+  double variance_px2 = 0.0;  ///< along each axis, with 1/12 for the area of a pixel
+  double u_px2 = 0.0;         ///< standard uncertainty of `variance_px2`
+
+  /// Standard deviation of the distribution.
+  [[nodiscard]] double sigma_px() const { return std::sqrt(variance_px2); }
+};
+
+/// Rows that lie together in the maps from which `estimate_blur` takes the slope of a phase.
+inline constexpr int kBlurBandRows = 3;
+
+/// Estimates the blur of a camera by how it weakens two patterns of fringes. A blur of variance s^2
+/// leaves exp(-2 pi^2 s^2 f^2) of the modulation of fringes with f periods per pixel of the camera.
+/// f differs with the slope of the surface. Light, albedo and the blur of the projector do not, so
+/// that the logarithm of the ratio of both modulations lies on a line over f^2.
+///
+/// @shape    both maps hold bands of `kBlurBandRows` rows, as `sample_rows` takes them
+/// @missing  none where slopes are too alike to tell, where the modulations lie on no line, and for
+///           a blur that is hardly more than the area of a pixel
+[[nodiscard]] std::optional<ImageBlur> estimate_blur(const WrappedPhase& coarse,
+                                                     const WrappedPhase& fine);
+
+/// One clause about the blur for which a phase is corrected.
+[[nodiscard]] std::string describe(const ImageBlur& blur);
+
+}  // namespace frangia
