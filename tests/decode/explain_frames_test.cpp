@@ -124,6 +124,19 @@ TEST(ExplainFrames, NamesAFrameOfHalfTheLight) {
     expect_named(kHalfTheLight, steps, FrameCause::Gain, "frame 1 has 0.");
 }
 
+TEST(ExplainFrames, NamesAFrameOfHalfTheLightOfTheProjectorInALitRoom) {
+  for (const int steps : {5, 6, 12}) {
+    const FrameExplanation found =
+        explained({.ambient = 45.0, .light = 150.0, .seed = 33}, steps, [](RenderedFrames& f) {
+          for (double& light : f.frames[1])
+            light = 45.0 + 0.5 * (light - 45.0);
+        });
+    EXPECT_TRUE(found.has_fault()) << steps;
+    EXPECT_EQ(name_of(found.best.cause), name_of(FrameCause::Gain))
+        << steps << ": " << describe(found.explanation);
+  }
+}
+
 TEST(ExplainFrames, NamesATornFrame) {
   expect_named(kTorn, 6, FrameCause::Lost, "frame 2 shows no fringes");
 }

@@ -31,8 +31,11 @@ constexpr double kSoundRest = 0.03;
 /// What sound frames leave at most before other hypotheses are scored: less cannot be bettered.
 constexpr double kNegligibleRest = 0.015;
 constexpr double kNegligibleGain = 0.05;
+constexpr double kNegligibleExcess = 0.1;  ///< the same in dim frames, of the residual's variance
 /// Residual variance over the noise within which the noise model may be wrong.
 constexpr double kNoiseTolerance = 0.25;
+/// What frames in another order leave at least; on a part of one fringe nothing else is asked.
+constexpr double kOtherOrder = 0.3;
 /// RMS of a cosine: beyond it the frames are no fringes.
 const double kNoFringes = std::sqrt(0.5);
 
@@ -159,19 +162,20 @@ FrameExplanation explain_frames(const FrameStack& stack, const NoiseModel& noise
   const FrameSample sample = sample_blocks(stack, noise);
   if (sample.counts.rows() < kMinPixels) return out;
   const FrameHypothesis declared = frame_hypotheses(stack.pattern).front();
-  if (!cover_fringe(sample, declared)) return out;
-  out.decided = true;
-
   std::vector<Candidate> candidates{{declared, score_frames(sample, declared)}};
+  const bool covers = cover_fringe(sample, declared);
+  if (!covers && candidates.front().score.unexplained < kOtherOrder) return out;
+  out.decided = true;
   const FrameScore& sound = candidates.front().score;
-  const bool fits = !sound.residuals.empty() && sound.unexplained < kNegligibleRest &&
-                    sound.largest_gain < kNegligibleGain;
+  const bool fits = !sound.residuals.empty() && sound.largest_gain < kNegligibleGain &&
+                    (sound.unexplained < kNegligibleRest || sound.excess < kNegligibleExcess);
   if (!fits) {
     FrameHypothesis broad = declared;
     broad.cause = FrameCause::Unexplained;
     broad.parameters = 1;
     candidates.push_back({broad, candidates.front().score});
     for (FrameHypothesis& one : likely_hypotheses(sample, stack.pattern)) {
+      if (!covers && one.cause != FrameCause::Exchanged) continue;
       FrameScore score = score_frames(sample, one);
       candidates.push_back({std::move(one), std::move(score)});
     }
@@ -208,6 +212,7 @@ FrameExplanation explain_frames(const FrameStack& stack, const NoiseModel& noise
     if (scored[i].prediction == scored[winner].prediction)
       out.alike_rad.push_back(candidates[i].hypothesis.shifts_rad);
   const FrameScore& score = candidates[winner].score;
+  if (!covers && !out.has_fault()) return {.pattern = stack.pattern.name};
   out.are_fringes = score.unexplained < kNoFringes;
   if (score.excess > kNoiseTolerance / (1.0 + kNoiseTolerance)) {
     const auto shown = std::count(out.best.free.begin(), out.best.free.end(), false);

@@ -42,11 +42,12 @@ std::string clause_of(FrameCause cause, std::size_t frame, const FrameHypothesis
       return frame == 0 ? "the part moved while the frames were taken"
                         : fmt::format("the part moved before frame {}", frame);
     case FrameCause::Steps:
-      return frame == 0 ? "the shifts differ from those of scan.toml"
-                        : fmt::format(
-                              "the shifts from frame {} on differ from those of scan.toml, "
-                              "or all that is seen moved before it",
-                              frame);
+      return frame == 0
+                 ? "the shifts differ from those of scan.toml, or all that is seen moved in depth"
+                 : fmt::format(
+                       "the shifts from frame {} on differ from those of scan.toml, "
+                       "or all that is seen moved before it",
+                       frame);
     case FrameCause::Start:
       return "the shifts begin elsewhere";
     case FrameCause::Direction:
@@ -113,6 +114,10 @@ std::vector<FrameHypothesis> frame_hypotheses(const Pattern& pattern) {
       out.back().lamp_off = k + 1;
     }
     if (frames > 3) add(FrameCause::Gain, k, 1, frames);
+    if (frames >= kMinFramesOfLamp) {  // the light of the room keeps its power
+      out.back().lamp_on = k;
+      out.back().lamp_off = k + 1;
+    }
     if (k == 0) continue;
     add(FrameCause::Repeated, k, 0, frames - 1);
     out.back().shifts_rad[k] = declared.shifts_rad[k - 1];
@@ -219,6 +224,7 @@ bool is_lit_by_lamp(const FrameHypothesis& hypothesis, std::size_t frame) {
 bool predict_alike(const FrameHypothesis& a, const FrameHypothesis& b) {
   if (a.free != b.free || a.path != b.path || a.moves_part != b.moves_part ||
       a.has_free_steps != b.has_free_steps || a.lamp_on.has_value() != b.lamp_on.has_value() ||
+      (a.lamp_on && (a.cause == FrameCause::Gain) != (b.cause == FrameCause::Gain)) ||
       (a.cause == FrameCause::Unexplained) != (b.cause == FrameCause::Unexplained))
     return false;
   constexpr double kSame = 1e-6;

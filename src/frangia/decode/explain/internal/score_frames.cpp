@@ -38,6 +38,7 @@ constexpr int kRounds = 3;
 constexpr double kModelError = 0.005;
 /// Probability that a pixel of a lost frame shows what the other frames predict: a torn frame.
 constexpr double kTorn = 0.5;
+constexpr double kLeastTorn = 0.15;  ///< share of its pixels that show something else
 /// Width of the density of counts of fringes over the scale of a pixel: a frame that is darker or
 /// brighter everywhere by less than a quarter of it is no sound one.
 constexpr double kBroad = 0.35;
@@ -63,6 +64,7 @@ class FrameFit {
     for (std::size_t i = 0; i < design_.shown.size(); ++i)
       shown_.col(static_cast<Eigen::Index>(i)) = sample.counts.col(design_.shown[i]).matrix();
     rest_ = shown_ * design_.rest;
+    shown_scale_ = shown_.rowwise().maxCoeff().array().max(1.0);
     // The slopes of the fitted fringes have less noise than those of a frame.
     if (hypothesis.moves_part) {
       const auto of_fringes = [&](const Eigen::ArrayXXd& slopes) -> Eigen::MatrixXd {
@@ -141,9 +143,8 @@ class FrameFit {
       }
       if (hypothesis_.has_free_steps) effects(i, column + i) = kPriorStep_rad * slope;
       if (is_lit_by_lamp(hypothesis_, k)) {
-        // The light of a lamp is alike at all pixels, or as their albedo, and falls off smoothly.
-        // The albedo is that of the fitted fringes: the brightest count holds noise of the
-        // residual, which a lamp together with the gain of that frame would explain.
+        // Alike at all pixels, or as their albedo, and it falls off smoothly. The albedo is that of
+        // the fitted fringes: the brightest count holds noise of the residual.
         const double light = kPriorLamp * (values_(pixel, 0) + b);
         effects(i, column) = kPriorLamp * mean_scale_;
         effects(i, column + 1) = light;
@@ -154,9 +155,8 @@ class FrameFit {
   }
 
   /// Fits mean, modulation and phase again to the frames without their nuisances, which shift the
-  /// phase where the steps are not equal. The modulation that the variance refers to stays:
-  /// nuisances that cancel each other would lower it, and so raise the density of the same
-  /// residuals.
+  /// phase of uneven steps. The modulation that the variance refers to stays: nuisances that cancel
+  /// each other would lower it, and so raise the density of the same residuals.
   void refine_values(const Eigen::VectorXd& found, const std::vector<Eigen::MatrixXd>& effects) {
     for (Eigen::Index i = 0; i < pixels_; ++i) {
       values_.row(i) = (design_.inverse *
@@ -289,16 +289,16 @@ class FrameFit {
     const double in_counts =
         std::max((counts - counts.mean()).square().mean(), std::min(noise, 1.0 / 12.0));
     return std::max(log_normal(n * in_counts, in_counts, n),
-                    log_normal(n * in_scale, in_scale, n) - sample_.scale_counts.log().sum());
+                    log_normal(n * in_scale, in_scale, n) - shown_scale_.log().sum());
   }
 
-  /// Density of frames that show no fringes: normal in counts, or relative to the scale.
+  /// Density of frames that show no fringes: normal in counts, or relative to those that do.
   [[nodiscard]] double log_density_of_free() const {
     double sum = 0.0;
     for (std::size_t k = 0; k < hypothesis_.free.size(); ++k) {
       if (!hypothesis_.free[k]) continue;
       const Eigen::ArrayXd counts = sample_.counts.col(static_cast<Eigen::Index>(k));
-      const Eigen::ArrayXd relative = counts / sample_.scale_counts;
+      const Eigen::ArrayXd relative = counts / shown_scale_;
       const double in_scale = std::max((relative - relative.mean()).square().mean(), 1e-8);
       sum += std::max({log_density_alike(counts, in_scale),
                        log_density_of_mean(counts),
@@ -327,7 +327,7 @@ class FrameFit {
     double others = 0.0;  // pixels that show something else
     for (Eigen::Index i = 0; i < pixels_; ++i) {
       const double counts = sample_.counts(i, static_cast<Eigen::Index>(frame));
-      const double scale = sample_.scale_counts(i);
+      const double scale = shown_scale_(i);
       const double predicted = values_(i, 0) + c * values_(i, 1) - s * values_(i, 2);
       const double error = 2.0 * sample_.variance(i) + std::pow(0.02 * modulation_(i), 2);
       const double shown =
@@ -339,9 +339,8 @@ class FrameFit {
       if (other > shown) others += 1.0;
     }
     // A frame that is a little off nearly everywhere is not torn.
-    constexpr double kLeast = 0.15;
-    return others < kLeast * static_cast<double>(pixels_) ? -std::numeric_limits<double>::infinity()
-                                                          : sum;
+    const bool is_torn = others > kLeastTorn * static_cast<double>(pixels_);
+    return is_torn ? sum : -std::numeric_limits<double>::infinity();
   }
 
   const FrameSample& sample_;
@@ -350,6 +349,7 @@ class FrameFit {
   FrameDesign design_;
   Eigen::Index pixels_;
   Eigen::MatrixXd shown_;
+  Eigen::ArrayXd shown_scale_;  ///< largest count of each pixel in these frames
   Eigen::MatrixXd rest_;
   Eigen::MatrixXd slope_x_;  ///< of the shown frames, where the part moved
   Eigen::MatrixXd slope_y_;
