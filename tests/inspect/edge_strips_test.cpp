@@ -75,11 +75,24 @@ TEST(EdgeStrips, AreToldAndNotJudged) {
   EXPECT_NEAR(good.edge_share, 1.0 - inner / faces, 0.02);
   const SurfaceVerdict dented = judged(0.2);
   EXPECT_EQ(dented.conformity, Conformity::Out);
+  EXPECT_NE(sentence_of(dented).find("strips of 1.5 mm"), std::string::npos) << sentence_of(dented);
   EXPECT_LT((dented.places.front().at_mm - Vector3d(15, 10, 10)).norm(), 4.0);
   rule.edge_mm = 0.0;
   EXPECT_EQ(judged(0.0).conformity, Conformity::Out) << "all is judged";
   rule.edge_mm = 40.0;
   EXPECT_THROW(static_cast<void>(judged(0.0)), Error);
+}
+
+/// A face of 20 x 10 mm that is uncertain is a gap as wide as what is judged of it: 7 mm.
+TEST(EdgeStrips, DoNotWidenAGap) {
+  const RayScene nominal(testing::box({0, 0, 0}, {30, 20, 10}));
+  Mesh mesh = rounded_box(0.0);
+  for (std::size_t i = 0; i < mesh.vertices_mm.size(); ++i)
+    if (mesh.vertices_mm[i].x() > 29.5F) mesh.sigma_mm[i] = 0.5F;
+  const SurfaceRule rule{.limits = {-0.1, 0.1}, .min_feature_mm = 1.5, .edge_mm = 1.5};
+  const SurfaceVerdict verdict = judge_surface(mesh, deviations_of(mesh, nominal), nominal, rule);
+  EXPECT_GT(verdict.share_of(PatchDecision::NotWellMeasured), 0.05);
+  EXPECT_NEAR(verdict.gap_mm, 7.0, 2.5);
 }
 
 /// Radii below the width are edges, however finely they are tessellated; larger ones are faces.

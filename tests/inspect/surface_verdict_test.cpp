@@ -153,6 +153,19 @@ TEST(SurfaceVerdict, CountsTheNominalAreaThatWasNotMeasured) {
   EXPECT_EQ(plate.verdict(rule).conformity, Conformity::Undecided);
 }
 
+/// Too wide a gap is told where enough of the area is measured well.
+TEST(SurfaceVerdict, NamesAGapThatIsTooWideAndNotMeasuredWellEnough) {
+  Plate plate;
+  for (std::size_t v = 0; v < plate.mesh().vertices_mm.size(); ++v)
+    if (distance_from(plate.mesh().vertices_mm[v], 30, 30) < 7.0) plate.mesh().sigma_mm[v] = 0.5F;
+  const SurfaceVerdict verdict = plate.verdict({.limits = {-0.05, 0.05}});
+  EXPECT_EQ(verdict.conformity, Conformity::Undecided);
+  EXPECT_GT(verdict.coverage, 0.9);
+  EXPECT_NE(sentence_of(verdict).find("wanted is 8.48 mm at most"), std::string::npos)
+      << sentence_of(verdict);
+  EXPECT_EQ(sentence_of(verdict).find("good enough"), std::string::npos) << sentence_of(verdict);
+}
+
 /// Many small places that are uncertain do not hide the large one that was not measured.
 TEST(SurfaceVerdict, NamesTheLargestOfThePlacesThatLackAMeasurementFirst) {
   Plate plate;

@@ -111,8 +111,8 @@ bool is_decided(PatchDecision decision) {
   return !is_gap(decision) && decision != PatchDecision::AtEdge;
 }
 
-/// Distance of each patch, over the surface, from the nearest one that is decided; infinite where
-/// none can be reached.
+/// Distance of each patch, over the judged surface, from the nearest one that is decided; infinite
+/// where none can be reached.
 std::vector<double> gap_distances(const SurfacePatches& patches,
                                   const std::vector<PatchDecision>& decided) {
   using Step = std::pair<double, std::uint32_t>;
@@ -128,8 +128,11 @@ std::vector<double> gap_distances(const SurfacePatches& patches,
     next.pop();
     if (reached > distance[i]) continue;
     for (const std::uint32_t k : patches.neighbors[i]) {
+      // Strips along edges lack nothing: half of a step into or out of one counts.
+      const double counts = 1.0 - 0.5 * (patches.at_edge[i] + patches.at_edge[k]);
       const double there =
-          reached + static_cast<double>((patches.center_mm[k] - patches.center_mm[i]).norm());
+          reached +
+          counts * static_cast<double>((patches.center_mm[k] - patches.center_mm[i]).norm());
       if (there >= distance[k]) continue;
       distance[k] = there;
       next.emplace(there, k);

@@ -89,7 +89,7 @@ struct SurfaceVerdict {
   double noise_factor = 1.0;                            ///< as in `SurfacePatches`
   double median_u_mm = kMissing;                        ///< of a patch; NaN when none is known
   /// Least half-width of a tolerance for which `min_coverage` of the nominal area is measured well
-  /// enough; NaN when too little was measured for any, or no uncertainty is known.
+  /// enough, gaps aside; NaN when too little was measured for any, or no uncertainty is known.
   double decidable_mm = kMissing;
   Extreme lowest;                    ///< of the patches
   Extreme highest;                   ///< of the patches

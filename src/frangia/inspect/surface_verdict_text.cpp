@@ -49,8 +49,12 @@ std::string edges_text(const SurfaceVerdict& verdict) {
                      share_text(verdict.edge_share));
 }
 
-/// The tolerance that the measurement is good enough for.
-std::string decidable_text(const SurfaceVerdict& verdict) {
+/// What of the surface would have to be measured better: where the gap is too wide, or else the
+/// tolerance that enough of it is good enough for.
+std::string lacking_text(const SurfaceVerdict& verdict) {
+  if (verdict.gap_mm > verdict.rule.max_gap_mm)
+    return fmt::format(
+        "; {}, wanted is {:.3g} mm at most", gap_text(verdict), verdict.rule.max_gap_mm);
   if (!std::isfinite(verdict.decidable_mm)) return "";
   return fmt::format("; it is good enough for a half-width of {:.3g} mm", verdict.decidable_mm);
 }
@@ -63,6 +67,49 @@ std::string too_uncertain(const SurfaceVerdict& verdict) {
       share_text(verdict.share_of(PatchDecision::NotWellMeasured)),
       0.5 * rule.max_uncertainty_share * (rule.limits.upper - rule.limits.lower),
       share_text(rule.max_uncertainty_share));
+}
+
+/// The sentence without what is not judged.
+std::string decided_text(const SurfaceVerdict& verdict) {
+  if (verdict.conformity == Conformity::Out) return out_text(verdict);
+  if (verdict.conformity == Conformity::In) {
+    std::string text = fmt::format("in, over {} of the nominal area", share_text(verdict.coverage));
+    if (verdict.gap_mm > 0.0) text += "; " + gap_text(verdict);
+    return text;
+  }
+  switch (verdict.reason) {
+    case UndecidedReason::Noise:
+      return too_uncertain(verdict) +
+             ", mostly noise; take more views, a longer exposure or a finer pattern" +
+             lacking_text(verdict);
+    case UndecidedReason::Systematic:
+      return too_uncertain(verdict) +
+             ", mostly calibration and alignment; calibrate again, or state a tolerance that this "
+             "rig can decide" +
+             lacking_text(verdict);
+    case UndecidedReason::NearLimit: {
+      const SurfacePlace* worst = worst_place(verdict, PatchDecision::NearLimit);
+      std::string text =
+          fmt::format("undecided: {} of the nominal area lies within the uncertainty of a limit",
+                      share_text(verdict.share_of(PatchDecision::NearLimit)));
+      if (worst != nullptr)
+        text += fmt::format(", such as {} with {}",
+                            place_text(worst->at_mm),
+                            value_text(worst->deviation_mm, worst->u95_mm));
+      return text + "; measure with a smaller uncertainty";
+    }
+    case UndecidedReason::NotMeasured:
+    case UndecidedReason::None:
+      break;
+  }
+  return fmt::format(
+      "undecided: {} of the nominal area was not measured, wanted is {} at most, and {}, wanted is "
+      "{:.3g} mm at most; scan it from more stations or in another setup, or exclude it in the "
+      "plan",
+      share_text(verdict.share_of(PatchDecision::NotMeasured)),
+      share_text(1.0 - verdict.rule.min_coverage),
+      gap_text(verdict),
+      verdict.rule.max_gap_mm);
 }
 
 }  // namespace
@@ -88,45 +135,7 @@ std::string_view name_of(PatchDecision decision) {
 }
 
 std::string sentence_of(const SurfaceVerdict& verdict) {
-  if (verdict.conformity == Conformity::Out) return out_text(verdict);
-  if (verdict.conformity == Conformity::In) {
-    std::string text = fmt::format("in, over {} of the nominal area", share_text(verdict.coverage));
-    if (verdict.gap_mm > 0.0) text += "; " + gap_text(verdict);
-    return text + edges_text(verdict);
-  }
-  switch (verdict.reason) {
-    case UndecidedReason::Noise:
-      return too_uncertain(verdict) +
-             ", mostly noise; take more views, a longer exposure or a finer pattern" +
-             decidable_text(verdict);
-    case UndecidedReason::Systematic:
-      return too_uncertain(verdict) +
-             ", mostly calibration and alignment; calibrate again, or state a tolerance that this "
-             "rig can decide" +
-             decidable_text(verdict);
-    case UndecidedReason::NearLimit: {
-      const SurfacePlace* worst = worst_place(verdict, PatchDecision::NearLimit);
-      std::string text =
-          fmt::format("undecided: {} of the nominal area lies within the uncertainty of a limit",
-                      share_text(verdict.share_of(PatchDecision::NearLimit)));
-      if (worst != nullptr)
-        text += fmt::format(", such as {} with {}",
-                            place_text(worst->at_mm),
-                            value_text(worst->deviation_mm, worst->u95_mm));
-      return text + "; measure with a smaller uncertainty";
-    }
-    case UndecidedReason::NotMeasured:
-    case UndecidedReason::None:
-      break;
-  }
-  return fmt::format(
-      "undecided: {} of the nominal area was not measured, wanted is {} at most, and {}, wanted is "
-      "{:.3g} mm at most; scan it from more stations or in another setup, or exclude it in the "
-      "plan",
-      share_text(verdict.share_of(PatchDecision::NotMeasured)),
-      share_text(1.0 - verdict.rule.min_coverage),
-      gap_text(verdict),
-      verdict.rule.max_gap_mm);
+  return decided_text(verdict) + edges_text(verdict);
 }
 
 }  // namespace frangia

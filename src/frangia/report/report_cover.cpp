@@ -135,14 +135,6 @@ void add_all_results(HtmlPage& page, const InspectionReport& report) {
   page.html(result_table(rows, rows.size()));
 }
 
-/// What the verdict leaves out along edges.
-std::string strips_text(const InspectionReport& report) {
-  if (!report.surface || !(report.surface->edge_share > 0.0)) return "";
-  return fmt::format(" Strips of {:.2g} mm along edges, {} of the nominal area, are not judged.",
-                     report.surface->rule.edge_mm.value_or(0.0),
-                     share_text(report.surface->edge_share));
-}
-
 }  // namespace
 
 void add_cover(HtmlPage& page, const InspectionReport& report) {
@@ -167,8 +159,7 @@ void add_cover(HtmlPage& page, const InspectionReport& report) {
         "error 5 %. A "
         "value is in when it lies inside of its limits by the guard band, and out when it lies "
         "beyond one by as "
-        "much. The bar spans the tolerance; the dot is the value, the line its U95." +
-        strips_text(report) + "</p>\n");
+        "much. The bar spans the tolerance; the dot is the value, the line its U95.</p>\n");
   }
   page.new_sheet();
   add_all_results(page, report);

@@ -170,7 +170,7 @@ def report(text, results):
             wrong.append(f"{defect}: {there} of {len(results[defect])} out at that place")
     text.add(
         "\nParts scanned with half the pixels of the digital rig (`simulate PART`), four rays a pixel, reconstructed and compared with the true "
-        f"surface: {', '.join(TURNED)} in setups of 8 views (`--setups {', '.join(TURNED.values())}`), the others, which look alike when "
+        f"surface: {', '.join(f'{part} (`--setups {setups}`)' for part, setups in TURNED.items())} in setups of 8 views, the others, which look alike when "
         "turned over, in one, with the base excluded; what lies below them is not measured. Strips along edges are not judged. T is that "
         "many times the median U95 of a vertex, which is the largest U95 that proves a patch in at T = 4 U. Coverage in brackets.\n"
     )
