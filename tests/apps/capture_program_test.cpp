@@ -162,7 +162,7 @@ TEST_F(CaptureProgram, CalibratesADisplayIntoACopyOfARigOfWhichOnlySizesAreKnown
   const std::string measured = path("display.toml");
   const Answer first = run_program("calibrate display " + path("maker.toml") + " -o " + measured);
   EXPECT_EQ(first.exit_code, 0) << first.output;
-  EXPECT_TRUE(holds(first, "frames are 1 late")) << first.output;
+  EXPECT_TRUE(holds(first, "frames are late by 1")) << first.output;
   EXPECT_TRUE(holds(first, "latency 30 ms: delay_s = 0.03")) << first.output;
   std::ifstream in(measured);
   const std::string text{std::istreambuf_iterator<char>(in), {}};

@@ -244,7 +244,7 @@ class Measurer {
       found_.skip_frames = *skipped + found_.late_frames;
       probe_.set_skipped(slowest.frames);
       found_.findings.push_back(
-          fmt::format("frames are {} late: the camera has them under way when it is asked; "
+          fmt::format("frames are late by {}: the camera has them under way when it is asked; "
                       "skip_frames drops them",
                       slowest.frames));
     }
