@@ -39,7 +39,8 @@ TEST(RefineScanRig, RestoresTheShapeOfABallBarAfterTheProjectorMoved) {
   const Reconstruction refined = reconstruct(scan, options);
   ASSERT_TRUE(refined.refinement);
   EXPECT_FALSE(refined.refinement->kept_rig) << refined.refinement->text();
-  EXPECT_GT(drifted_mm, 1.5 * exact_mm);
+  // Unasked, too: the views blame the rig.
+  EXPECT_LT(drifted_mm, 1.3 * exact_mm);
   EXPECT_LT(form_error_mm(refined.mesh), 1.3 * exact_mm) << drifted_mm;
   // The covariance of the refined rig enters the systematic part.
   EXPECT_GT(refined.sigma.systematic_mm, 0.0);

@@ -12,6 +12,7 @@
 #include "frangia/registration/explain/internal/scored_round.h"
 #include "frangia/registration/explain/internal/spread_of_causes.h"
 #include "frangia/registration/explain/internal/time_profiles.h"
+#include "frangia/registration/internal/assess_fit.h"
 #include "frangia/registration/refine_rig.h"
 
 namespace frangia {
@@ -35,11 +36,27 @@ PoseRound scored_as_placed(const Registration& work, const PoseChart& chart) {
   return round;
 }
 
-/// Whether there is a reason to ask what moved the views: some cause explains the pairs better than
-/// was to be expected of it, or the table does so by angles that were not.
-bool is_suspicious(const PoseRound& round) {
-  return is_beyond_prior(round) ||
-         std::any_of(round.causes.begin(), round.causes.end(), is_hinted_at);
+/// Whether the stated table leaves the views much farther apart than the refined one, which has not
+/// just slid along faces that do not hold it.
+bool contradicts_stated(const PoseRound& round, const Registration& work) {
+  constexpr double kMuch = 2.0;
+  Bundle bundle = round.bundle;
+  bundle.gate_mm = work.reach_mm;
+  const double refined_mm = rms_of(sum(bundle, work.surfels).distances_mm);
+  bundle.state = bundle.given;
+  return rms_of(sum(bundle, work.surfels).distances_mm) > kMuch * refined_mm;
+}
+
+/// Whether views that are moved by themselves fit noticeably better than the table places them, or
+/// the table does so only by changes that are not to be expected.
+bool is_suspicious(const PoseRound& round, const Registration& work) {
+  if (is_beyond_prior(round) && contradicts_stated(round, work)) return true;
+  const PosePosterior free =
+      round.posterior({PoseCause::Unexplained, {}, 0.001 * round.chart.setting.distance_mm, 0.0});
+  const double effect_mm = round.effect_mm(free.motion - round.stated());
+  // Poses do not explain a wrong rig: what pairs have in common here may be just that.
+  constexpr double kSystematic = 2.5;  // times the error that sound views have in common
+  return effect_mm > std::max(kSystematic * round.bundle.systematic_mm, round.noise.scatter_mm);
 }
 
 const ScoredCause& as_stated(const PoseRound& round) {
@@ -286,7 +303,7 @@ ExplainedPoses explain_poses(const Registration& work,
   const PoseChart chart = make_chart(
       work.bundle, work.surfels, work.bundle.state, times_of(work.stations), work.options);
   const PoseRound placed = scored_as_placed(work, chart);
-  if (!is_suspicious(placed)) {
+  if (!is_suspicious(placed, work)) {
     all.spread = spread_of_causes(placed, as_stated(placed), work).of_views();
     return all;
   }

@@ -141,11 +141,6 @@ void score(PoseRound& round) {
     round.motions.push_back(round.posterior(cause.best).motion);
 }
 
-bool is_hinted_at(const ScoredCause& cause) {
-  constexpr double kMore = 2.0;  // by 7 : 1
-  return cause.cause != PoseCause::AsStated && cause.log_odds > kFaultsAreRare + kMore;
-}
-
 double noticeable_mm(const PoseRound& round) {
   constexpr double kCommon = 2.5;  // times what pairs of two views still have in common
   return std::max(kCommon * round.noise.shared_mm, round.noise.scatter_mm);

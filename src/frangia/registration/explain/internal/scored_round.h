@@ -70,9 +70,6 @@ void weigh(PoseRound& round);
 /// Scores all hypotheses on the pairs of a round.
 void score(PoseRound& round);
 
-/// Whether the pairs make a fault more probable than it was before.
-[[nodiscard]] bool is_hinted_at(const ScoredCause& cause);
-
 /// The smallest effect that is explained: what the scatter of the pairs hides is not blamed, nor
 /// what surfaces of sound scans have in common.
 [[nodiscard]] double noticeable_mm(const PoseRound& round);

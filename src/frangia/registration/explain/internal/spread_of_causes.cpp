@@ -1,10 +1,9 @@
 #include "frangia/registration/explain/internal/spread_of_causes.h"
 
 #include <cmath>
+#include <utility>
 
 #include <Eigen/Cholesky>
-
-#include "frangia/core/symmetric_eigen.h"
 
 namespace frangia {
 namespace {
@@ -69,15 +68,6 @@ class ViewsAlone {
   Eigen::MatrixXd basis_;
 };
 
-/// Columns of which a covariance consists.
-Eigen::MatrixXd factor_of(const Eigen::MatrixXd& covariance) {
-  constexpr double kLeast = 1e-6;  // of the largest variance
-  const auto eigen = symmetric_eigen(covariance);
-  const double least = kLeast * eigen.values.maxCoeff();
-  const Eigen::Index kept = (eigen.values.array() > least).count();
-  return eigen.vectors.rightCols(kept) * eigen.values.tail(kept).cwiseSqrt().asDiagonal();
-}
-
 /// What two views have in common that the winner does not explain.
 double left_mm(const PoseRound& scored, const Eigen::VectorXd& motion) {
   NormalEquations plain = scored.evidence->data();
@@ -119,7 +109,7 @@ PoseSpread spread_of_causes(const PoseRound& scored,
   const Eigen::VectorXd own = scored.posterior(winner.best).motion;
   const auto views = static_cast<Eigen::Index>(6 * work.surfels.size());
   const ViewsAlone alone(scored, work);
-  Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(views, views);
+  Eigen::MatrixXd columns(views, 0);
   const double most = scored.causes.front().log_odds;
   double sum = 0.0;
   for (const ScoredCause& cause : scored.causes)
@@ -128,10 +118,12 @@ PoseSpread spread_of_causes(const PoseRound& scored,
   const auto add = [&](double probability, const CauseHypothesis& hypothesis) {
     if (probability < kLeast) return;
     const PosePosterior other = scored.posterior(hypothesis);
-    Eigen::MatrixXd changes(own.size(), other.factor.cols() + 1);
-    changes << other.factor, other.motion - own;
-    const Eigen::MatrixXd of_views = alone.of(changes);
-    covariance += probability * of_views * of_views.transpose();
+    // What axis and angles leave open by themselves is in sigma for every cause.
+    const Eigen::Index open = other.changes.size();
+    Eigen::MatrixXd changes(own.size(), open + 1);
+    changes << other.factor.rightCols(open), other.motion - own;
+    columns.conservativeResize(Eigen::NoChange, columns.cols() + open + 1);
+    columns.rightCols(open + 1) = std::sqrt(probability) * alone.of(changes);
   };
   for (const ScoredCause& cause : scored.causes) {
     double rest = probability_of(cause.log_odds);  // of its best hypothesis
@@ -142,7 +134,7 @@ PoseSpread spread_of_causes(const PoseRound& scored,
     }
     if (cause.cause != winner.cause) add(rest, cause.best);
   }
-  PoseSpread spread{factor_of(covariance)};
+  PoseSpread spread{std::move(columns)};
   const double shift_mm = left_mm(scored, own);
   if (!(shift_mm > scored.bundle.systematic_mm)) return spread;
   PoseSpread left{Eigen::MatrixXd::Zero(views, views / 2)};
