@@ -178,7 +178,8 @@ std::string template_of_files(const std::vector<std::string>& files,
     if (common) separator = first.substr(first.size() - 1);
   }
   if (prefixes.contains("")) refuse_names(names);
-  if (prefixes.size() == files.size() && files.size() > 2) {
+  // Patterns have several frames; where most names begin by themselves, it is a time that differs.
+  if (prefixes.size() > 2 && 2 * prefixes.size() > files.size()) {
     if (std::string timed = template_with_times(files); !timed.empty()) return timed;
   }
   return "{pattern}" + separator + end;
