@@ -6,6 +6,7 @@ import json
 import os
 import pathlib
 import random
+import shutil
 import subprocess
 import time
 import zlib
@@ -96,11 +97,13 @@ class Campaign:
         return [self.program, "--quiet", "scan", rig, "--views", self.views, "-o", scan]
 
     def digest(self, scan):
-        """A hash of all frames and of the mesh."""
-        mesh = scan.parent / "mesh.ply"
+        """A hash of all frames and of the mesh, for which the times of the frames do not count: they differ."""
+        mesh, timeless = scan.parent / "mesh.ply", scan.parent / "timeless"
+        shutil.copytree(scan, timeless, ignore=shutil.ignore_patterns("capture"))
         subprocess.run(
-            [self.program, "--quiet", "reconstruct", scan, "-o", mesh], check=True, stderr=subprocess.DEVNULL
+            [self.program, "--quiet", "reconstruct", timeless, "-o", mesh], check=True, stderr=subprocess.DEVNULL
         )
+        shutil.rmtree(timeless)
         found = hashlib.sha256(mesh.read_bytes())
         for frame in sorted(scan.rglob("*.png")):
             found.update(str(frame.relative_to(scan)).encode() + frame.read_bytes())
