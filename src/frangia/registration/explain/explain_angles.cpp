@@ -5,6 +5,7 @@
 #include <numeric>
 #include <utility>
 
+#include "frangia/core/median.h"
 #include "frangia/registration/explain/internal/describe_explanation.h"
 #include "frangia/registration/internal/assess_fit.h"
 
@@ -107,6 +108,16 @@ double refined_factor(const Registration& work, double factor) {
   return factor;
 }
 
+/// Median distance of the views about the stated axis. Angles that slid along faces of the part,
+/// which do not hold them, make it no smaller.
+float apart_mm(const Registration& work, const std::vector<double>& angles_rad) {
+  Bundle bundle = work.bundle;
+  bundle.gate_mm = work.reach_mm;
+  bundle.state = bundle.given;
+  bundle.state.angles_rad = angles_rad;
+  return median(sum(bundle, work.surfels).distances_mm);
+}
+
 PoseExplanation scaled_by(double factor) {
   PoseExplanation scale;
   scale.best = PoseCause::AnglesScaled;
@@ -127,6 +138,7 @@ ExplainedAngles worded(ExplainedAngles found, const Registration& work) {
 std::optional<ExplainedAngles> explain_angles(const Registration& work) {
   constexpr double kSuspicious = 0.03;  // fifteen times what edges and stray points cause
   constexpr double kRemaining = 0.3;    // of the violations, with the angles as they were
+  constexpr float kMuch = 2.0F;         // times as far apart by the commanded angles
   constexpr double kFewest = 0.5;       // of the surfels that agree with the commanded angles
   constexpr double kOpen = 0.3;         // of the reach: where the stated axis may place views
   constexpr std::size_t kFew = 500;     // surfels of a view
@@ -139,11 +151,15 @@ std::optional<ExplainedAngles> explain_angles(const Registration& work) {
     const auto share = share_of_angles(work.bundle);
     if (!share || std::abs(*share) > kMostWrong) return std::nullopt;
     const double factor = refined_factor(work, 1.0 + *share);
-    return worded({scaled(given, factor), scaled_by(factor)}, work);
+    const std::vector<double> turned = scaled(given, factor);
+    if (apart_mm(work, given) < kMuch * apart_mm(work, turned)) return std::nullopt;
+    return worded({turned, scaled_by(factor)}, work);
   }
   bundle.state = bundle.given;  // the refined axis is that of the wrong angles
   ExplainedAngles best{given, {}};
   double least = kRemaining * commanded.violation;
+  // The refined axis slid, where the stated one places the views with the angles as they are.
+  if (agreement_of(bundle, surfels, given).violation < least) return std::nullopt;
   const auto try_angles = [&](std::vector<double> angles_rad, const PoseExplanation& as) {
     const Agreement agreement = agreement_of(bundle, surfels, angles_rad);
     if (agreement.violation > least || agreement.surfels < kFewest * commanded.surfels) return;

@@ -183,7 +183,7 @@ PlacedViews placed_by(const Registration& work,
                       const TurntableStations& given,
                       const DriftModel& model,
                       Eigen::VectorXd rig_at) {
-  PlacedViews placed{std::move(rig_at), work.bundle};
+  PlacedViews placed{std::move(rig_at), work.bundle, {}};
   const Eigen::MatrixXd basis = basis_of_profiles(times_of(work.stations));
   displace_views(
       placed.bundle.maps, *given.rig, rigs_of_views(model, basis, placed.rig_at), *given.pattern);
@@ -315,7 +315,12 @@ ExplainedPoses explain_poses(const Registration& work,
   const ScoredCause winner = round.causes[first];
   PoseExplanation& explanation = all.explanation;
   measure(explanation, work, round, winner);
-  if (winner.cause == PoseCause::AsStated || explanation.effect_mm < noticeable_mm(round)) {
+  // Views that all move by themselves follow what their rims have in common, too.
+  constexpr double kEach = 1.5;
+  const bool each_moves =
+      winner.cause == PoseCause::Unexplained || winner.cause == PoseCause::Wobble;
+  const double least_mm = (each_moves ? kEach : 1.0) * noticeable_mm(round);
+  if (winner.cause == PoseCause::AsStated || explanation.effect_mm < least_mm) {
     explanation = {};
     all.spread = spread_of_causes(round, as_stated(round), work).of_views();
     return all;
