@@ -51,6 +51,10 @@ bool contradicts_stated(const PoseRound& round, const Registration& work) {
 /// the table does so only by changes that are not to be expected.
 bool is_suspicious(const PoseRound& round, const Registration& work) {
   if (is_beyond_prior(round) && contradicts_stated(round, work)) return true;
+  // A wrong rig bends what each view measures: an axis elsewhere brings the views near, but leaves
+  // more in common to a pair of them than sound ones have, up to 2.5 times at rims and by blur.
+  constexpr double kBent = 4.0;
+  if (round.noise.shared_mm > kBent * round.bundle.systematic_mm) return true;
   const PosePosterior free =
       round.posterior({PoseCause::Unexplained, {}, 0.001 * round.chart.setting.distance_mm, 0.0});
   const double effect_mm = round.effect_mm(free.motion - round.stated());
