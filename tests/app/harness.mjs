@@ -210,13 +210,16 @@ export async function look(page, folder, name) {
 export const stateOf = (page) =>
   page.evaluate(async () => (await fetch('/api/state', { headers: { Authorization: `Bearer ${sessionStorage.getItem('frangia-key')}` } })).json());
 
-/** Asks the server for its state until it is as wanted, and returns it. */
+/** Asks the server for its state, again whenever it sends the page a new one, until it is as wanted; returns it. */
 export async function waitForState(page, wanted) {
-  const end = Date.now() + PATIENCE;
   for (;;) {
+    // Noted before the question, so that no state is missed that comes meanwhile.
+    await page.evaluate(() => (window.stateSeen = document.querySelector('frangia-app')?.session.state));
     const state = await stateOf(page);
     if (wanted(state)) return state;
-    expect(Date.now() < end, `the state does not come: ${wanted}; the jobs are ${JSON.stringify(state.jobs)}`);
-    await page.waitForTimeout(50);
+    const next = page.waitForFunction(() => document.querySelector('frangia-app')?.session.state !== window.stateSeen, null, {
+      timeout: PATIENCE,
+    });
+    await next.catch(() => expect(false, `the state does not come: ${wanted}; the jobs are ${JSON.stringify(state.jobs)}`));
   }
 }
