@@ -153,7 +153,7 @@ TEST(SurfaceVerdict, CountsTheNominalAreaThatWasNotMeasured) {
   EXPECT_EQ(plate.verdict(rule).conformity, Conformity::Undecided);
 }
 
-/// Too wide a gap is told where enough of the area is measured well.
+/// A gap that is too wide is named also where enough of the area is measured well.
 TEST(SurfaceVerdict, NamesAGapThatIsTooWideAndNotMeasuredWellEnough) {
   Plate plate;
   for (std::size_t v = 0; v < plate.mesh().vertices_mm.size(); ++v)

@@ -214,7 +214,7 @@ std::vector<SurfacePlace> places_of(const SurfacePatches& patches,
                ? std::max(limits.lower - place.deviation_mm, place.deviation_mm - limits.upper)
                : 0.0;
   };
-  // What lacks a measurement is told by its size, whatever the measurement lacks.
+  // Places that lack a measurement are sorted by size, for whichever reason they lack it.
   const auto rank = [](PatchDecision decision) {
     return is_gap(decision) ? PatchDecision::NotWellMeasured : decision;
   };

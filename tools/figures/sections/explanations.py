@@ -268,10 +268,9 @@ def report(text, results):
     count = sum(len(one) for one in sound.values())
     blamed = sum(found["blamed"] for one in sound.values() for found in one)
     text.add(
-        f"\nOf {count} sound scans {blamed} are blamed for a fault at 100 : 1 or refused (wanted: at most 1 %). Error over sigma: the root "
-        "of the mean square, over all kept pixels, of the error of the phase over its combined standard uncertainty, the mean square "
-        f"over the scans of a cell (wanted: {WANTED[0]} to {WANTED[1]}); beside it the 95th percentile, and the median of what counts as "
-        "unexplained, rad:\n"
+        f"\nOf {count} sound scans {blamed} are blamed for a fault at 100 : 1 or refused (wanted: at most 1 %). A cell holds three "
+        f"numbers: the error of the phase over its combined sigma (RMS over all kept pixels and scans; wanted: {WANTED[0]} to {WANTED[1]}), "
+        "its 95th percentile, and the median phase error that is counted as unexplained, in rad:\n"
     )
     text.table("projector and light", *[f"{steps} steps" for steps in STEPS])
     for name in SOUND:

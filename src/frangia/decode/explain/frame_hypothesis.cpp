@@ -11,8 +11,8 @@
 namespace frangia {
 namespace {
 
-/// A lamp that stays on needs this many frames to be told from harmonics; a movement and uneven
-/// steps need one more to be told from a lost frame.
+/// Frames from which a lamp that stays on differs from harmonics. A movement and uneven steps
+/// differ from a lost frame with one more.
 constexpr std::size_t kMinFramesOfLamp = 5;
 
 FrameHypothesis as_described(const Pattern& pattern) {

@@ -15,12 +15,13 @@ struct BlurCorrection {
 
 /// Corrects a phase for the blur of its image.
 ///
-/// Where the brightness changes: the light of a blurred pixel does not come from
-/// its center, but on average from a place that lies s^2 grad(ln B) beside it, with s^2 the
-/// variance of the blur and B the modulation. Its phase is therefore off by s^2 grad(ln B) .
-/// grad(phase): exactly, for a normal blur and a phase that is linear over it. The slope of the
-/// phase is that of a plane through the neighbours on the same surface, without the error that is
-/// being corrected. Where the surface bends: the mean over the blur is not the phase of its center.
+/// Where the brightness changes, the centroid of the light of a blurred pixel is shifted from the
+/// center of the pixel by s^2 grad(ln B), with s^2 the variance of the blur and B the modulation.
+/// The phase is therefore off by s^2 grad(ln B) . grad(phase); this is exact for a normal blur and
+/// a phase that is linear over it. The gradient of the phase is that of a plane through the
+/// neighbours on the same surface, after a first correction. Where the surface is curved, the
+/// second derivatives of the phase add s^2 / 2 (tr H - s^2 k . H k), with k its gradient and H its
+/// Hessian.
 ///
 /// `modulation_counts` is that of the coarsest fringes of the same direction, which blur weakens
 /// least. What the correction may be off enters `systematic_rad`.
