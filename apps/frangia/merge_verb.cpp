@@ -37,14 +37,15 @@ struct MergeArguments {
 
 std::vector<RangeScan> read_all(const std::vector<std::filesystem::path>& paths,
                                 const ReadOptions& options,
-                                double unit_mm) {
+                                double unit_mm,
+                                const Run& run) {
   std::vector<RangeScan> scans;
   for (const auto& path : paths) {
     if (lowercase_extension(path) == ".conf") {
-      for (RangeScan& scan : read_posed_scans(path, options))
+      for (RangeScan& scan : read_posed_scans(path, options, run))
         scans.push_back(std::move(scan));
     } else {
-      scans.push_back(read_range_scan(path));
+      scans.push_back(read_range_scan(path, run, options));
     }
   }
   if (unit_mm != 1.0) {
@@ -142,7 +143,7 @@ void merge(MergeArguments& arguments, Terminal& terminal) {
   const Run run = terminal.run();
   run.stage("files");
   if (!arguments.poses.empty()) check_can_write(arguments.poses);
-  std::vector<RangeScan> scans = read_all(arguments.scans, arguments.read, arguments.unit_mm);
+  std::vector<RangeScan> scans = read_all(arguments.scans, arguments.read, arguments.unit_mm, run);
   warn_of_small_scans(scans, arguments.unit_mm, run);
   terminal.hold();
   const MergedScans result = merge_scans(scans, arguments.options, run);
@@ -173,8 +174,8 @@ void add_merge_verb(CLI::App& program, Terminal& terminal) {
       "  frangia merge front.ply back.ply side.ply --poses shape -o part.stl");
   verb->add_option("SCANS",
                    arguments->scans,
-                   "range scans as .ply, with faces, with Stanford's range grid, or as points seen "
-                   "along -z; or a .conf that lists scans with their poses")
+                   "range scans as meshes, with Stanford's range grid (.ply), or as points seen along "
+                   "-z, in any format that edit reads; or a .conf that lists scans with their poses")
       ->required();
   add_mesh_outputs(*verb, arguments->outputs);
   static const std::map<std::string, ScanPoses> kPoses = {

@@ -295,7 +295,7 @@ void bind_reconstruct(py::module_& module) {
         MergedScans merged = result_of(progress, [&](const Run& run) {
           std::vector<RangeScan> scans;
           for (const std::filesystem::path& path : paths)
-            scans.push_back(read_range_scan(path));
+            scans.push_back(read_range_scan(path, run));
           return merge_scans(scans, options, run);
         });
         std::vector<Eigen::Matrix4d> poses;

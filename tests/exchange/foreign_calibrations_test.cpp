@@ -105,6 +105,27 @@ TEST(ForeignCalibrations, AreReadAsPythonWritesThem) {
   expect_the_values(import_text(lines, "a.yaml"), lines);
 }
 
+TEST(ForeignCalibrations, AreReadInEachFormOfYaml) {
+  const std::string rows = yaml_of_rows(kUsualNames);
+  const auto with = [](std::string text, const std::string& from, const std::string& to) {
+    for (std::size_t at = text.find(from); at != std::string::npos;
+         at = text.find(from, at + to.size()))
+      text.replace(at, from.size(), to);
+    return text;
+  };
+  const std::string lines = with(with(with(rows, ": [[", ":\n- ["), "], [", "]\n- ["), "]]", "]");
+  for (const std::string& text : {lines,
+                                  with(lines, "\n- ", "\n  - "),
+                                  with(lines, "\n", "\r\n"),
+                                  with(rows, "\n", "\r"),
+                                  "\xEF\xBB\xBF" + rows,
+                                  "%YAML 1.2\n---\n# by hand\n" + rows + "...\n",
+                                  with(rows, "], [", "],\n  ["),
+                                  with(rows, "]]\n", "]]  # of [one] part\n"),
+                                  "\"camera_matrix\": " + rows.substr(rows.find("[["))})
+    expect_the_values(import_text(text, "a.yaml"), text);
+}
+
 TEST(ForeignCalibrations, AreReadUnderTheNamesOfManyPrograms) {
   for (const auto& names : std::vector<std::array<std::string, 6>>{
            {"K1", "D1", "K2", "D2", "R", "T"},
@@ -128,6 +149,14 @@ TEST(ForeignCalibrations, AreReadUnderTheNamesOfManyPrograms) {
                   "</Calibration>",
                   "a.xml"),
       "XML of texts");
+  expect_the_values(
+      import_text("<Scanner><Calibration><Rotation>1,0,0;0,1,0;0,0,1</Rotation>"
+                  "<Translation>-150, 3, 40</Translation><Projector><Matrix>2000, 0, 640; 0, 2003, "
+                  "700; 0, 0, 1</Matrix></Projector><Camera><Matrix>1400, 0, 640; 0, 1402, 512; 0, 0, "
+                  "1</Matrix><Distortion>-0.1, 0.05, 0, 0, 0</Distortion></Camera></Calibration>"
+                  "</Scanner>",
+                  "a.xml"),
+      "XML of texts with commas");
 }
 
 TEST(ForeignCalibrations, StateSizesAsOneValue) {
@@ -169,11 +198,32 @@ TEST(ForeignCalibrations, OfOtherLensModelsAreRefusedByTheirName) {
                            "camera_model: double_sphere",
                            "fisheye_model: 1",
                            "cam0:\n  camera_model: pinhole\n  distortion_model: equi",
-                           "projection_model: kannala_brandt"}) {
+                           "projection_model: kannala_brandt",
+                           "fisheye: true",
+                           "use_fisheye: \"True\"",
+                           "calibration: \"cv::fisheye\"",
+                           "lens_type: MEI"}) {
     const std::string error = import_text(text + line + "\n", "a.yaml").error;
     EXPECT_NE(error.find("a lens model that no rig can hold"), std::string::npos) << line << error;
   }
-  for (const char* line : {"distortion_model: plumb_bob", "fisheye_model: 0", "model: radtan"})
+  for (const char* json : {"{\"cams\": [{\"camera_type\": \"kb4\"}]}",
+                           "{\"fisheye\": true}",
+                           "{\"camera\": {\"model\": \"opencv_fisheye\"}}"}) {
+    const std::string error = import_text(json, "a.json").error;
+    EXPECT_NE(error.find("a lens model that no rig can hold"), std::string::npos) << json << error;
+  }
+  // As Kalibr writes it.
+  const std::string kalibr =
+      "cam0:\n  camera_model: pinhole\n  distortion_coeffs: [0.1, 0.2, 0.3,\n    0.4]\n"
+      "  distortion_model: equidistant\n  intrinsics: [1400, 1402, 640, 512]\ncam1:\n  T_cn_cnm1:\n"
+      "  - [1.0, 0.0, 0.0, -0.15]\n  - [0.0, 1.0, 0.0, 0.0]\n  camera_model: pinhole\n";
+  EXPECT_NE(import_text(kalibr, "a.yaml").error.find("cam0.distortion_model is equidistant"),
+            std::string::npos);
+  for (const char* line : {"distortion_model: plumb_bob",
+                           "fisheye_model: 0",
+                           "model: radtan",
+                           "camera_name: omnivision_fisheye",
+                           "fisheye: false"})
     expect_the_values(import_text(text + line + "\n", "a.yaml"), line);
 }
 
@@ -218,6 +268,9 @@ TEST(ForeignCalibrations, ThatNoDeviceHasAreNamed) {
             std::string::npos);
   EXPECT_NE(warnings(kRowsOfCamera, "[4, 0, 0, 0]", kRowsOfNoRotation, aside)
                 .find("more than a lens has"),
+            std::string::npos);
+  EXPECT_NE(warnings("[[1400, 0, 640], [0, 1402, 1100], [0, 0, 1]]", none, kRowsOfNoRotation, aside)
+                .find("the principal point of the camera"),
             std::string::npos);
   // A projector of diamond pixels.
   EXPECT_EQ(warnings("[[1400, 0, 640], [0, 2800, 512], [0, 0, 1]]", none, kRowsOfNoRotation, aside),

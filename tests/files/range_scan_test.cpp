@@ -1,4 +1,5 @@
 #include "frangia/files/range_scan.h"
+#include "frangia/files/read_mesh.h"
 
 #include <fstream>
 #include <string>
@@ -57,6 +58,14 @@ TEST(RangeScan, ReadsVerticesThatAreNotWholeAndRemarksInTheHeader) {
   const Mesh mesh = read_range_scan(folder.path() / "grid.ply").mesh;
   EXPECT_EQ(mesh.vertices_mm.size(), 4U);
   EXPECT_EQ(mesh.triangles.size(), 1U);
+}
+
+TEST(RangeScan, IsAMeshForEveryVerbAndOfAnyFormat) {
+  const TemporaryFolder folder;
+  write(folder.path() / "grid.ply", small_grid(3));
+  EXPECT_EQ(read_mesh(folder.path() / "grid.ply").triangles.size(), 6U);
+  write(folder.path() / "points.xyz", "0 0 1\n1 0 1\n0 1 1\n");
+  EXPECT_EQ(read_range_scan(folder.path() / "points.xyz").mesh.vertices_mm.size(), 3U);
 }
 
 TEST(RangeScan, RefusesAGridThatDoesNotMatchItsStatedSize) {

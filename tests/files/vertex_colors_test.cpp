@@ -160,7 +160,7 @@ TEST_F(VertexColors, OfOtherProgramsAreReadInTheirTypes) {
       put("float.ply",
           "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty "
           "float z\nproperty float red\nproperty float green\nproperty float blue\nend_header\n"
-          "1 2 3 1 0.5 7\n");
+          "1 2 3 1 0.5 1.01\n");
   EXPECT_EQ(read_mesh(at_float_ply).colors, (std::vector<VertexColor>{{255, 128, 255}}));
   const auto at_diffuse_ply =
       put("diffuse.ply",

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <string_view>
 
 #include <Eigen/Geometry>
 #include <fmt/format.h>
@@ -129,9 +130,10 @@ CameraModel imported_model_of(const ForeignLens& lens,
   const Eigen::Vector2d corner(model.width_px, model.height_px);
   const Eigen::Vector2d center = model.principal_point_px.cwiseQuotient(corner);
   // A projector's principal point may lie beyond its lower edge, since it projects upwards.
-  if (center.minCoeff() < -0.5 || center.maxCoeff() > 1.5) {
+  const double beyond = std::string_view(device) == "projector" ? 0.5 : 0.0;
+  if (center.minCoeff() < -beyond || center.maxCoeff() > 1.0 + beyond) {
     run.warn(
-        fmt::format("the principal point of the {}, ({:.0f}, {:.0f}) px, lies far outside its "
+        fmt::format("the principal point of the {}, ({:.0f}, {:.0f}) px, lies outside its "
                     "{} x {} pixels; check the size",
                     device,
                     model.principal_point_px.x(),

@@ -18,16 +18,6 @@ namespace {
 
 using Path = std::filesystem::path;
 
-/// Formats whose reader gives no warnings and whose writer has no options.
-template <Mesh (*Read)(const Path&), void (*Write)(const Path&, const Mesh&)>
-MeshFormat silent_format(const char* extension) {
-  return {extension,
-          [](const Path& path, const ReadOptions&, const Run&) { return Read(path); },
-          [](const Path& path, const Mesh& mesh, const WriteOptions&, const Run&) {
-            Write(path, mesh);
-          }};
-}
-
 /// A reader that may warn and whose files take memory in proportion to their size.
 template <Mesh (*Read)(const Path&, const Run&)>
 Mesh read_with_warnings(const Path& path, const ReadOptions& /*options*/, const Run& run) {
@@ -63,7 +53,7 @@ const std::vector<MeshFormat>& formats() {
          write_3mf(path, mesh, run);
        }},
       {".off", read_with_warnings<read_off>, write_silently<write_off>},
-      silent_format<read_xyz, write_xyz>(".xyz"),
+      {".xyz", read_with_warnings<read_xyz>, write_silently<write_xyz>},
       {".pcd", read_with_warnings<read_pcd>, write_silently<write_pcd>},
   };
   return kAll;

@@ -5,6 +5,7 @@
 
 #include <Eigen/Geometry>
 
+#include "frangia/core/run.h"
 #include "frangia/files/read_options.h"
 #include "frangia/geometry/mesh.h"
 
@@ -19,15 +20,18 @@ struct RangeScan {
   bool posed = false;  ///< whether a .conf file gave the pose
 };
 
-/// Reads a PLY with faces, with Stanford's `range_grid` (`obj_info num_cols` and `num_rows`), or
-/// with points alone. Neighbours in the grid are connected by triangles that face +z.
+/// Reads a scan as `read_mesh` does: triangles, Stanford's `range_grid` in a PLY (`obj_info
+/// num_cols` and `num_rows`), whose neighbours are connected by triangles that face +z, or points
+/// alone.
 ///
-/// @units    as in the file, assumed to be mm
+/// @units    as in the file, assumed to be mm where the format states none
 /// @missing  empty cells of the grid; no triangle has an edge longer than six times the median
-///          spacing of neighbours
-/// @errors   Error(Input) as read_ply, and when the grid does not match its stated size
+///           spacing of neighbours
+/// @errors   Error(Input) as read_mesh, and when the grid does not match its stated size
 /// @source   Stanford 3D Scanning Repository; Curless & Levoy 1996
-[[nodiscard]] RangeScan read_range_scan(const std::filesystem::path& path);
+[[nodiscard]] RangeScan read_range_scan(const std::filesystem::path& path,
+                                        const Run& run = {},
+                                        const ReadOptions& options = {});
 
 /// Reads the scans that a Stanford `.conf` file lists, with their poses: each line is `bmesh FILE
 /// tx ty tz qx qy qz qw`, whose quaternion is the conjugate of the scan's rotation.
@@ -36,7 +40,8 @@ struct RangeScan {
 /// @errors   Error(Input) that names the file and the line, or the memory that the scans need when
 ///          `options` allow less
 [[nodiscard]] std::vector<RangeScan> read_posed_scans(const std::filesystem::path& path,
-                                                      const ReadOptions& options = {});
+                                                      const ReadOptions& options = {},
+                                                      const Run& run = {});
 
 /// Scales a scan and the translation of its pose, as to convert metres to millimetres.
 void scale_range_scan(RangeScan& scan, double factor);

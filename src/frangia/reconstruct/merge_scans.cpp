@@ -117,6 +117,14 @@ MergedScans merge_scans(const std::vector<RangeScan>& scans,
   ScanQuality quality;
   std::vector<VirtualCamera> cameras;
   ScanViews all = resample_all(out, scans, quality, cameras, run);
+  constexpr std::size_t kFewest = 16;  // below, no window of a local fit is full
+  if (out.points < kFewest) {
+    throw Error(ErrorKind::Input,
+                fmt::format("{}: none of its {} points has enough neighbours to be part of a "
+                            "surface; give scans of some hundred points and more",
+                            scans.front().path.string(),
+                            scans.front().mesh.vertices_mm.size()));
+  }
   run.stage("views");
   register_scans(out, all, quality, options, run);
   for (std::size_t i = 0; i < scans.size(); ++i) {

@@ -1,6 +1,7 @@
 #include "frangia/exchange/internal/interpret_values.h"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cmath>
 #include <initializer_list>
@@ -180,7 +181,7 @@ std::vector<std::string> unknown_names(const NamedValues& values) {
 }
 
 /// A text in lower case, without underscores, hyphens and blanks.
-std::string plain_text(const std::string& text) {
+std::string letters_of(const std::string& text) {
   std::string plain;
   for (const char letter : text) {
     const auto code = static_cast<unsigned char>(letter);
@@ -262,6 +263,28 @@ ForeignLens toolbox_camera_of(const NamedValues& values, const std::string& side
   return lens;
 }
 
+/// Whether a text states a lens model that is not OpenCV's. Names, comments and files may hold the
+/// words of one; its short names count only where a model or type is stated.
+bool is_other_model(const std::string& key, const std::string& model) {
+  const auto is_in = [](const std::string& text, std::initializer_list<const char*> parts) {
+    return std::any_of(parts.begin(), parts.end(), [&](const char* part) {
+      return text.find(part) != std::string::npos;
+    });
+  };
+  if (is_in(key, {"name", "comment", "description", "note", "file", "path", "topic", "sensor"}))
+    return false;
+  if (key.find("fisheye") != std::string::npos)
+    return model == "true" || model == "yes" || model == "on" || model == "y";
+  if (is_in(model,
+            {"fisheye", "equidist", "kannala", "doublesphere", "omnidir", "scaramuzza", "ftheta"}))
+    return true;
+  if (!key.ends_with("model") && !key.ends_with("type") && !key.ends_with("projection"))
+    return false;
+  constexpr std::array kShort{"ds", "eucm", "ucm", "mei", "fov", "atan", "division", "kb", "ocam"};
+  return is_in(model, {"sphere", "omni", "unified", "equi", "kb4", "kb8"}) ||
+         std::find(kShort.begin(), kShort.end(), model) != kShort.end();
+}
+
 }  // namespace
 
 void check_lens_models(const NamedValues& values) {
@@ -273,21 +296,14 @@ void check_lens_models(const NamedValues& values) {
                             model));
   };
   for (const auto& [name, text] : values.texts) {
-    const std::string key = plain_text(name.substr(name.rfind('.') + 1));
-    const std::string model = plain_text(text);
-    const auto holds = [&](const char* part) { return model.find(part) != std::string::npos; };
-    if (!key.ends_with("model") && key != "type" && key != "projection") continue;
-    // Kalibr's and OpenCV's short names are whole words.
-    const bool other = holds("fisheye") || holds("equi") || holds("kannala") || holds("sphere") ||
-                       holds("omni") || holds("unified") || holds("ftheta") || model == "kb4" ||
-                       model == "ds" || model == "eucm" || model == "ucm" || model == "mei" ||
-                       model == "fov";
-    if (other) refuse(name, text);
+    const std::string key = letters_of(name.substr(name.rfind('.') + 1));
+    const std::string model = letters_of(text);
+    if (is_other_model(key, model)) refuse(name, text);
   }
   for (const auto& [name, matrix] : values.matrices) {
-    const std::string key = plain_text(name.substr(name.rfind('.') + 1));
+    const std::string key = letters_of(name.substr(name.rfind('.') + 1));
     const bool set = matrix.size() == 1 && matrix(0, 0) != 0.0;
-    if (set && (key == "fisheye" || key == "fisheyemodel")) refuse(name, "set");
+    if (set && key.find("fisheye") != std::string::npos) refuse(name, "set");
     if (key == "mappingcoefficients") refuse(name, "stated");  // MATLAB's fisheyeIntrinsics
   }
 }

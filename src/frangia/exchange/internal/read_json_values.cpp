@@ -5,6 +5,7 @@
 
 #include "frangia/core/check_nesting.h"
 #include "frangia/core/error.h"
+#include "frangia/core/plain_text.h"
 #include "frangia/core/read_text_file.h"
 #include "frangia/exchange/internal/named_values.h"
 
@@ -56,6 +57,12 @@ void collect_object(const json& object,
     check_count(values, file);
     if (value.is_string()) {
       values.texts.emplace(name, value.get<std::string>());
+    } else if (value.is_boolean()) {
+      values.texts.emplace(name, value.get<bool>() ? "true" : "false");
+    } else if (value.is_array() && !value.empty() && value.front().is_object()) {
+      for (std::size_t i = 0; i < value.size(); ++i)
+        if (value[i].is_object())
+          collect_object(value[i], fmt::format("{}.{}.", name, i), file, values);
     } else if (value.is_object()) {
       Eigen::MatrixXd matrix = opencv_matrix_of(value);
       if (matrix.size() > 0) {
@@ -73,7 +80,7 @@ void collect_object(const json& object,
 }  // namespace
 
 NamedValues read_json_values(const std::filesystem::path& file) {
-  const std::string text = read_text_file(file);
+  const std::string text = plain_text(read_text_file(file));
   check_json_nesting(text, file);
   const json document = json::parse(text, nullptr, /*allow_exceptions=*/false);
   if (!document.is_object()) {

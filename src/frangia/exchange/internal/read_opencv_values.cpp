@@ -9,9 +9,11 @@
 
 #include "frangia/core/check_nesting.h"
 #include "frangia/core/error.h"
+#include "frangia/core/plain_text.h"
 #include "frangia/core/read_text_file.h"
 #include "frangia/exchange/internal/named_values.h"
 #include "frangia/exchange/internal/read_opencv_xml.h"
+#include "frangia/exchange/internal/storage_yaml.h"
 
 namespace frangia {
 namespace {
@@ -49,53 +51,6 @@ void check_lines(std::string_view text, const std::filesystem::path& file) {
     }
     start = end + 1;
   }
-}
-
-/// The lists of numbers that PyYAML writes in lines of their own, "- - 1.0" for the first number of
-/// a row, as lists in brackets: FileStorage refuses them. Tabs become blanks.
-std::string with_bracketed_lists(std::string_view text) {
-  std::string result;
-  std::string list;  // of the lines before, without its last bracket
-  bool in_rows = false;
-  const auto end_list = [&] {
-    if (list.empty()) return;
-    const std::size_t key_end = result.find_last_not_of(" \n");
-    result.resize(key_end == std::string::npos ? 0 : key_end + 1);
-    result += " " + list + (in_rows ? "]]\n" : "]\n");
-    list.clear();
-    in_rows = false;
-  };
-  for (std::size_t start = 0; start < text.size();) {
-    const std::size_t end = std::min(text.find('\n', start), text.size());
-    std::string line(text.substr(start, end - start));
-    start = end + 1;
-    std::size_t content = line.find_first_not_of(" \t");
-    for (std::size_t i = 0; i < std::min(content, line.size()); ++i)
-      if (line[i] == '\t') line[i] = ' ';
-    content = std::min(content, line.size());
-    std::string_view item = std::string_view(line).substr(content);
-    while (!item.empty() && (item.back() == ' ' || item.back() == '\r'))
-      item.remove_suffix(1);
-    const bool begins_row = item.starts_with("- - ");
-    const std::string_view number = begins_row               ? item.substr(4)
-                                    : item.starts_with("- ") ? item.substr(2)
-                                                             : std::string_view();
-    constexpr std::string_view kNumber = "0123456789+-.eEnNaAiIfF";
-    if (number.empty() || number.find_first_not_of(kNumber) != std::string_view::npos) {
-      end_list();
-      result += line + "\n";
-      continue;
-    }
-    if (list.empty()) {
-      in_rows = begins_row;
-      list = begins_row ? "[[" : "[";
-    } else {
-      list += begins_row && in_rows ? "], [" : ", ";
-    }
-    list += number;
-  }
-  end_list();
-  return result;
 }
 
 Eigen::MatrixXd storage_matrix_of(const cv::FileNode& node);
@@ -173,9 +128,7 @@ std::string plain_fault(const std::string& what) {
 NamedValues read_opencv_yaml(std::string text, const std::filesystem::path& file) {
   check_json_nesting(text, file);
   check_lines(text, file);
-  text = with_bracketed_lists(text);
-  // FileStorage asks for the directive; ROS does not write it.
-  if (text.rfind("%YAML", 0) != 0) text.insert(0, "%YAML:1.0\n---\n");
+  text = storage_yaml(text);
   NamedValues values;
   const cv::FileStorage storage(
       text, cv::FileStorage::READ | cv::FileStorage::MEMORY | cv::FileStorage::FORMAT_YAML);
@@ -186,7 +139,7 @@ NamedValues read_opencv_yaml(std::string text, const std::filesystem::path& file
 }  // namespace
 
 NamedValues read_opencv_values(const std::filesystem::path& file) {
-  std::string text = read_text_file(file, kMaxStorageBytes);
+  std::string text = plain_text(read_text_file(file, kMaxStorageBytes));
   const std::size_t first = text.find_first_not_of(" \t\r\n\xEF\xBB\xBF");
   const bool is_xml = first != std::string::npos && text[first] == '<';
   try {

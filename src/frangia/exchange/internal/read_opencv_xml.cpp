@@ -20,13 +20,14 @@ constexpr std::size_t kMaxXmlDepth = 64;       // a calibration has four levels
 constexpr std::size_t kMaxXmlValues = 10'000;  // a calibration has twenty
 constexpr std::size_t kMaxXmlNumbers = 1000;   // of a matrix that is kept
 constexpr std::string_view kBlank = " \t\r\n";
+constexpr std::string_view kBetween = " \t\r\n,;";  // numbers
 
 /// The numbers of a text; nothing when it holds something else.
 std::optional<Eigen::MatrixXd> numbers_of(std::string_view text) {
   std::vector<double> numbers;
-  for (std::size_t at = text.find_first_not_of(kBlank); at != std::string_view::npos;
-       at = text.find_first_not_of(kBlank, at)) {
-    const std::string_view word = text.substr(at, text.find_first_of(kBlank, at) - at);
+  for (std::size_t at = text.find_first_not_of(kBetween); at != std::string_view::npos;
+       at = text.find_first_not_of(kBetween, at)) {
+    const std::string_view word = text.substr(at, text.find_first_of(kBetween, at) - at);
     double number = 0.0;
     const auto [end, fault] = std::from_chars(word.data(), word.data() + word.size(), number);
     if (fault != std::errc() || end != word.data() + word.size()) return std::nullopt;
@@ -94,11 +95,15 @@ class StorageElements {
   NamedValues values;
 
  private:
-  /// "Camera.Matrix" of <Calibration><Camera><Matrix>.
+  /// "Camera.Matrix" of <Calibration><Camera><Matrix>, whatever is around it.
   [[nodiscard]] std::string name_of_element() const {
-    const bool outer = path_.front() == "Camera" || path_.front() == "Projector";
+    std::size_t first = path_.size() == 1 ? 0 : 1;
+    for (std::size_t i = 0; i < path_.size(); ++i) {
+      if (path_[i] == "Camera" || path_[i] == "Projector") first = i;
+      if (path_[i] == "Calibration" && i + 1 < path_.size()) first = i + 1;
+    }
     std::string name;
-    for (std::size_t i = outer || path_.size() == 1 ? 0 : 1; i < path_.size(); ++i)
+    for (std::size_t i = first; i < path_.size(); ++i)
       name += (name.empty() ? "" : ".") + path_[i];
     return name.size() > kMaxNameBytes ? name.substr(0, kMaxNameBytes) : name;
   }

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <set>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -20,12 +21,10 @@ class BlockExpander {
                 const Run& run)
       : blocks_(blocks), path_(path), budget_(budget), run_(run) {}
 
-  Mesh expand(std::size_t& missing) {
+  DxfExpanded expand() {
     budget_.check(memory_of(""));
-    Mesh all;
-    add("", Eigen::Affine3d::Identity(), all);
-    missing = missing_;
-    return all;
+    add("", Eigen::Affine3d::Identity(), {});
+    return std::move(found_);
   }
 
  private:
@@ -44,9 +43,10 @@ class BlockExpander {
                       kMostNested));
     }
     constexpr double kPerInsert = 100.0;
-    const Mesh& mesh = block->second.mesh;
-    double bytes = mesh_memory_bytes(static_cast<double>(mesh.vertices_mm.size()),
-                                     static_cast<double>(mesh.triangles.size()));
+    double bytes = 0.0;
+    for (const Mesh* mesh : {&block->second.mesh, &block->second.on_layer_0})
+      bytes += mesh_memory_bytes(static_cast<double>(mesh->vertices_mm.size()),
+                                 static_cast<double>(mesh->triangles.size()));
     for (const DxfInsert& insert : block->second.inserts) {
       bytes += static_cast<double>(insert.columns) * static_cast<double>(insert.rows) *
                (kPerInsert + memory_of(insert.block));
@@ -56,28 +56,48 @@ class BlockExpander {
     return bytes;
   }
 
-  void add(const std::string& name, const Eigen::Affine3d& mm_from_block, Mesh& all) {
+  void add(const std::string& name,
+           const Eigen::Affine3d& mm_from_block,
+           const DxfLayerState& layer) {
     run_.check();
-    const auto block = blocks_.find(name);
-    if (block == blocks_.end()) {
-      ++missing_;
+    const auto found = blocks_.find(name);
+    if (found == blocks_.end()) {
+      ++found_.missing;
       return;
     }
-    if (!block->second.mesh.empty())
-      append_transformed(all, block->second.mesh, mm_from_block, path_);
-    for (const DxfInsert& insert : block->second.inserts) {
-      const auto inner = blocks_.find(insert.block);
-      const Eigen::Vector3d base_mm =
-          inner == blocks_.end() ? Eigen::Vector3d::Zero() : inner->second.base_mm;
-      for (std::int64_t row = 0; row < insert.rows; ++row) {
-        for (std::int64_t column = 0; column < insert.columns; ++column) {
-          const Eigen::Vector3d step = static_cast<double>(column) * insert.column_step_mm +
-                                       static_cast<double>(row) * insert.row_step_mm;
-          add(insert.block,
-              mm_from_block * Eigen::Translation3d(step) * insert.mm_from_block *
-                  Eigen::Translation3d(-base_mm),
-              all);
-        }
+    const DxfBlock& block = found->second;
+    if (!block.external.empty()) {
+      ++found_.externals[block.external];
+      return;
+    }
+    if (!block.mesh.empty()) append_transformed(found_.mesh, block.mesh, mm_from_block, path_);
+    if (layer.off || layer.frozen) {
+      found_.hidden += block.entities_on_layer_0;
+    } else if (!block.on_layer_0.empty()) {
+      append_transformed(found_.mesh, block.on_layer_0, mm_from_block, path_);
+    }
+    for (const DxfInsert& insert : block.inserts)
+      add_insert(insert, mm_from_block, insert.on_layer_0 ? layer : insert.layer);
+  }
+
+  void add_insert(const DxfInsert& insert,
+                  const Eigen::Affine3d& mm_from_block,
+                  const DxfLayerState& layer) {
+    if (layer.frozen) {
+      ++found_.hidden;
+      return;
+    }
+    const auto inner = blocks_.find(insert.block);
+    const Eigen::Vector3d base_mm =
+        inner == blocks_.end() ? Eigen::Vector3d::Zero() : inner->second.base_mm;
+    for (std::int64_t row = 0; row < insert.rows; ++row) {
+      for (std::int64_t column = 0; column < insert.columns; ++column) {
+        const Eigen::Vector3d step = static_cast<double>(column) * insert.column_step_mm +
+                                     static_cast<double>(row) * insert.row_step_mm;
+        add(insert.block,
+            mm_from_block * Eigen::Translation3d(step) * insert.mm_from_block *
+                Eigen::Translation3d(-base_mm),
+            layer);
       }
     }
   }
@@ -88,17 +108,16 @@ class BlockExpander {
   const Run& run_;
   std::map<std::string, double> memory_;
   std::set<std::string> open_;
-  std::size_t missing_ = 0;
+  DxfExpanded found_;
 };
 
 }  // namespace
 
-Mesh expand_blocks(const DxfBlocks& blocks,
-                   const std::filesystem::path& path,
-                   const MemoryBudget& budget,
-                   const Run& run,
-                   std::size_t& missing) {
-  return BlockExpander(blocks, path, budget, run).expand(missing);
+DxfExpanded expand_blocks(const DxfBlocks& blocks,
+                          const std::filesystem::path& path,
+                          const MemoryBudget& budget,
+                          const Run& run) {
+  return BlockExpander(blocks, path, budget, run).expand();
 }
 
 Eigen::Matrix3d axes_of_extrusion(const Eigen::Vector3d& direction) {

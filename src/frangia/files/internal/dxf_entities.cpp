@@ -52,23 +52,34 @@ std::string lower_case(std::string_view name) {
 }  // namespace
 
 void DxfEntities::open_content(const std::string& name) {
-  content_ = &contents_.try_emplace(name, Content{DxfTriangles(groups_, odd_)}).first->second;
+  content_ =
+      &contents_
+           .try_emplace(name, Content{DxfTriangles(groups_, odd_), DxfTriangles(groups_, odd_)})
+           .first->second;
+  in_block_ = !name.empty();
+  in_paper_block_ = name.starts_with("*paper_space");
 }
 
-void DxfEntities::hide_layer(const std::string& name) {
-  hidden_layers_.insert(lower_case(name));
+void DxfEntities::hide_layer(const std::string& name, const DxfLayerState& state) {
+  hidden_layers_[lower_case(name)] = state;
 }
 
 bool DxfEntities::begin_block() {
   std::string name;
   std::array<Vector3d, 1> base{Vector3d::Zero()};
+  constexpr std::int64_t kExternal = 4 | 8;
+  std::int64_t flags = 0;
+  std::string other_drawing;
   bool more = false;
   while ((more = groups_.next()) && groups_.code() != 0) {
     if (groups_.code() == 2) name = lower_case(groups_.value());
+    if (groups_.code() == 1) other_drawing = in_quotes(groups_.value());
+    if (groups_.code() == 70) flags = groups_.integer();
     read_coordinate(groups_, base);
   }
   if (name.empty()) groups_.fail("the block above has no name");
   open_content(name);
+  if ((flags & kExternal) != 0) content_->external = other_drawing.empty() ? name : other_drawing;
   content_->base = base[0];
   return more;
 }
@@ -98,9 +109,13 @@ bool DxfEntities::read_insert() {
   if (insert.columns < 0 || insert.rows < 0 || insert.columns > kMostCopies ||
       insert.rows > kMostCopies)
     groups_.fail("the INSERT above has a number of rows or columns that is not valid");
+  const DxfLayerState layer = place.layer;
   insert.columns = std::max<std::int64_t>(insert.columns, 1);
   insert.rows = std::max<std::int64_t>(insert.rows, 1);
+  place.layer.off = false;  // what is inside decides, see expand_blocks
   if (!is_shown(place)) return more;
+  insert.layer = layer;
+  insert.on_layer_0 = place.on_layer_0;
   const Eigen::Matrix3d axes =
       axes_of_extrusion(extrusion) * Eigen::AngleAxisd(turn_deg * kPi / 180.0, Vector3d::UnitZ());
   insert.mm_from_block.linear() = axes * scale.asDiagonal();
@@ -116,6 +131,9 @@ DxfBlocks DxfEntities::release_blocks(double mm_per_unit) {
   for (auto& [name, content] : contents_) {
     DxfBlock& block = blocks[name];
     block.mesh = content.triangles.release_mesh(mm_per_unit);
+    block.on_layer_0 = content.on_layer_0.release_mesh(mm_per_unit);
+    block.entities_on_layer_0 = content.entities_on_layer_0;
+    block.external = content.external;
     block.base_mm = mm_per_unit * content.base;
     block.inserts = std::move(content.inserts);
     for (DxfInsert& insert : block.inserts) {
@@ -153,23 +171,43 @@ std::string DxfEntities::left_out() const {
   };
   add(hidden_, "layers that are off or frozen");
   add(in_paper_space_, "paper space");
+  if (invisible_ > 0)
+    text += fmt::format("{}{} mesh{} that {} invisible",
+                        text.empty() ? "" : ", ",
+                        invisible_,
+                        invisible_ == 1 ? "" : "es",
+                        invisible_ == 1 ? "is" : "are");
   return text;
 }
 
 void DxfEntities::take_place(Place& place) const {
   if (groups_.code() == 67) place.is_in_paper_space = groups_.integer() != 0;
+  if (groups_.code() == 60) place.is_invisible = groups_.integer() != 0;
   if (groups_.code() != 8) return;
   place.mark = mark_of_layer(groups_.value());
-  place.is_on_hidden_layer = hidden_layers_.contains(lower_case(groups_.value()));
+  place.on_layer_0 = in_block_ && groups_.value() == "0";
+  const auto hidden = hidden_layers_.find(lower_case(groups_.value()));
+  const bool is_hidden = hidden != hidden_layers_.end() && !place.on_layer_0;
+  place.layer = is_hidden ? hidden->second : DxfLayerState{};
 }
 
 bool DxfEntities::is_shown(const Place& place) {
-  if (place.is_on_hidden_layer) {
-    ++hidden_;
-  } else if (place.is_in_paper_space) {
+  const bool is_hidden = place.layer.off || place.layer.frozen;
+  const bool is_in_paper_space = place.is_in_paper_space || in_paper_block_;
+  if (is_in_paper_space) {
     ++in_paper_space_;
+  } else if (is_hidden) {
+    ++hidden_;
+  } else if (place.is_invisible) {
+    ++invisible_;
   }
-  return !place.is_on_hidden_layer && !place.is_in_paper_space;
+  return !is_hidden && !is_in_paper_space && !place.is_invisible;
+}
+
+DxfTriangles& DxfEntities::triangles_of(const Place& place) {
+  if (!place.on_layer_0) return content_->triangles;
+  ++content_->entities_on_layer_0;
+  return content_->on_layer_0;
 }
 
 bool DxfEntities::to_next_entity() {
@@ -198,7 +236,7 @@ bool DxfEntities::read_face() {
   if (!is_shown(place)) return more;
   constexpr std::array<std::size_t, 4> kAll{0, 1, 2, 3};
   const bool is_quad = has_fourth && corners[3] != corners[2] && corners[3] != corners[0];
-  content_->triangles.add_polygon(
+  triangles_of(place).add_polygon(
       {corners.begin(), corners.end()}, std::span(kAll).first(is_quad ? 4 : 3), place.mark);
   return more;
 }
@@ -219,9 +257,9 @@ bool DxfEntities::read_polyline() {
   const bool is_mesh = (line.flags & (kPolyface | kPolygonMesh)) != 0;
   if (is_mesh && !is_shown(place)) return more;
   if ((line.flags & kPolyface) != 0) {
-    content_->triangles.add_polyface(line);
+    triangles_of(place).add_polyface(line);
   } else if ((line.flags & kPolygonMesh) != 0 && (line.flags & kSplineFit) == 0) {
-    content_->triangles.add_grid(line);
+    triangles_of(place).add_grid(line);
   } else {
     skip((line.flags & kPolygonMesh) != 0 ? "smoothed POLYLINE" : "POLYLINE");
   }
@@ -270,7 +308,7 @@ bool DxfEntities::read_mesh_entity() {
   }
   if (!is_shown(place)) return more;
   if (is_cage) ++cages_;
-  content_->triangles.add_faces(vertices, list, place.mark);
+  triangles_of(place).add_faces(vertices, list, place.mark);
   return more;
 }
 

@@ -2,7 +2,6 @@
 
 #include <cstddef>
 #include <map>
-#include <set>
 #include <string>
 #include <vector>
 
@@ -28,7 +27,9 @@ class DxfEntities {
   bool begin_block();
   void end_block() { open_content(""); }
   /// Leaves out what is on a layer from now on.
-  void hide_layer(const std::string& name);
+  void hide_layer(const std::string& name, const DxfLayerState& state);
+  /// Counts meshes that blocks hide when they are expanded.
+  void count_hidden(std::size_t meshes) { hidden_ += meshes; }
   /// The meshes that a drawing does not show: "2 entities of layers that are off or frozen, 1 of
   /// paper space"; empty when there is none.
   [[nodiscard]] std::string left_out() const;
@@ -45,18 +46,25 @@ class DxfEntities {
   /// Where an entity belongs.
   struct Place {
     Mark mark = Mark::Measured;
-    bool is_on_hidden_layer = false;
+    DxfLayerState layer;
     bool is_in_paper_space = false;
+    bool is_invisible = false;
+    bool on_layer_0 = false;  ///< of a block
   };
   /// Takes the layer and the space of an entity from the present group.
   void take_place(Place& place) const;
   /// Whether an entity is part of the model; counts one that is not.
   bool is_shown(const Place& place);
+  /// Where an entity's triangles belong.
+  DxfTriangles& triangles_of(const Place& place);
   /// What a block, or the drawing, holds so far, in its units.
   struct Content {
     DxfTriangles triangles;
+    DxfTriangles on_layer_0;
+    std::size_t entities_on_layer_0 = 0;
+    std::string external{};
     Eigen::Vector3d base = Eigen::Vector3d::Zero();
-    std::vector<DxfInsert> inserts;
+    std::vector<DxfInsert> inserts{};
   };
   void open_content(const std::string& name);
   bool read_insert();
@@ -72,8 +80,11 @@ class DxfEntities {
   std::map<std::string, Content> contents_;  ///< by the name of the block; "": the drawing
   Content* content_ = nullptr;               ///< that entities belong to
   std::map<std::string, std::size_t> skipped_;
-  std::set<std::string> hidden_layers_;
+  bool in_block_ = false;
+  bool in_paper_block_ = false;  ///< of another layout
+  std::map<std::string, DxfLayerState> hidden_layers_;
   std::size_t hidden_ = 0;
+  std::size_t invisible_ = 0;
   std::size_t in_paper_space_ = 0;
   std::size_t cages_ = 0;
 };

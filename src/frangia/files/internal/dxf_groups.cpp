@@ -1,6 +1,7 @@
 #include "frangia/files/internal/dxf_groups.h"
 
 #include <charconv>
+#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
@@ -49,13 +50,9 @@ bool DxfGroups::next() {
 }
 
 double DxfGroups::real() const {
-  double number = 0.0;
-  const std::string_view digits = value_.substr(value_.substr(0, 1) == "+" ? 1 : 0);
-  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), number);
-  if (error != std::errc() || end != digits.data() + digits.size()) {
-    fail(fmt::format("{} is not a number", in_quotes(value_)));
-  }
-  return number;
+  const std::optional<double> number = parse_double(value_);
+  if (!number) fail(fmt::format("{} is not a number", in_quotes(value_)));
+  return *number;
 }
 
 std::int64_t DxfGroups::integer() const {

@@ -9,17 +9,16 @@
 namespace frangia {
 
 /// Reads the triangles of a glTF 2.0 scene, each transformed by its nodes: a .glb, or a .gltf with
-/// its buffers embedded or in files of the same folder.
+/// its buffers embedded or in files of the same folder or below.
 ///
 /// @shape    normals are read when every primitive has them, and the attributes _SIGMA_MM, _VIEWS
 ///          and _MARK that write_gltf writes; marks of triangles follow from the names of materials
 /// @units    metres with y up are converted to mm with z up
-/// @missing  points, lines, skins and morph targets are skipped; points and lines with a warning
-///          through `run`
+/// @missing  points, lines, skins and morph targets are skipped with a warning through `run`
 /// @errors   Error(Input) that names the file and the fault: invalid JSON, lengths and counts
 ///          larger than the file, a vertex index out of range, a cycle of nodes, a buffer
-///          elsewhere, sparse or compressed data, triangle strips, parts that repeat beyond the
-///          allowed memory
+///          elsewhere, compressed data, a required extension that is not known, parts that repeat
+///          beyond the allowed memory
 /// @source   Khronos Group, glTF 2.0 specification
 [[nodiscard]] Mesh read_gltf(const std::filesystem::path& path,
                              const ReadOptions& options = {},

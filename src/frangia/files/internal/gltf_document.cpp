@@ -1,5 +1,7 @@
 #include "frangia/files/internal/gltf_document.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <optional>
@@ -13,6 +15,7 @@
 #include "frangia/files/internal/base64.h"
 #include "frangia/files/internal/read_bytes.h"
 #include "frangia/files/internal/text_reader.h"
+#include "frangia/files/internal/without_percent.h"
 
 namespace frangia {
 namespace {
@@ -52,12 +55,15 @@ std::pair<std::string_view, std::string_view> chunks_of(const GltfDocument& docu
 }
 
 std::string outside_buffer(const GltfDocument& document, const std::string& uri) {
-  const std::filesystem::path name(uri);
-  const bool in_folder = !uri.empty() && name.filename() == name && uri != ".." &&
-                         uri.find(':') == std::string::npos && uri.find('%') == std::string::npos;
+  const std::filesystem::path name =
+      std::filesystem::path(without_percent(uri)).lexically_normal();
+  const bool in_folder = !uri.empty() && name.is_relative() && name.has_filename() &&
+                         *name.begin() != ".." && uri.find(':') == std::string::npos &&
+                         name.native().find('\0') == std::string::npos;
   if (!in_folder) {
-    document.fail(fmt::format("its buffer {} is not a file in the same folder; export it as .glb",
-                              in_quotes(uri)));
+    document.fail(
+        fmt::format("its buffer {} is not a file in the same folder or below; export it as .glb",
+                    in_quotes(uri)));
   }
   return read_bytes(document.path.parent_path() / name);
 }
@@ -90,6 +96,37 @@ std::string_view buffer_of(GltfDocument& document, const json& buffer, std::stri
         "a buffer of {} bytes holds only {}; the file is truncated", length, bytes.size()));
   }
   return bytes.substr(0, length);
+}
+
+/// Refuses a document that requires an extension without which its triangles are not right. Those
+/// of materials, textures and lights do not change them.
+void check_extensions(const GltfDocument& document) {
+  const auto required = document.json.find("extensionsRequired");
+  if (required == document.json.end() || !required->is_array()) return;
+  constexpr std::array<std::string_view, 9> kHarmless{"KHR_materials_",
+                                                      "EXT_materials_",
+                                                      "KHR_texture_",
+                                                      "EXT_texture_",
+                                                      "MSFT_texture_",
+                                                      "KHR_lights_",
+                                                      "KHR_xmp",
+                                                      "KHR_mesh_quantization",
+                                                      "EXT_mesh_gpu_instancing"};
+  for (const auto& entry : *required) {
+    std::string name = entry.is_string() ? entry.get<std::string>() : entry.dump();
+    const bool known = std::any_of(kHarmless.begin(), kHarmless.end(), [&](std::string_view begin) {
+      return std::string_view(name).starts_with(begin);
+    });
+    if (known) continue;
+    constexpr std::size_t kMostLetters = 80;
+    name.resize(std::min(name.size(), kMostLetters));
+    std::replace_if(
+        name.begin(), name.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
+    const bool is_compressed = name.find("compression") != std::string::npos;
+    document.fail(fmt::format("it requires the extension {}, which is not read; export it {}",
+                              name,
+                              is_compressed ? "without compression" : "without it"));
+  }
 }
 
 }  // namespace
@@ -146,8 +183,10 @@ void read_gltf_document(const std::filesystem::path& path, GltfDocument& documen
   std::string_view binary;
   if (text.starts_with("glTF")) std::tie(text, binary) = chunks_of(document, document.bytes);
   check_json_nesting(text, path);
+  if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
   document.json = nlohmann::json::parse(text, nullptr, false);
   if (!document.json.is_object()) document.fail("its JSON is invalid; export it again");
+  check_extensions(document);
   if (const auto found = document.json.find("buffers"); found != document.json.end()) {
     for (const auto& buffer : *found)
       document.buffers.push_back(buffer_of(document, buffer, binary));

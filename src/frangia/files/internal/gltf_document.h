@@ -18,6 +18,7 @@ struct GltfNumbers {
   std::uint64_t stride = 0;  ///< from one element to the next, bytes
   std::uint64_t type = 0;    ///< of a component, as the file states it
   double unit = 1.0;         ///< divisor of the stored numbers
+  const nlohmann::json* sparse = nullptr;  ///< what replaces single elements, or null
 };
 
 /// The JSON of a glTF file and its buffers, in memory.
@@ -45,13 +46,25 @@ struct GltfDocument {
   [[nodiscard]] std::size_t width_of(std::uint64_t accessor) const;
   /// Where the numbers of an accessor with `width` components per element are.
   ///
-  /// @errors   Error(Input) for an accessor that does not exist, has another width, is sparse, or
-  ///          exceeds its buffer
+  /// @missing  `bytes` are empty where a sparse accessor begins as zeros
+  /// @errors   Error(Input) for an accessor that does not exist, has another width, is compressed,
+  ///          or exceeds its buffer
   [[nodiscard]] GltfNumbers locate(std::uint64_t accessor, std::size_t width) const;
   /// The numbers of an accessor with `width` components per element.
   ///
   /// @errors   Error(Input) as `locate`
   [[nodiscard]] std::vector<double> numbers(std::uint64_t accessor, std::size_t width) const;
+  /// The bytes of the view that an accessor names, from its offset on, and their stride.
+  ///
+  /// @errors   Error(Input) unless they hold `count` elements
+  [[nodiscard]] std::string_view bytes_of_view(const nlohmann::json& reference,
+                                               std::uint64_t count,
+                                               std::uint64_t element_bytes,
+                                               std::uint64_t& stride) const;
+  /// Sets the elements that a sparse accessor replaces.
+  void replace_sparse(const GltfNumbers& place,
+                      std::size_t width,
+                      std::vector<double>& numbers) const;
 
   /// Element `index` of a list of the document.
   ///
@@ -75,7 +88,7 @@ struct GltfDocument {
 /// Reads a .gltf or .glb with all of its buffers. A file that several buffers name is read once.
 ///
 /// @errors   Error(Input) that names the file: invalid JSON, chunks or buffers that are truncated,
-///          a buffer that is neither embedded nor a file in the same folder
+///          a buffer that is neither embedded nor a file below the same folder
 void read_gltf_document(const std::filesystem::path& path, GltfDocument& document);
 
 }  // namespace frangia

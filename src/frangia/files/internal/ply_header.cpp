@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <string>
 #include <utility>
 
 #include <fmt/format.h>
@@ -73,11 +74,30 @@ PlyProperty read_property(TextReader& reader) {
   return property;
 }
 
-/// Whether a line without a keyword may be passed over: a blank one, or text before the first
-/// element, as comments of several lines leave it. Further on it may be a property.
-bool is_remark(const TextReader& reader, const PlyHeader& header, std::string_view keyword) {
-  if (reader.bytes_left() == 0) return false;
-  return keyword.empty() || (header.elements.empty() && keyword != "property");
+bool is_type(std::string_view word) {
+  return word == "list" || std::any_of(kTypes.begin(), kTypes.end(), [&](const auto& entry) {
+           return entry.first == word;
+         });
+}
+
+/// Whether a line without a keyword may be passed over: a blank one, or text as comments of several
+/// lines leave it. Behind an element, a misspelt property or element has a type or a count in its
+/// place, which a remark has not.
+bool is_remark(TextReader reader, const PlyHeader& header, std::string_view keyword) {
+  if (reader.bytes_left() == 0 || keyword == "property") return false;
+  if (keyword.empty() || header.elements.empty()) return true;
+  const std::string_view second = reader.word_on_line();
+  const std::string_view third = reader.word_on_line();
+  return !second.empty() && !is_type(second) && !parse_integer(third);
+}
+
+/// The header as lines that end with LF: old Macs end them with CR, also before binary data.
+std::string header_of(std::string_view bytes) {
+  constexpr std::string_view kEnd = "end_header";
+  const std::size_t end = bytes.find(kEnd);
+  std::string header(bytes.substr(0, end == std::string_view::npos ? end : end + kEnd.size() + 1));
+  if (header.find('\n') == std::string::npos) std::replace(header.begin(), header.end(), '\r', '\n');
+  return header;
 }
 
 }  // namespace
@@ -88,7 +108,10 @@ std::size_t bytes_of(PlyType type) {
 }
 
 PlyHeader parse_ply_header(const std::filesystem::path& path, std::string_view bytes) {
-  TextReader reader(path, bytes);
+  const std::size_t mark = bytes.starts_with("\xEF\xBB\xBF") ? 3 : 0;
+  const std::string lines = header_of(bytes.substr(mark));
+  const bool old_mac = lines.find('\n') != std::string::npos && bytes.find('\n') > lines.size();
+  TextReader reader(path, old_mac ? std::string_view(lines) : bytes.substr(mark));
   if (reader.word_on_line() != "ply")
     reader.fail("not a PLY file: it does not begin with the word ply");
   PlyHeader header;
@@ -111,7 +134,7 @@ PlyHeader parse_ply_header(const std::filesystem::path& path, std::string_view b
   }
   if (!has_format) reader.fail("the header states no format");
   reader.skip_line();
-  header.body = reader.position();
+  header.body = mark + reader.position();
   return header;
 }
 

@@ -13,6 +13,7 @@
 #include "frangia/files/internal/text_reader.h"
 #include "frangia/files/internal/three_mf.h"
 #include "frangia/files/internal/three_mf_model.h"
+#include "frangia/files/internal/without_percent.h"
 #include "frangia/files/internal/zip_file.h"
 
 namespace frangia {
@@ -53,7 +54,7 @@ void read_part(const ZipReader& zip,
     const double collected = model.collected_bytes();
     budget.check(collected, before + (collected - before) / done);
   };
-  if (!zip.read(name, feed)) {
+  if (!zip.read(name, feed) && !zip.read(without_percent(name), feed)) {
     throw Error(ErrorKind::Input,
                 fmt::format("not a 3MF package: it has no model {}", in_quotes(name)));
   }
@@ -81,7 +82,15 @@ Mesh read_package(const std::filesystem::path& path, const ReadOptions& options,
     for (const std::string& name : model.parts())
       if (known.insert(name).second) open.push_back(name);
   }
-  return model.build(path, budget);
+  ThreeMfModel::Built built = model.build(path, budget);
+  if (built.left_out > 0) {
+    run.warn(fmt::format("{}: left out {} object{} that {} no part: supports, or modifiers of a slicer",
+                         path.string(),
+                         built.left_out,
+                         built.left_out == 1 ? "" : "s",
+                         built.left_out == 1 ? "is" : "are"));
+  }
+  return std::move(built.mesh);
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -11,6 +12,7 @@
 #include "frangia/files/internal/check_mesh.h"
 #include "frangia/files/internal/dxf_entities.h"
 #include "frangia/files/internal/dxf_groups.h"
+#include "frangia/core/plain_text.h"
 #include "frangia/files/internal/read_bytes.h"
 
 namespace frangia {
@@ -118,6 +120,7 @@ class DxfReader {
     const std::string left_out = entities_.left_out();
     if (!left_out.empty()) run.warn(fmt::format("{}: left out {}", path.string(), left_out));
   }
+  void count_hidden(std::size_t meshes) { entities_.count_hidden(meshes); }
   [[nodiscard]] std::string left_out() const { return entities_.left_out(); }
 
  private:
@@ -132,14 +135,14 @@ class DxfReader {
   /// switches it off.
   bool read_layer() {
     std::string name;
-    bool hidden = false;
+    DxfLayerState state;
     bool more = false;
     while ((more = groups_.next()) && groups_.code() != 0) {
       if (groups_.code() == 2) name = groups_.value();
-      if (groups_.code() == 70) hidden = hidden || (groups_.integer() & 1) != 0;
-      if (groups_.code() == 62) hidden = hidden || groups_.integer() < 0;
+      if (groups_.code() == 70) state.frozen = (groups_.integer() & 1) != 0;
+      if (groups_.code() == 62) state.off = groups_.integer() < 0;
     }
-    if (hidden) entities_.hide_layer(name);
+    if (state.off || state.frozen) entities_.hide_layer(name, state);
     return more;
   }
 
@@ -156,18 +159,20 @@ class DxfReader {
 }  // namespace
 
 Mesh read_dxf(const std::filesystem::path& path, const Run& run, const ReadOptions& options) {
-  const std::string text = read_bytes(path);
-  if (text.starts_with("AutoCAD Binary DXF")) {
+  std::string bytes = read_bytes(path);
+  if (bytes.starts_with("AutoCAD Binary DXF")) {
     throw Error(
         ErrorKind::Input,
         fmt::format("{}: this is a binary DXF; save it as text (ASCII) DXF", path.string()));
   }
+  const std::string text = plain_text(std::move(bytes));
   DxfReader reader(path, text);
   reader.read();
   const std::string skipped = reader.skipped();
   const MemoryBudget budget(path, text.size(), options.allow_memory_bytes);
-  std::size_t missing = 0;
-  Mesh mesh = expand_blocks(reader.release_blocks(), path, budget, run, missing);
+  DxfExpanded expanded = expand_blocks(reader.release_blocks(), path, budget, run);
+  Mesh mesh = std::move(expanded.mesh);
+  reader.count_hidden(expanded.hidden);
   check_mesh(mesh, path);
   if (mesh.empty()) {
     const std::string left_out = reader.left_out();
@@ -188,9 +193,16 @@ Mesh read_dxf(const std::filesystem::path& path, const Run& run, const ReadOptio
                             mesh.triangles.size() == 1 ? "" : "s"));
   }
   reader.warn(path, run);
-  if (missing > 0) {
-    run.warn(fmt::format(
-        "{}: left out {} INSERT of blocks that the file does not hold", path.string(), missing));
+  if (expanded.missing > 0) {
+    run.warn(fmt::format("{}: left out {} INSERT of blocks that the file does not hold",
+                         path.string(),
+                         expanded.missing));
+  }
+  for (const auto& [other, count] : expanded.externals) {
+    run.warn(fmt::format("{}: left out {} INSERT of the external drawing {}; bind it and save again",
+                         path.string(),
+                         count,
+                         other));
   }
   if (!skipped.empty()) {
     run.warn(fmt::format("{}: skipped {}, which are not meshes", path.string(), skipped));

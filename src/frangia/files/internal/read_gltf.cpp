@@ -92,6 +92,12 @@ class GltfReader {
                             skipped_,
                             skipped_ == 1 ? "" : "s"));
     }
+    if (skinned_ + morphed_ > 0) {
+      run_.warn(fmt::format("{}: {} mesh{} read at rest, without the pose of a skeleton or shape key",
+                            document_.path.string(),
+                            skinned_ + morphed_,
+                            skinned_ + morphed_ == 1 ? " is" : "es are"));
+    }
     if (mesh_.empty()) document_.fail("its scene has no triangle");
     if (!all_have_normals_) mesh_.normals.clear();
     return std::move(mesh_);
@@ -115,10 +121,45 @@ class GltfReader {
           "again");
     }
     const Eigen::Affine3d mm_from_node = parent * transform_of(document_, node);
-    if (node.contains("mesh"))
-      instances_.push_back({document_.whole(node.at("mesh")), mm_from_node});
+    if (node.contains("mesh")) add_instances(node, mm_from_node);
     for (const std::uint64_t child : document_.whole_list(node, "children"))
       visit(child, mm_from_node, depth + 1);
+  }
+
+  /// Adds the mesh of a node, or its copies where the node has EXT_mesh_gpu_instancing.
+  void add_instances(const json& node, const Eigen::Affine3d& mm_from_node) {
+    const std::uint64_t mesh = document_.whole(node.at("mesh"));
+    if (node.contains("skin")) ++skinned_;
+    const json extensions = node.value("extensions", json::object());
+    const auto found = extensions.find("EXT_mesh_gpu_instancing");
+    if (found == extensions.end()) {
+      instances_.push_back({mesh, mm_from_node});
+      return;
+    }
+    const json& attributes = found->at("attributes");
+    std::uint64_t count = 0;
+    const auto read = [&](const char* name, std::size_t width) {
+      constexpr std::uint64_t kMost = 1'000'000;
+      if (!attributes.contains(name)) return std::vector<double>();
+      const std::uint64_t accessor = document_.whole(attributes.at(name));
+      const std::uint64_t has = document_.locate(accessor, width).count;
+      if (has > kMost || (count != 0 && has != count))
+        document_.fail(fmt::format("its copies have {} values of {}; export it again", has, name));
+      count = has;
+      return document_.numbers(accessor, width);
+    };
+    const std::vector<double> t = read("TRANSLATION", 3);
+    const std::vector<double> r = read("ROTATION", 4);
+    const std::vector<double> s = read("SCALE", 3);
+    for (std::size_t i = 0; i < count; ++i) {
+      Eigen::Affine3d place = mm_from_node;
+      if (!t.empty()) place.translate(Eigen::Vector3d(t[3 * i], t[3 * i + 1], t[3 * i + 2]));
+      if (!r.empty())
+        place.rotate(Eigen::Quaterniond(r[4 * i + 3], r[4 * i], r[4 * i + 1], r[4 * i + 2])
+                         .normalized());
+      if (!s.empty()) place.scale(Eigen::Vector3d(s[3 * i], s[3 * i + 1], s[3 * i + 2]));
+      instances_.push_back({mesh, place});
+    }
   }
 
   /// Adds the primitives of a mesh. Consecutive primitives with the same attributes share vertices.
@@ -137,6 +178,7 @@ class GltfReader {
           primitive.at("extensions").contains("KHR_draco_mesh_compression")) {
         document_.fail("it is compressed (Draco); export it without compression");
       }
+      if (primitive.contains("targets")) ++morphed_;
       if (attributes != primitive.at("attributes")) {
         if (!part.empty()) append_transformed(mesh_, part, mm_from_node, document_.path);
         attributes = primitive.at("attributes");
@@ -154,11 +196,12 @@ class GltfReader {
     const auto read = [&](const char* name, std::size_t width) {
       std::vector<double> found;
       if (attributes.contains(name)) {
-        found = document_.numbers(document_.whole(attributes.at(name)), width);
-        if (found.size() != width * count) {
+        const std::uint64_t accessor = document_.whole(attributes.at(name));
+        if (document_.locate(accessor, width).count != count) {
           document_.fail(
               fmt::format("its {} values are not one per vertex; export it again", name));
         }
+        found = document_.numbers(accessor, width);
       }
       return found;
     };
@@ -207,7 +250,9 @@ class GltfReader {
   /// The corners of a strip or fan as those of triangles.
   ///
   /// @source   glTF 2.0, 3.7.2.1
-  static std::vector<double> as_triangles(const std::vector<double>& corners, std::uint64_t mode) {
+  static std::vector<double> as_triangles(const std::vector<double>& corners,
+                                          std::uint64_t mode,
+                                          const std::vector<Eigen::Vector3f>& vertices) {
     if (mode == kGltfTriangles) return corners;
     std::vector<double> all;
     for (std::size_t i = 0; i + 2 < corners.size(); ++i) {
@@ -216,8 +261,15 @@ class GltfReader {
           mode == kGltfFan
               ? std::array{corners[i + 1], corners[i + 2], corners[0]}
               : std::array{corners[i], corners[odd ? i + 2 : i + 1], corners[odd ? i + 1 : i + 2]};
+      const auto is_same = [&](double a, double b) {
+        const auto count = static_cast<double>(vertices.size());
+        const bool exist = a >= 0.0 && b >= 0.0 && a < count && b < count;
+        return a == b || (exist && vertices[static_cast<std::size_t>(a)] ==
+                                       vertices[static_cast<std::size_t>(b)]);
+      };
       // A strip is led on by triangles without an area.
-      if (three[0] != three[1] && three[1] != three[2] && three[2] != three[0])
+      if (!is_same(three[0], three[1]) && !is_same(three[1], three[2]) &&
+          !is_same(three[2], three[0]))
         all.insert(all.end(), three.begin(), three.end());
     }
     return all;
@@ -232,7 +284,7 @@ class GltfReader {
       for (std::size_t i = 0; i < count; ++i)
         corners.push_back(static_cast<double>(i));
     }
-    corners = as_triangles(corners, mode);
+    corners = as_triangles(corners, mode, part.vertices_mm);
     if (corners.size() % 3 != 0)
       document_.fail("the number of its indices is not a multiple of three; export it again");
     const Mark mark = mark_of_material(primitive);
@@ -259,6 +311,8 @@ class GltfReader {
   Mesh mesh_;
   std::set<std::uint64_t> seen_;
   std::size_t skipped_ = 0;
+  std::size_t skinned_ = 0;
+  std::size_t morphed_ = 0;
   bool all_have_normals_ = true;
 };
 

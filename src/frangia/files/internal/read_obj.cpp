@@ -1,4 +1,3 @@
-#include <array>
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -13,7 +12,7 @@
 #include "frangia/files/internal/color_of.h"
 #include "frangia/files/internal/mark_names.h"
 #include "frangia/files/internal/obj.h"
-#include "frangia/files/internal/plain_text.h"
+#include "frangia/core/plain_text.h"
 #include "frangia/files/internal/polygon_faces.h"
 #include "frangia/files/internal/read_bytes.h"
 #include "frangia/files/internal/text_reader.h"
@@ -46,39 +45,48 @@ class ObjReader {
 
   Mesh read() {
     for (; reader_.bytes_left() > 0; reader_.skip_line()) {
+      ended_ = false;
       const std::string_view keyword = reader_.word_on_line();
       if (keyword == "v") {
         mesh_.vertices_mm.push_back(read_vector());
         read_color();
       } else if (keyword == "vn") {
-        mesh_.normals.push_back(read_vector());
+        const Eigen::Vector3f normal = read_vector();
+        mesh_.normals.push_back(normal.allFinite() ? normal : Eigen::Vector3f::Zero());
       } else if (keyword == "f" || keyword == "fo") {  // `fo` of the first version
         read_face();
       } else if (keyword == "g") {
         mark_ = mark_of_name(word());
+      } else if (keyword == "surf" || keyword == "curv" || keyword == "curv2") {
+        ++free_forms_;
       }
     }
     if (!one_normal_a_vertex_ || mesh_.normals.size() != mesh_.vertices_mm.size()) {
       mesh_.normals.clear();
     }
-    if (mesh_.colors.size() != mesh_.vertices_mm.size()) mesh_.colors.clear();
+    if (colors_.size() == mesh_.vertices_mm.size()) mesh_.colors = colors_of(colors_);
     return std::move(mesh_);
   }
 
   [[nodiscard]] const PolygonFaces& polygons() const { return polygons_; }
+  [[nodiscard]] std::size_t free_forms() const { return free_forms_; }
 
  private:
   /// The next word of a statement, which a backslash continues on the next line and a comment
   /// ends.
   std::string_view word() {
-    for (;;) {
+    while (!ended_) {
       std::string_view found = reader_.word_on_line();
-      if (found.starts_with('#')) return {};
+      if (const std::size_t hash = found.find('#'); hash != std::string_view::npos) {
+        ended_ = true;
+        return found.substr(0, hash);
+      }
       if (!found.ends_with('\\')) return found;
       reader_.skip_line();
       found.remove_suffix(1);
       if (!found.empty()) return found;
     }
+    return {};
   }
 
   Eigen::Vector3f read_vector() {
@@ -94,13 +102,13 @@ class ObjReader {
 
   /// Three further numbers of a vertex are its color; a single one is a weight.
   void read_color() {
-    std::array<float, 3> channels{};
-    for (float& channel : channels) {
+    Eigen::Vector3f color;
+    for (float& channel : color) {
       const std::optional<float> number = parse_float(word());
       if (!number) return;
       channel = *number;
     }
-    mesh_.colors.push_back(color_of(channels[0], channels[1], channels[2]));
+    colors_.push_back(color);
   }
 
   void read_face() {
@@ -130,6 +138,9 @@ class ObjReader {
   Mesh mesh_;
   PolygonFaces polygons_;
   std::vector<std::uint32_t> corners_;
+  std::vector<Eigen::Vector3f> colors_;
+  std::size_t free_forms_ = 0;  ///< curves and surfaces
+  bool ended_ = false;          ///< the statement, by a comment
   bool one_normal_a_vertex_ = true;
   Mark mark_ = Mark::Measured;
 };
@@ -146,6 +157,11 @@ Mesh read_obj(const std::filesystem::path& path, const Run& run) {
   }
   check_mesh(mesh, path);
   reader.polygons().triangulate(mesh, path, run);
+  if (reader.free_forms() > 0) {
+    run.warn(fmt::format("{}: skipped {} free-form curves and surfaces, which are not meshes",
+                         path.string(),
+                         reader.free_forms()));
+  }
   return mesh;
 }
 

@@ -1,4 +1,4 @@
-#include <algorithm>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -8,6 +8,7 @@
 #include "frangia/files/internal/check_mesh.h"
 #include "frangia/files/internal/color_of.h"
 #include "frangia/files/internal/off.h"
+#include "frangia/core/plain_text.h"
 #include "frangia/files/internal/polygon_faces.h"
 #include "frangia/files/internal/read_bytes.h"
 #include "frangia/files/internal/text_reader.h"
@@ -24,17 +25,19 @@ class OffReader {
     if (!keyword.ends_with("OFF") || keyword.find_first_of("4n") != std::string_view::npos) {
       reader_.fail(fmt::format("expected 'OFF', found {}", in_quotes(keyword)));
     }
+    const std::string_view prefix = keyword.substr(0, keyword.size() - 3);
+    has_colors_ = prefix.find('C') != std::string_view::npos;
+    has_normals_ = prefix.find('N') != std::string_view::npos;
     const std::string_view first = word();
     if (first == "BINARY") reader_.fail("this is a binary OFF; save it as text (ASCII) OFF");
-    has_colors_ = keyword == "COFF";
     const auto vertices = count_of(first, "vertices", kVertexBytes);
     const auto faces = count_of(word(), "faces", kFaceBytes);
     reader_.skip_line();  // the number of edges, which writers often get wrong
     Mesh mesh;
     mesh.vertices_mm.reserve(vertices);
     for (std::size_t i = 0; i < vertices; ++i)
-      mesh.vertices_mm.push_back(read_vertex(mesh.colors));
-    if (mesh.colors.size() != vertices) mesh.colors.clear();
+      mesh.vertices_mm.push_back(read_vertex());
+    if (colors_.size() == vertices) mesh.colors = colors_of(colors_);
     mesh.triangles.reserve(faces);
     for (std::size_t i = 0; i < faces; ++i)
       read_face(mesh);
@@ -73,22 +76,24 @@ class OffReader {
     return static_cast<std::size_t>(*count);
   }
 
-  /// Adds the colour of a vertex where it has one: whole numbers to 255, or others to 1.
-  void read_color(std::vector<VertexColor>& colors) {
-    Eigen::Vector3f color;
-    bool is_whole = true;
-    for (float& channel : color) {
-      const std::string_view found = reader_.word_on_line();
-      const auto number = parse_float(found);
-      if (!number) return;
-      is_whole = is_whole && found.find_first_of(".eE") == std::string_view::npos;
-      channel = *number;
+  /// Three numbers of this line; nothing where it has fewer.
+  std::optional<Eigen::Vector3f> read_three() {
+    Eigen::Vector3f three;
+    for (float& value : three) {
+      const auto number = parse_float(reader_.word_on_line());
+      if (!number) return std::nullopt;
+      value = *number;
     }
-    if (is_whole) color /= 255.0F;
-    colors.push_back(color_of(color.x(), color.y(), color.z()));
+    return three;
   }
 
-  Eigen::Vector3f read_vertex(std::vector<VertexColor>& colors) {
+  /// Takes note of the color of a vertex where it has one, behind its normal.
+  void read_color() {
+    if (has_normals_) static_cast<void>(read_three());
+    if (const auto color = read_three()) colors_.push_back(*color);
+  }
+
+  Eigen::Vector3f read_vertex() {
     Eigen::Vector3f vertex;
     for (float& coordinate : vertex) {
       const std::string_view found = word();
@@ -96,7 +101,7 @@ class OffReader {
       if (!number) reader_.fail(fmt::format("{} is not a coordinate", in_quotes(found)));
       coordinate = *number;
     }
-    if (has_colors_) read_color(colors);
+    if (has_colors_) read_color();
     reader_.skip_line();
     return vertex;
   }
@@ -126,13 +131,15 @@ class OffReader {
   TextReader reader_;
   PolygonFaces polygons_;
   std::vector<std::uint32_t> corners_;
-  bool has_colors_ = false;  ///< of vertices
+  bool has_colors_ = false;   ///< of vertices
+  bool has_normals_ = false;  ///< of vertices, in front of their colors
+  std::vector<Eigen::Vector3f> colors_;
 };
 
 }  // namespace
 
 Mesh read_off(const std::filesystem::path& path, const Run& run) {
-  const std::string text = read_bytes(path);
+  const std::string text = plain_text(read_bytes(path));
   OffReader reader(path, text);
   Mesh mesh = reader.read();
   check_mesh(mesh, path);

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cctype>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -8,6 +9,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -15,6 +17,7 @@
 #include "frangia/core/error.h"
 #include "frangia/files/internal/check_mesh.h"
 #include "frangia/files/internal/pcd.h"
+#include "frangia/core/plain_text.h"
 #include "frangia/files/internal/read_bytes.h"
 #include "frangia/files/internal/text_reader.h"
 
@@ -50,8 +53,16 @@ struct Value {
 struct Header {
   std::vector<Field> fields;
   std::uint64_t points = 0;
-  std::string_view data;
+  std::string data;
 };
+
+std::string in_small_letters(std::string_view word) {
+  std::string lower(word);
+  std::transform(lower.begin(), lower.end(), lower.begin(), [](unsigned char letter) {
+    return static_cast<char>(std::tolower(letter));
+  });
+  return lower;
+}
 
 class PcdReader {
  public:
@@ -115,7 +126,7 @@ class PcdReader {
       } else if (key == "POINTS") {
         points = whole();
       } else if (key == "DATA") {
-        header_.data = reader_.word_on_line();
+        header_.data = in_small_letters(reader_.word_on_line());
       } else if (key != "VERSION" && key != "VIEWPOINT" && !key.starts_with('#')) {
         reader_.fail(fmt::format("{} is not a keyword of a PCD header", in_quotes(key)));
       }
@@ -267,15 +278,22 @@ class PcdReader {
   bool has_colors_ = false;
 };
 
+/// Whether the points are text, too.
+bool has_text_points(std::string_view bytes) {
+  constexpr std::size_t kHeader = 4096;
+  return bytes.substr(0, kHeader).find("DATA binary") == std::string_view::npos;
+}
+
 }  // namespace
 
 Mesh read_pcd(const std::filesystem::path& path, const Run& run) {
-  const std::string text = read_bytes(path);
+  std::string text = read_bytes(path);
+  if (has_text_points(text)) text = plain_text(std::move(text));
   std::size_t left_out = 0;
   Mesh mesh = PcdReader(path, text).read(left_out);
   check_mesh(mesh, path);
   if (left_out > 0) {
-    run.note(fmt::format("{}: omitted {} point{} without finite coordinates",
+    run.warn(fmt::format("{}: omitted {} point{} without finite coordinates",
                          path.string(),
                          left_out,
                          left_out == 1 ? "" : "s"));

@@ -1,16 +1,21 @@
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
 #include <limits>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 
 #include "frangia/files/internal/check_mesh.h"
 #include "frangia/files/internal/color_of.h"
+#include "frangia/core/plain_text.h"
 #include "frangia/files/internal/ply_source.h"
 #include "frangia/files/internal/polygon_faces.h"
+#include "frangia/files/internal/range_grid.h"
 #include "frangia/files/internal/read_bytes.h"
 #include "frangia/files/ply.h"
 
@@ -50,15 +55,24 @@ float full_light(PlyType type) {
   }
 }
 
+/// The name that a property has here: of older programs, colors have "diffuse_" in front; others
+/// write r, g, b, and capital letters.
+std::string kept_name_of(std::string name) {
+  std::transform(name.begin(), name.end(), name.begin(), [](unsigned char letter) {
+    return static_cast<char>(std::tolower(letter));
+  });
+  constexpr std::string_view kDiffuse = "diffuse_";
+  if (name.starts_with(kDiffuse)) return name.substr(kDiffuse.size());
+  return name == "r" ? "red" : name == "g" ? "green" : name == "b" ? "blue" : name;
+}
+
 /// For each property of a vertex its index in kKeptOfVertices; for a skipped property the size of
 /// kKeptOfVertices.
 std::vector<std::size_t> slots_of(const PlyElement& element) {
   std::vector<std::size_t> slots;
   for (const PlyProperty& property : element.properties) {
-    std::string_view name = property.name;
-    constexpr std::string_view kDiffuse =
-        "diffuse_";  // of older programs, before a color's channel
-    if (name.starts_with(kDiffuse)) name.remove_prefix(kDiffuse.size());
+    const std::string full_name = kept_name_of(property.name);
+    const std::string_view name = full_name;
     const auto* const found = std::find(kKeptOfVertices.begin(), kKeptOfVertices.end(), name);
     const bool kept =
         !property.count_type &&
@@ -100,6 +114,7 @@ void read_vertices(Source& source, const PlyElement& element, Mesh& mesh) {
   if (!has(slots, 0, 3)) source.fail("its vertices have no x, y or z");
   mesh.vertices_mm.reserve(element.count);
   std::array<float, kKeptOfVertices.size()> kept{};
+  std::vector<Eigen::Vector3f> colors;
   for (std::uint64_t i = 0; i < element.count; ++i) {
     for (std::size_t p = 0; p < slots.size(); ++p) {
       if (slots[p] < kept.size()) {
@@ -119,11 +134,12 @@ void read_vertices(Source& source, const PlyElement& element, Mesh& mesh) {
     if (has_views)
       mesh.views.push_back(static_cast<std::uint16_t>(std::clamp(kept[kViews], 0.0F, 65'535.0F)));
     if (has_marks) mesh.vertex_marks.push_back(mark_from(static_cast<double>(kept[kMark])));
-    if (has_colors) mesh.colors.push_back(color_of(kept[kRed], kept[kRed + 1], kept[kRed + 2]));
+    if (has_colors) colors.emplace_back(kept[kRed], kept[kRed + 1], kept[kRed + 2]);
     if (!has_normals) continue;
     const Eigen::Vector3f normal(kept[3], kept[4], kept[5]);
     mesh.normals.push_back(normal.allFinite() ? normal : Eigen::Vector3f::Zero());
   }
+  if (has_colors) mesh.colors = colors_of(colors);
 }
 
 template <typename Source>
@@ -210,10 +226,18 @@ Mesh read_elements(Source source, const PlyHeader& header, PolygonFaces& polygon
   return mesh;
 }
 
+/// Whether the elements are text, too, as the second line states.
+bool has_text_elements(std::string_view bytes) {
+  constexpr std::size_t kBeginning = 4096;
+  return is_utf16(bytes) ||
+         bytes.substr(0, kBeginning).find("format ascii") != std::string_view::npos;
+}
+
 }  // namespace
 
 Mesh read_ply(const std::filesystem::path& path, const Run& run) {
-  const std::string bytes = read_bytes(path);
+  std::string bytes = read_bytes(path);
+  if (has_text_elements(bytes)) bytes = plain_text(std::move(bytes));
   const PlyHeader header = parse_ply_header(path, bytes);
   const std::string_view body = std::string_view(bytes).substr(header.body);
   PolygonFaces polygons;
@@ -222,6 +246,8 @@ Mesh read_ply(const std::filesystem::path& path, const Run& run) {
                   : read_elements(BinaryPlySource(path, body, header.format), header, polygons);
   check_mesh(mesh, path);
   polygons.triangulate(mesh, path, run);
+  if (mesh.triangles.empty() && has_range_grid(header))
+    add_grid_triangles(mesh, header, bytes, path);
   return mesh;
 }
 

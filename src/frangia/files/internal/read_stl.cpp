@@ -4,13 +4,15 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
+#include <Eigen/Geometry>
 #include <fmt/format.h>
 
 #include "frangia/core/error.h"
 #include "frangia/files/internal/check_mesh.h"
-#include "frangia/files/internal/plain_text.h"
+#include "frangia/core/plain_text.h"
 #include "frangia/files/internal/read_bytes.h"
 #include "frangia/files/internal/text_reader.h"
 #include "frangia/files/internal/weld_vertices.h"
@@ -30,16 +32,16 @@ std::size_t stated_bytes(std::string_view bytes) {
   return kHeaderBytes + kFacetBytes * std::size_t{count};
 }
 
-Corners binary_corners(std::string_view bytes) {
-  Corners corners;
-  corners.reserve(3 * (bytes.size() / kFacetBytes));
-  for (std::size_t facet = kHeaderBytes; facet < bytes.size(); facet += kFacetBytes) {
+/// Appends the corners of the facets of a binary file from its header on.
+void add_binary_corners(std::string_view bytes, Corners& corners) {
+  corners.reserve(corners.size() + 3 * (bytes.size() / kFacetBytes));
+  for (std::size_t facet = kHeaderBytes; facet + kFacetBytes <= bytes.size();
+       facet += kFacetBytes) {
     for (std::size_t corner = 1; corner <= 3; ++corner) {
       Eigen::Vector3f& vertex = corners.emplace_back();
       std::memcpy(vertex.data(), bytes.data() + facet + 12 * corner, 12);
     }
   }
-  return corners;
 }
 
 /// Compares without case: some programs write keywords in upper case.
@@ -101,12 +103,32 @@ Corners ascii_corners(const std::filesystem::path& path, std::string_view text) 
   }
 }
 
-/// The facets of a binary file whose header does not state its size: programs that stream write a
-/// count of 0 or -1, others add bytes of their own behind the last facet. Whole facets that are not
-/// counted are a contradiction.
-std::optional<std::string_view> binary_part(std::string_view bytes,
-                                            const std::filesystem::path& path,
-                                            const Run& run) {
+/// Whether bytes behind the counted facets are facets, too: all of their corners lie where the
+/// others do, within three times their box; a padding of zeros is one place.
+bool are_facets(std::string_view behind, const Corners& counted) {
+  if (behind.size() % kFacetBytes != 0) return false;
+  Corners more;
+  add_binary_corners(std::string(kHeaderBytes, '\0').append(behind), more);
+  Eigen::AlignedBox3f box;
+  for (const Eigen::Vector3f& corner : counted)
+    box.extend(corner);
+  const float reach = 3.0F * box.diagonal().norm();
+  const auto is_far = [&](const Eigen::Vector3f& corner) {
+    return !((corner - box.center()).norm() <= reach);
+  };
+  const bool all_same = std::all_of(more.begin(), more.end(), [&](const Eigen::Vector3f& corner) {
+    return corner == more.front();
+  });
+  return !all_same && std::none_of(more.begin(), more.end(), is_far);
+}
+
+/// The corners of a binary file. Programs that stream write a count of 0 or -1, some files hold
+/// several solids, each with its header, others bytes of their own behind the last facet. Facets
+/// that are not counted are a contradiction. Nothing where the header fits in no way.
+std::optional<Corners> binary_corners(std::string_view bytes,
+                                      const std::filesystem::path& path,
+                                      const Run& run) {
+  Corners corners;
   const std::size_t stated = stated_bytes(bytes);
   const bool is_whole = (bytes.size() - kHeaderBytes) % kFacetBytes == 0;
   const std::size_t streamed = kHeaderBytes + kFacetBytes * std::size_t{0xFFFFFFFF};
@@ -114,28 +136,48 @@ std::optional<std::string_view> binary_part(std::string_view bytes,
     run.warn(fmt::format("{}: its header states no number of facets; all {} are read",
                          path.string(),
                          (bytes.size() - kHeaderBytes) / kFacetBytes));
-    return bytes;
+    add_binary_corners(bytes, corners);
+    return corners;
   }
-  if (is_whole || stated == kHeaderBytes || stated > bytes.size()) return std::nullopt;
-  const std::size_t behind = bytes.size() - stated;
+  const auto is_solid = [](std::string_view rest) {
+    return rest.size() > kHeaderBytes && stated_bytes(rest) > kHeaderBytes &&
+           stated_bytes(rest) <= rest.size();
+  };
+  std::size_t solids = 0;
+  for (; is_solid(bytes); ++solids) {
+    add_binary_corners(bytes.substr(0, stated_bytes(bytes)), corners);
+    bytes.remove_prefix(stated_bytes(bytes));
+  }
+  if (solids == 0) return std::nullopt;
+  if (solids > 1) run.note(fmt::format("{}: it holds {} solids", path.string(), solids));
+  if (bytes.empty()) return corners;
+  if (are_facets(bytes, corners)) {
+    throw Error(ErrorKind::Input,
+                fmt::format("{}: its header states {} facets, but {} more follow; export it again",
+                            path.string(),
+                            corners.size() / 3,
+                            bytes.size() / kFacetBytes));
+  }
   run.warn(fmt::format("{}: {} byte{} left out behind its last facet",
                        path.string(),
-                       behind,
-                       behind == 1 ? " is" : "s are"));
-  return bytes.substr(0, stated);
+                       bytes.size(),
+                       bytes.size() == 1 ? " is" : "s are"));
+  return corners;
 }
 
-Corners read_corners(const std::filesystem::path& path, std::string_view bytes, const Run& run) {
+Corners read_corners(const std::filesystem::path& path, const std::string& bytes, const Run& run) {
   // The size decides first, since some binary files also begin with "solid".
   const bool has_header = bytes.size() >= kHeaderBytes;
-  if (has_header && stated_bytes(bytes) == bytes.size()) return binary_corners(bytes);
-  const bool text = bytes.find('\0') == std::string_view::npos;
-  if (text) {
-    const std::string plain = plain_text(std::string(bytes));
-    if (is(TextReader(path, plain).word(), "solid")) return ascii_corners(path, plain);
+  Corners corners;
+  if (has_header && stated_bytes(bytes) == bytes.size()) {
+    add_binary_corners(bytes, corners);
+    return corners;
   }
+  const std::string plain = plain_text(bytes);
+  const bool is_text = plain.find('\0') == std::string::npos;
+  if (is_text && is(TextReader(path, plain).word(), "solid")) return ascii_corners(path, plain);
   if (has_header)
-    if (const auto part = binary_part(bytes, path, run)) return binary_corners(*part);
+    if (auto found = binary_corners(bytes, path, run)) return std::move(*found);
   throw Error(
       ErrorKind::Input,
       fmt::format("{}: it has {} bytes, but its header states {}; it is truncated or not an "

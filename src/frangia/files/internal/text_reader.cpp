@@ -28,22 +28,41 @@ std::errc parse(std::string_view word, Number& number) {
   return error;
 }
 
+/// A number whose exponent another language writes: 1.5D+02 and 1.5+102 of Fortran, 1.5*^2 of
+/// Mathematica. Empty for other words.
+std::string with_usual_exponent(std::string_view word) {
+  constexpr std::size_t kMostDigits = 60;
+  if (word.size() < 2 || word.size() > kMostDigits) return {};
+  const std::size_t letter = std::min(word.find_first_of("dD", 1), word.find("*^", 1));
+  if (letter != std::string_view::npos) {
+    const std::size_t behind = letter + (word[letter] == '*' ? 2 : 1);
+    return fmt::format("{}e{}", word.substr(0, letter), without_plus(word.substr(behind)));
+  }
+  const std::size_t sign = word.find_first_of("+-", 1);
+  const bool is_bare = sign != std::string_view::npos && word[sign - 1] >= '0' &&
+                       word[sign - 1] <= '9' && word.find('.') < sign;
+  return is_bare ? fmt::format("{}e{}", word.substr(0, sign), without_plus(word.substr(sign)))
+                 : std::string();
+}
+
 }  // namespace
 
 std::optional<float> parse_float(std::string_view word) {
   float number = 0.0F;
   const std::errc error = parse(word, number);
   if (error == std::errc()) return number;
-  constexpr std::size_t kMostDigits = 60;
-  const std::size_t exponent = word.find_first_of("dD");  // as Fortran writes doubles
-  if (exponent != std::string_view::npos && exponent > 0 && word.size() < kMostDigits) {
-    std::string usual(word);
-    usual[exponent] = 'e';
+  if (const std::string usual = with_usual_exponent(word); !usual.empty())
     return parse_float(usual);
-  }
   if (error != std::errc::result_out_of_range) return std::nullopt;
   double wide = 0.0;  // underflow gives zero, overflow infinity
   return parse(word, wide) == std::errc() ? std::optional(static_cast<float>(wide)) : std::nullopt;
+}
+
+std::optional<double> parse_double(std::string_view word) {
+  double number = 0.0;
+  if (parse(word, number) == std::errc()) return number;
+  const std::string usual = with_usual_exponent(word);
+  return usual.empty() ? std::nullopt : parse_double(usual);
 }
 
 std::optional<std::int64_t> parse_integer(std::string_view word) {

@@ -10,8 +10,10 @@
 
 namespace frangia {
 
-/// Parses a whole word as a number; nothing when it is not one. Infinity and NaN are accepted.
+/// Parses a whole word as a number; nothing when it is not one. Infinity and NaN are accepted, and
+/// exponents as Fortran and Mathematica write them.
 [[nodiscard]] std::optional<float> parse_float(std::string_view word);
+[[nodiscard]] std::optional<double> parse_double(std::string_view word);
 [[nodiscard]] std::optional<std::int64_t> parse_integer(std::string_view word);
 
 /// Iterates over the words of a text. Holds a view of the text, which must outlive it.

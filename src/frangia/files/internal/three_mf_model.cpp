@@ -157,21 +157,22 @@ void ThreeMfModel::begin(std::string_view name, const XmlAttributes& attributes)
   }
 }
 
-Mesh ThreeMfModel::build(const std::filesystem::path& path, const MemoryBudget& budget) const {
+ThreeMfModel::Built ThreeMfModel::build(const std::filesystem::path& path,
+                                        const MemoryBudget& budget) const {
   std::map<Key, double> memory_of_object;
   double needed_bytes = collected_bytes_;
   for (const Reference& item : items_)
     needed_bytes += memory_of(item, memory_of_object, 0);
   budget.check(needed_bytes);
-  Mesh mesh;
+  Built built;
   Eigen::Affine3d mm_from_model = Eigen::Affine3d::Identity();
   mm_from_model.scale(mm_per_unit_.at(root_));
   for (const Reference& item : items_) {
     Reference scaled = item;
     scaled.transform.scale(scale_between(item.object.first, root_));
-    add(mesh, scaled, mm_from_model, path, 0);
+    add(built, scaled, mm_from_model, path, 0);
   }
-  return mesh;
+  return built;
 }
 
 ThreeMfModel::Reference ThreeMfModel::read_reference(const XmlAttributes& attributes) {
@@ -207,6 +208,9 @@ void ThreeMfModel::begin_object(const XmlAttributes& attributes) {
   Object& made = objects_[{part_, current_}];
   made.material = attributes.value("pid");
   made.index = attributes.value("pindex");
+  // "model", "surface" and none are the part itself; slicers write modifiers as "other".
+  const std::string_view type = attributes.value("type");
+  made.is_aid = type == "support" || type == "solidsupport" || type == "other";
 }
 
 void ThreeMfModel::vertex(const XmlAttributes& attributes) {
@@ -300,18 +304,22 @@ double ThreeMfModel::memory_of(const Reference& reference,
   return bytes;
 }
 
-void ThreeMfModel::add(Mesh& mesh,
+void ThreeMfModel::add(Built& built,
                        const Reference& reference,
                        const Eigen::Affine3d& parent,
                        const std::filesystem::path& path,
                        int depth) const {
   const Object& object = object_of(reference, depth);
+  if (object.is_aid) {
+    ++built.left_out;
+    return;
+  }
   const Eigen::Affine3d transform = parent * reference.transform;
-  if (!object.mesh.empty()) append_transformed(mesh, object.mesh, transform, path);
+  if (!object.mesh.empty()) append_transformed(built.mesh, object.mesh, transform, path);
   for (const Reference& component : object.components) {
     Reference scaled = component;
     scaled.transform.scale(scale_between(component.object.first, reference.object.first));
-    add(mesh, scaled, transform, path, depth + 1);
+    add(built, scaled, transform, path, depth + 1);
   }
 }
 

@@ -37,7 +37,11 @@ class ThreeMfModel {
   /// The mesh of all build items, in mm. `path` is for messages.
   ///
   /// @errors   Error(Input) also when the repeated objects exceed the budget
-  [[nodiscard]] Mesh build(const std::filesystem::path& path, const MemoryBudget& budget) const;
+  struct Built {
+    Mesh mesh;
+    std::size_t left_out = 0;  ///< objects that are no part: supports, modifiers of a slicer
+  };
+  [[nodiscard]] Built build(const std::filesystem::path& path, const MemoryBudget& budget) const;
 
  private:
   /// An object by the file that it is in and its number there.
@@ -50,6 +54,7 @@ class ThreeMfModel {
     Mesh mesh;
     std::vector<Reference> components;
     std::string material, index;  ///< of triangles without a material of their own
+    bool is_aid = false;          ///< a support, or a modifier of a slicer
   };
 
   Reference read_reference(const XmlAttributes& attributes);
@@ -68,7 +73,7 @@ class ThreeMfModel {
   [[nodiscard]] double memory_of(const Reference& reference,
                                  std::map<Key, double>& known,
                                  int depth) const;
-  void add(Mesh& mesh,
+  void add(Built& built,
            const Reference& reference,
            const Eigen::Affine3d& parent,
            const std::filesystem::path& path,

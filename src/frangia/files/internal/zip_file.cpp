@@ -10,6 +10,7 @@
 
 #include "frangia/core/atomic_file.h"
 #include "frangia/core/error.h"
+#include "frangia/files/internal/other_kind.h"
 
 namespace frangia {
 namespace {
@@ -37,7 +38,11 @@ ZipReader::ZipReader(std::filesystem::path path)
   if (!std::filesystem::is_regular_file(path_, error))
     fail(path_, "this is not a regular file; name a file");
   archive_->file = unzOpen64(path_.c_str());
-  if (archive_->file == nullptr) fail(path_, "it is not a zip archive, or it is truncated");
+  if (archive_->file == nullptr) {
+    const std::string other = other_kind_of_file(path_);
+    const bool is_other = !other.empty() && !other.starts_with("it is a zip");
+    fail(path_, is_other ? other : "it is not a zip archive, or it is truncated");
+  }
 }
 
 ZipReader::~ZipReader() {
@@ -46,7 +51,11 @@ ZipReader::~ZipReader() {
 
 bool ZipReader::read(const std::string& name,
                      const std::function<void(std::string_view, double)>& consume) const {
-  if (unzLocateFile(archive_->file, name.c_str(), 1) != UNZ_OK) return false;
+  constexpr int kExact = 1;
+  constexpr int kAnyCase = 2;  // names of a package's parts differ by more than case
+  if (unzLocateFile(archive_->file, name.c_str(), kExact) != UNZ_OK &&
+      unzLocateFile(archive_->file, name.c_str(), kAnyCase) != UNZ_OK)
+    return false;
   read_here(name, consume);
   return true;
 }

@@ -34,7 +34,7 @@ class ZipReader {
   ~ZipReader();
 
   /// Passes an entry to `consume` in pieces, each with the share of the entry that it completes, 0
-  /// to 1; false when no entry has this name (case-sensitive).
+  /// to 1; false when no entry has this name, in capital or small letters.
   bool read(const std::string& name,
             const std::function<void(std::string_view, double)>& consume) const;
   /// Passes an entry of `entries` to `consume` in pieces, each with its share of the entry.
