@@ -15,6 +15,7 @@
 #include "inspect_features.h"
 #include "inspect_picture.h"
 #include "inspect_thickness.h"
+#include "option_names.h"
 #include "read_surface.h"
 
 namespace frangia {
@@ -102,7 +103,7 @@ InspectedPart inspect_mesh(const InspectArguments& arguments,
     add_statistics(answer, arguments, part.mesh, *reference, run);
     add_deviations(answer, *part.comparison);
     answer.json["deviation"]["tolerance_is_default"] = arguments.alignment.tolerance_mm.empty();
-    if (arguments.alignment.tolerance_mm.empty()) answer.text += kDefaultTolerance;
+    if (arguments.alignment.tolerance_mm.empty()) answer.text += with_flags(kDefaultTolerance);
   }
   if (arguments.thickness) {
     part.walls = measure_walls(part.mesh, run);

@@ -172,10 +172,11 @@ void add_merge_verb(CLI::App& program, Terminal& terminal) {
       "example:\n  frangia merge bun000.ply bun045.ply -o bunny.ply\n"
       "  frangia merge bun.conf -o bunny.ply -o bunny.dxf\n"
       "  frangia merge front.ply back.ply side.ply --poses shape -o part.stl");
-  verb->add_option("SCANS",
-                   arguments->scans,
-                   "range scans as meshes, with Stanford's range grid (.ply), or as points seen along "
-                   "-z, in any format that edit reads; or a .conf that lists scans with their poses")
+  verb->add_option(
+          "SCANS",
+          arguments->scans,
+          "range scans as meshes, with Stanford's range grid (.ply), or as points seen along "
+          "-z, in any format that edit reads; or a .conf that lists scans with their poses")
       ->required();
   add_mesh_outputs(*verb, arguments->outputs);
   static const std::map<std::string, ScanPoses> kPoses = {

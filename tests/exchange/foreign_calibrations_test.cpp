@@ -150,12 +150,13 @@ TEST(ForeignCalibrations, AreReadUnderTheNamesOfManyPrograms) {
                   "a.xml"),
       "XML of texts");
   expect_the_values(
-      import_text("<Scanner><Calibration><Rotation>1,0,0;0,1,0;0,0,1</Rotation>"
-                  "<Translation>-150, 3, 40</Translation><Projector><Matrix>2000, 0, 640; 0, 2003, "
-                  "700; 0, 0, 1</Matrix></Projector><Camera><Matrix>1400, 0, 640; 0, 1402, 512; 0, 0, "
-                  "1</Matrix><Distortion>-0.1, 0.05, 0, 0, 0</Distortion></Camera></Calibration>"
-                  "</Scanner>",
-                  "a.xml"),
+      import_text(
+          "<Scanner><Calibration><Rotation>1,0,0;0,1,0;0,0,1</Rotation>"
+          "<Translation>-150, 3, 40</Translation><Projector><Matrix>2000, 0, 640; 0, 2003, "
+          "700; 0, 0, 1</Matrix></Projector><Camera><Matrix>1400, 0, 640; 0, 1402, 512; 0, 0, "
+          "1</Matrix><Distortion>-0.1, 0.05, 0, 0, 0</Distortion></Camera></Calibration>"
+          "</Scanner>",
+          "a.xml"),
       "XML of texts with commas");
 }
 

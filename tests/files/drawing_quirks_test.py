@@ -5,7 +5,6 @@ import sys
 
 from quirks import POINTS, QUADS, VERTICES, boxes, colored, faults_of, refused, warned
 
-PROGRAM = pathlib.Path(sys.argv[1]).resolve()
 RGB = (200, 100, 50)
 PACKED = RGB[0] << 16 | RGB[1] << 8 | RGB[2]
 # mm of $INSUNITS 0 to 24: Autodesk, DXF Reference 2024, HEADER section
@@ -185,4 +184,9 @@ def pcd_files():
     yield "compressed.pcd", pcd(data="binary_compressed", rows=[()]), refused("this PCD is compressed")
 
 
-sys.exit(1 if faults_of(PROGRAM, [*dxf_files(), *xyz_files(), *pcd_files()]) else 0)
+def all_files():
+    return [*dxf_files(), *xyz_files(), *pcd_files()]
+
+
+if __name__ == "__main__":
+    sys.exit(1 if faults_of(pathlib.Path(sys.argv[1]).resolve(), all_files()) else 0)

@@ -10,7 +10,6 @@ import zipfile
 
 from quirks import QUADS, TRIANGLES, VERTICES, boxes, colored, faults_of, refused, warned
 
-PROGRAM = pathlib.Path(sys.argv[1]).resolve()
 CORNERS = [i for t in TRIANGLES for i in t]
 SOUP = [VERTICES[i] for i in CORNERS]
 JOINED = warned("vertices were joined to 8")
@@ -260,4 +259,9 @@ def packed_files():
     yield "part.ply.gz", gzip.compress(b"ply"), refused("it is compressed by gzip")
 
 
-sys.exit(1 if faults_of(PROGRAM, [*gltf_files(), *three_mf_files(), *packed_files()]) else 0)
+def all_files():
+    return [*gltf_files(), *three_mf_files(), *packed_files()]
+
+
+if __name__ == "__main__":
+    sys.exit(1 if faults_of(pathlib.Path(sys.argv[1]).resolve(), all_files()) else 0)

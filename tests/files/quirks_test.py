@@ -10,7 +10,6 @@ import sys
 
 from quirks import QUADS, TRIANGLES, VERTICES, colored, faults_of, refused, warned
 
-PROGRAM = pathlib.Path(sys.argv[1]).resolve()
 LETTERS = {"char": "b", "uchar": "B", "short": "h", "ushort": "H", "int": "i", "uint": "I", "float": "f", "double": "d"}
 LETTERS |= {
     "int8": "b",
@@ -249,4 +248,9 @@ def off_files():
     yield "lower.off", off("off\n"), refused("expected 'OFF'")
 
 
-sys.exit(1 if faults_of(PROGRAM, [*ply_files(), *stl_files(), *obj_files(), *off_files()]) else 0)
+def all_files():
+    return [*ply_files(), *stl_files(), *obj_files(), *off_files()]
+
+
+if __name__ == "__main__":
+    sys.exit(1 if faults_of(pathlib.Path(sys.argv[1]).resolve(), all_files()) else 0)

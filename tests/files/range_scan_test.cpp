@@ -1,5 +1,4 @@
 #include "frangia/files/range_scan.h"
-#include "frangia/files/read_mesh.h"
 
 #include <fstream>
 #include <string>
@@ -7,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "frangia/core/error.h"
+#include "frangia/files/read_mesh.h"
 
 #include "support/error_of.h"
 #include "support/temporary_folder.h"

@@ -41,8 +41,10 @@ void end_lines_with_lf(std::string& text) {
        begin = text.find('\r', begin)) {
     const std::size_t end = std::min(text.find_first_not_of('\r', begin), text.size());
     const bool has_lf = end < text.size() && text[end] == '\n';
-    if (!has_lf) std::fill(text.begin() + static_cast<std::ptrdiff_t>(begin),
-                           text.begin() + static_cast<std::ptrdiff_t>(end), '\n');
+    if (!has_lf)
+      std::fill(text.begin() + static_cast<std::ptrdiff_t>(begin),
+                text.begin() + static_cast<std::ptrdiff_t>(end),
+                '\n');
     begin = end;
     if (begin == text.size()) return;
   }

@@ -24,13 +24,15 @@ namespace frangia {
 
 /// The colors of numbers whose format allows 1 or 255 for full light: where one is larger than 2,
 /// as no rounding of 1 is, it is 255.
-[[nodiscard]] inline std::vector<VertexColor> colors_of(const std::vector<Eigen::Vector3f>& values) {
+[[nodiscard]] inline std::vector<VertexColor> colors_of(
+    const std::vector<Eigen::Vector3f>& values) {
   constexpr float kRounded = 2.0F;
-  const float full = std::any_of(values.begin(), values.end(), [](const Eigen::Vector3f& value) {
-                       return value.maxCoeff() > kRounded;
-                     })
-                         ? 255.0F
-                         : 1.0F;
+  const float full =
+      std::any_of(values.begin(),
+                  values.end(),
+                  [](const Eigen::Vector3f& value) { return value.maxCoeff() > kRounded; })
+          ? 255.0F
+          : 1.0F;
   std::vector<VertexColor> colors;
   colors.reserve(values.size());
   for (const Eigen::Vector3f& value : values)

@@ -48,8 +48,8 @@ using DxfBlocks = std::map<std::string, DxfBlock>;
 /// The mesh of a drawing with its blocks where they are inserted, and what could not be.
 struct DxfExpanded {
   Mesh mesh;
-  std::size_t missing = 0;                       ///< INSERT of blocks that the drawing does not have
-  std::size_t hidden = 0;                        ///< meshes of layers that are off or frozen
+  std::size_t missing = 0;  ///< INSERT of blocks that the drawing does not have
+  std::size_t hidden = 0;   ///< meshes of layers that are off or frozen
   std::map<std::string, std::size_t> externals;  ///< INSERT of other drawings, by their paths
 };
 
@@ -58,7 +58,8 @@ struct DxfExpanded {
 ///
 /// @errors   Error(Input) that names the file: a block that contains itself, a drawing that would
 ///           take more memory than the budget; Error(Cancelled)
-/// @source   Autodesk, AutoCAD User's Guide, "About Controlling the Color and Linetype Properties in
+/// @source   Autodesk, AutoCAD User's Guide, "About Controlling the Color and Linetype Properties
+/// in
 ///           Blocks" and "About Freezing and Turning Off Layers"
 [[nodiscard]] DxfExpanded expand_blocks(const DxfBlocks& blocks,
                                         const std::filesystem::path& path,

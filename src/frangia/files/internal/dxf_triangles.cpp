@@ -16,7 +16,10 @@ void DxfTriangles::add(const Vector3d& a, const Vector3d& b, const Vector3d& c, 
   for (const auto& corner : corners) {
     if (!corner.allFinite()) groups_.fail("a coordinate above is not finite; remove it");
   }
-  if (corners[0] == corners[1] || corners[1] == corners[2] || corners[2] == corners[0]) return;
+  if (corners[0] == corners[1] || corners[1] == corners[2] || corners[2] == corners[0]) {
+    odd_.note_without_area(1);
+    return;
+  }
   corners_.insert(corners_.end(), corners.begin(), corners.end());
   marks_.push_back(mark);
 }

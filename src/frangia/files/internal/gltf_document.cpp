@@ -55,8 +55,7 @@ std::pair<std::string_view, std::string_view> chunks_of(const GltfDocument& docu
 }
 
 std::string outside_buffer(const GltfDocument& document, const std::string& uri) {
-  const std::filesystem::path name =
-      std::filesystem::path(without_percent(uri)).lexically_normal();
+  const std::filesystem::path name = std::filesystem::path(without_percent(uri)).lexically_normal();
   const bool in_folder = !uri.empty() && name.is_relative() && name.has_filename() &&
                          *name.begin() != ".." && uri.find(':') == std::string::npos &&
                          name.native().find('\0') == std::string::npos;

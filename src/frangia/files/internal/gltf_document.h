@@ -13,11 +13,11 @@ namespace frangia {
 
 /// The place of the numbers of an accessor in its buffer.
 struct GltfNumbers {
-  std::string_view bytes;    ///< from the first number on
-  std::uint64_t count = 0;   ///< of elements
-  std::uint64_t stride = 0;  ///< from one element to the next, bytes
-  std::uint64_t type = 0;    ///< of a component, as the file states it
-  double unit = 1.0;         ///< divisor of the stored numbers
+  std::string_view bytes;                  ///< from the first number on
+  std::uint64_t count = 0;                 ///< of elements
+  std::uint64_t stride = 0;                ///< from one element to the next, bytes
+  std::uint64_t type = 0;                  ///< of a component, as the file states it
+  double unit = 1.0;                       ///< divisor of the stored numbers
   const nlohmann::json* sparse = nullptr;  ///< what replaces single elements, or null
 };
 

@@ -96,7 +96,8 @@ std::string header_of(std::string_view bytes) {
   constexpr std::string_view kEnd = "end_header";
   const std::size_t end = bytes.find(kEnd);
   std::string header(bytes.substr(0, end == std::string_view::npos ? end : end + kEnd.size() + 1));
-  if (header.find('\n') == std::string::npos) std::replace(header.begin(), header.end(), '\r', '\n');
+  if (header.find('\n') == std::string::npos)
+    std::replace(header.begin(), header.end(), '\r', '\n');
   return header;
 }
 

@@ -18,6 +18,12 @@ void OddFaces::note(const PolygonTriangles& face, double size) {
 }
 
 void OddFaces::warn(const std::filesystem::path& path, double mm_per_unit, const Run& run) const {
+  if (without_area_ > 0) {
+    run.warn(fmt::format("{}: left out {} triangle{} with two corners at one place",
+                         path.string(),
+                         without_area_,
+                         without_area_ == 1 ? "" : "s"));
+  }
   if (not_plane_ > 0) {
     run.warn(fmt::format(
         "{}: {} of its faces with more than three corners {} not plane, by up to {:.3g} mm; their "

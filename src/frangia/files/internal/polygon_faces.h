@@ -17,12 +17,15 @@ class OddFaces {
  public:
   /// Takes note of a face whose corners span `size`, in units of the file.
   void note(const PolygonTriangles& face, double size);
+  /// Takes note of triangles with two corners at one place, which are left out.
+  void note_without_area(std::size_t triangles) { without_area_ += triangles; }
   /// Warns of what was noted. `mm_per_unit` converts distances.
   void warn(const std::filesystem::path& path, double mm_per_unit, const Run& run) const;
 
  private:
   std::size_t not_plane_ = 0;
   std::size_t crossing_ = 0;
+  std::size_t without_area_ = 0;
   double largest_ = 0.0;
 };
 

@@ -154,9 +154,9 @@ void triangulate_grid(Mesh& mesh, const Grid& grid, const std::filesystem::path&
 }  // namespace
 
 bool has_range_grid(const PlyHeader& header) {
-  return std::any_of(header.elements.begin(),
-                     header.elements.end(),
-                     [](const PlyElement& element) { return element.name == "range_grid"; });
+  return std::any_of(header.elements.begin(), header.elements.end(), [](const PlyElement& element) {
+    return element.name == "range_grid";
+  });
 }
 
 void add_grid_triangles(Mesh& mesh,

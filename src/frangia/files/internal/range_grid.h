@@ -16,7 +16,8 @@ namespace frangia {
 ///
 /// @missing  empty cells; no triangle has an edge longer than six times the median spacing of
 ///           neighbours
-/// @errors   Error(Input) that names the file: the grid does not match its stated size or the points
+/// @errors   Error(Input) that names the file: the grid does not match its stated size or the
+/// points
 void add_grid_triangles(Mesh& mesh,
                         const PlyHeader& header,
                         std::string_view bytes,

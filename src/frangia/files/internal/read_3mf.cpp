@@ -84,11 +84,12 @@ Mesh read_package(const std::filesystem::path& path, const ReadOptions& options,
   }
   ThreeMfModel::Built built = model.build(path, budget);
   if (built.left_out > 0) {
-    run.warn(fmt::format("{}: left out {} object{} that {} no part: supports, or modifiers of a slicer",
-                         path.string(),
-                         built.left_out,
-                         built.left_out == 1 ? "" : "s",
-                         built.left_out == 1 ? "is" : "are"));
+    run.warn(
+        fmt::format("{}: left out {} object{} that {} no part: supports, or modifiers of a slicer",
+                    path.string(),
+                    built.left_out,
+                    built.left_out == 1 ? "" : "s",
+                    built.left_out == 1 ? "is" : "are"));
   }
   return std::move(built.mesh);
 }

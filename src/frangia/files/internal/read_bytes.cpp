@@ -14,8 +14,7 @@ namespace frangia {
 std::string read_bytes(const std::filesystem::path& path) {
   std::string bytes = read_text_file(path, std::numeric_limits<std::uint64_t>::max());
   const std::string other = other_kind_of(bytes);
-  if (!other.empty())
-    throw Error(ErrorKind::Input, fmt::format("{}: {}", path.string(), other));
+  if (!other.empty()) throw Error(ErrorKind::Input, fmt::format("{}: {}", path.string(), other));
   return bytes;
 }
 

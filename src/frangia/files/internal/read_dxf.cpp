@@ -8,11 +8,11 @@
 #include <fmt/format.h>
 
 #include "frangia/core/error.h"
+#include "frangia/core/plain_text.h"
 #include "frangia/files/dxf.h"
 #include "frangia/files/internal/check_mesh.h"
 #include "frangia/files/internal/dxf_entities.h"
 #include "frangia/files/internal/dxf_groups.h"
-#include "frangia/core/plain_text.h"
 #include "frangia/files/internal/read_bytes.h"
 
 namespace frangia {
@@ -199,10 +199,11 @@ Mesh read_dxf(const std::filesystem::path& path, const Run& run, const ReadOptio
                          expanded.missing));
   }
   for (const auto& [other, count] : expanded.externals) {
-    run.warn(fmt::format("{}: left out {} INSERT of the external drawing {}; bind it and save again",
-                         path.string(),
-                         count,
-                         other));
+    run.warn(
+        fmt::format("{}: left out {} INSERT of the external drawing {}; bind it and save again",
+                    path.string(),
+                    count,
+                    other));
   }
   if (!skipped.empty()) {
     run.warn(fmt::format("{}: skipped {}, which are not meshes", path.string(), skipped));

@@ -93,10 +93,11 @@ class GltfReader {
                             skipped_ == 1 ? "" : "s"));
     }
     if (skinned_ + morphed_ > 0) {
-      run_.warn(fmt::format("{}: {} mesh{} read at rest, without the pose of a skeleton or shape key",
-                            document_.path.string(),
-                            skinned_ + morphed_,
-                            skinned_ + morphed_ == 1 ? " is" : "es are"));
+      run_.warn(
+          fmt::format("{}: {} mesh{} read at rest, without the pose of a skeleton or shape key",
+                      document_.path.string(),
+                      skinned_ + morphed_,
+                      skinned_ + morphed_ == 1 ? " is" : "es are"));
     }
     if (mesh_.empty()) document_.fail("its scene has no triangle");
     if (!all_have_normals_) mesh_.normals.clear();
@@ -155,8 +156,8 @@ class GltfReader {
       Eigen::Affine3d place = mm_from_node;
       if (!t.empty()) place.translate(Eigen::Vector3d(t[3 * i], t[3 * i + 1], t[3 * i + 2]));
       if (!r.empty())
-        place.rotate(Eigen::Quaterniond(r[4 * i + 3], r[4 * i], r[4 * i + 1], r[4 * i + 2])
-                         .normalized());
+        place.rotate(
+            Eigen::Quaterniond(r[4 * i + 3], r[4 * i], r[4 * i + 1], r[4 * i + 2]).normalized());
       if (!s.empty()) place.scale(Eigen::Vector3d(s[3 * i], s[3 * i + 1], s[3 * i + 2]));
       instances_.push_back({mesh, place});
     }

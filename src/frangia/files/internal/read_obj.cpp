@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <array>
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -8,11 +10,11 @@
 #include <fmt/format.h>
 
 #include "frangia/core/error.h"
+#include "frangia/core/plain_text.h"
 #include "frangia/files/internal/check_mesh.h"
 #include "frangia/files/internal/color_of.h"
 #include "frangia/files/internal/mark_names.h"
 #include "frangia/files/internal/obj.h"
-#include "frangia/core/plain_text.h"
 #include "frangia/files/internal/polygon_faces.h"
 #include "frangia/files/internal/read_bytes.h"
 #include "frangia/files/internal/text_reader.h"
@@ -39,6 +41,20 @@ std::string_view normal_of(std::string_view corner) {
   return second == std::string_view::npos ? std::string_view() : corner.substr(second + 1);
 }
 
+/// Whether a word is a comment or begins a statement that a mesh does not need.
+///
+/// @source   Wavefront, Object Files (.obj), appendix B1
+bool is_other_statement(std::string_view word) {
+  constexpr std::array<std::string_view, 36> kWords{
+      "vt",     "vp",       "l",      "p",          "o",         "s",     "mg",     "usemtl",
+      "mtllib", "usemap",   "maplib", "deg",        "bmat",      "step",  "cstype", "parm",
+      "trim",   "hole",     "scrv",   "sp",         "end",       "con",   "bevel",  "c_interp",
+      "lod",    "d_interp", "call",   "shadow_obj", "trace_obj", "ctech", "stech",  "csh",
+      "bsp",    "bzp",      "res",    "cdc"};
+  return word.empty() || word.starts_with('#') ||
+         std::find(kWords.begin(), kWords.end(), word) != kWords.end();
+}
+
 class ObjReader {
  public:
   ObjReader(const std::filesystem::path& path, std::string_view text) : reader_(path, text) {}
@@ -59,6 +75,8 @@ class ObjReader {
         mark_ = mark_of_name(word());
       } else if (keyword == "surf" || keyword == "curv" || keyword == "curv2") {
         ++free_forms_;
+      } else if (!is_other_statement(keyword)) {
+        if (odd_lines_++ == 0) odd_ = keyword;
       }
     }
     if (!one_normal_a_vertex_ || mesh_.normals.size() != mesh_.vertices_mm.size()) {
@@ -69,7 +87,22 @@ class ObjReader {
   }
 
   [[nodiscard]] const PolygonFaces& polygons() const { return polygons_; }
-  [[nodiscard]] std::size_t free_forms() const { return free_forms_; }
+  /// Warns of what was skipped.
+  void warn(const std::filesystem::path& path, const Run& run) const {
+    if (free_forms_ > 0) {
+      run.warn(fmt::format("{}: skipped {} free-form curves and surfaces, which are not meshes",
+                           path.string(),
+                           free_forms_));
+    }
+    if (odd_lines_ > 0) {
+      run.warn(fmt::format("{}: skipped {} line{} that {} no statement of OBJ, the first with {}",
+                           path.string(),
+                           odd_lines_,
+                           odd_lines_ == 1 ? "" : "s",
+                           odd_lines_ == 1 ? "is" : "are",
+                           in_quotes(odd_)));
+    }
+  }
 
  private:
   /// The next word of a statement, which a backslash continues on the next line and a comment
@@ -140,6 +173,8 @@ class ObjReader {
   std::vector<std::uint32_t> corners_;
   std::vector<Eigen::Vector3f> colors_;
   std::size_t free_forms_ = 0;  ///< curves and surfaces
+  std::size_t odd_lines_ = 0;   ///< without a keyword of OBJ
+  std::string odd_;             ///< the word of the first
   bool ended_ = false;          ///< the statement, by a comment
   bool one_normal_a_vertex_ = true;
   Mark mark_ = Mark::Measured;
@@ -157,11 +192,7 @@ Mesh read_obj(const std::filesystem::path& path, const Run& run) {
   }
   check_mesh(mesh, path);
   reader.polygons().triangulate(mesh, path, run);
-  if (reader.free_forms() > 0) {
-    run.warn(fmt::format("{}: skipped {} free-form curves and surfaces, which are not meshes",
-                         path.string(),
-                         reader.free_forms()));
-  }
+  reader.warn(path, run);
   return mesh;
 }
 

@@ -5,10 +5,10 @@
 
 #include <fmt/format.h>
 
+#include "frangia/core/plain_text.h"
 #include "frangia/files/internal/check_mesh.h"
 #include "frangia/files/internal/color_of.h"
 #include "frangia/files/internal/off.h"
-#include "frangia/core/plain_text.h"
 #include "frangia/files/internal/polygon_faces.h"
 #include "frangia/files/internal/read_bytes.h"
 #include "frangia/files/internal/text_reader.h"

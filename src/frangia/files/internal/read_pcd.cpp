@@ -15,9 +15,9 @@
 #include <fmt/format.h>
 
 #include "frangia/core/error.h"
+#include "frangia/core/plain_text.h"
 #include "frangia/files/internal/check_mesh.h"
 #include "frangia/files/internal/pcd.h"
-#include "frangia/core/plain_text.h"
 #include "frangia/files/internal/read_bytes.h"
 #include "frangia/files/internal/text_reader.h"
 

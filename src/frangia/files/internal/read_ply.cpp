@@ -10,9 +10,9 @@
 
 #include <fmt/format.h>
 
+#include "frangia/core/plain_text.h"
 #include "frangia/files/internal/check_mesh.h"
 #include "frangia/files/internal/color_of.h"
-#include "frangia/core/plain_text.h"
 #include "frangia/files/internal/ply_source.h"
 #include "frangia/files/internal/polygon_faces.h"
 #include "frangia/files/internal/range_grid.h"
@@ -178,6 +178,9 @@ template <typename Source>
 void read_faces(Source& source, const PlyElement& element, PolygonFaces& polygons, Mesh& mesh) {
   std::vector<std::uint32_t> corners;
   mesh.triangles.reserve(element.count);
+  if (element.count > 0 &&
+      std::none_of(element.properties.begin(), element.properties.end(), is_corner_list))
+    source.fail("its faces have no list named vertex_indices or vertex_index; export it again");
   const bool has_marks = std::any_of(element.properties.begin(), element.properties.end(), is_mark);
   for (std::uint64_t i = 0; i < element.count; ++i) {
     Mark mark = Mark::Measured;

@@ -11,8 +11,9 @@
 #include <fmt/format.h>
 
 #include "frangia/core/error.h"
-#include "frangia/files/internal/check_mesh.h"
 #include "frangia/core/plain_text.h"
+#include "frangia/files/internal/check_mesh.h"
+#include "frangia/files/internal/polygon_faces.h"
 #include "frangia/files/internal/read_bytes.h"
 #include "frangia/files/internal/text_reader.h"
 #include "frangia/files/internal/weld_vertices.h"
@@ -191,7 +192,11 @@ Corners read_corners(const std::filesystem::path& path, const std::string& bytes
 
 Mesh read_stl(const std::filesystem::path& path, const Run& run) {
   const std::string bytes = read_bytes(path);
-  Mesh mesh = weld_vertices(read_corners(path, bytes, run));
+  const Corners corners = read_corners(path, bytes, run);
+  Mesh mesh = weld_vertices(corners);
+  OddFaces odd;
+  odd.note_without_area(corners.size() / 3 - mesh.triangles.size());
+  odd.warn(path, 1.0, run);
   check_mesh(mesh, path);
   return mesh;
 }

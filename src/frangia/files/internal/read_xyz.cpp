@@ -8,9 +8,9 @@
 
 #include <fmt/format.h>
 
+#include "frangia/core/plain_text.h"
 #include "frangia/files/internal/check_mesh.h"
 #include "frangia/files/internal/color_of.h"
-#include "frangia/core/plain_text.h"
 #include "frangia/files/internal/read_bytes.h"
 #include "frangia/files/internal/text_reader.h"
 #include "frangia/files/internal/xyz.h"
@@ -100,10 +100,11 @@ Mesh read_xyz(const std::filesystem::path& path, const Run& run) {
   const bool in_threes = is_regular && (most == 6 || most == kMostColumns);
   const bool all_taken = in_threes ? take_columns(first, second, mesh) : most == 3;
   if (!all_taken) {
-    run.warn(fmt::format(
-        "{}: what is behind x, y and z is left out where it is neither normals nor colours of every "
-        "point",
-        path.string()));
+    run.warn(
+        fmt::format("{}: what is behind x, y and z is left out where it is neither normals nor "
+                    "colours of every "
+                    "point",
+                    path.string()));
   }
   check_mesh(mesh, path);
   return mesh;
