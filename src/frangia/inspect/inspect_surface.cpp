@@ -1,6 +1,37 @@
 #include "frangia/inspect/inspect_surface.h"
 
+#include <Eigen/Geometry>
+#include <fmt/format.h>
+
+#include "frangia/core/error.h"
+
 namespace frangia {
+namespace {
+
+Eigen::AlignedBox3f box_of_vertices(const Mesh& mesh) {
+  Eigen::AlignedBox3f box;
+  for (const Eigen::Vector3f& vertex : mesh.vertices_mm)
+    box.extend(vertex);
+  return box;
+}
+
+/// Refuses a mesh that lies beside the reference: a face of one that looks at the other from afar
+/// is no deviation.
+void refuse_apart(const Mesh& mesh, const Mesh& reference) {
+  constexpr float kApart = 0.01F;  // of the size of the reference: a part may be out by less
+  const Eigen::AlignedBox3f own = box_of_vertices(mesh);
+  const Eigen::AlignedBox3f nominal = box_of_vertices(reference);
+  if (own.isEmpty() || nominal.isEmpty()) return;
+  const float apart_mm = own.exteriorDistance(nominal);
+  if (!(apart_mm > kApart * nominal.diagonal().norm())) return;
+  throw Error(
+      ErrorKind::Input,
+      fmt::format("the mesh lies {:.3g} mm beside the reference, so that nothing of it can be "
+                  "compared: set `align` to best-fit, or give files of one frame",
+                  apart_mm));
+}
+
+}  // namespace
 
 SurfaceInspection inspect_surface(const Mesh& mesh,
                                   const RayScene& reference,
@@ -8,6 +39,7 @@ SurfaceInspection inspect_surface(const Mesh& mesh,
                                   const DeviationOptions& options,
                                   const Run& run) {
   rule.check();
+  refuse_apart(mesh, reference.mesh());
   SurfaceInspection found;
   found.deviations = deviations_of(mesh, reference, options, run);
   found.summary = summarize(mesh, found.deviations);

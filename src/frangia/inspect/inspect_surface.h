@@ -17,7 +17,8 @@ struct SurfaceInspection {
 /// app and Python state about a surface.
 ///
 /// @units    mm
-/// @errors   Error(Input) as deviations_of and judge_surface; Error(Cancelled)
+/// @errors   Error(Input) as deviations_of and judge_surface, and for a mesh that lies beside the
+///           reference; Error(Cancelled)
 [[nodiscard]] SurfaceInspection inspect_surface(const Mesh& mesh,
                                                 const RayScene& reference,
                                                 const SurfaceRule& rule = {},
