@@ -240,6 +240,15 @@ TEST(FindCharuco, NamesAnotherDictionary) {
   EXPECT_EQ(other->columns, 0) << "the layout is the expected one";
 }
 
+TEST(FindCharuco, NamesTheMarkersWhereACheckerboardIsExpected) {
+  Board checkerboard = kCharuco;
+  checkerboard.kind = BoardKind::Checkerboard;
+  const auto other = find_other_charuco(picture_of(oblique(), charuco(kCharuco)), checkerboard);
+  ASSERT_TRUE(other);
+  EXPECT_EQ(other->dictionary, "DICT_5X5_50");
+  EXPECT_EQ(other->last_id, 43);
+}
+
 TEST(FindCharuco, NamesExchangedWidthAndHeight) {
   Board exchanged = kCharuco;
   std::swap(exchanged.columns, exchanged.rows);

@@ -149,6 +149,8 @@ bool find_points(const Image<float>& image,
     if (sight.points.size() >= options.min_points) pose.view.points = std::move(sight.points);
   } else {
     pose.view.points = find_board(image, board);
+    if (pose.view.points.empty())
+      if (auto other = find_other_charuco(image, board)) pose.other_board = std::move(other);
   }
   return !pose.view.points.empty();
 }

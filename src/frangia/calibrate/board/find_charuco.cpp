@@ -173,4 +173,8 @@ CharucoSight find_charuco(const Image<float>& counts, const Board& board) {
   return sight;
 }
 
+std::optional<OtherCharuco> find_other_charuco(const Image<float>& counts, const Board& board) {
+  return recognize_charuco(display_bytes(opencv_view(counts)), board);
+}
+
 }  // namespace frangia

@@ -42,4 +42,10 @@ struct CharucoSight {
 /// @source   Garrido-Jurado et al. 2014 for the markers; corners as `find_checkerboard`
 [[nodiscard]] CharucoSight find_charuco(const Image<float>& counts, const Board& board);
 
+/// The ChArUco board that an image shows where a board of another kind is expected.
+///
+/// @missing  nullopt: fewer than six markers
+[[nodiscard]] std::optional<OtherCharuco> find_other_charuco(const Image<float>& counts,
+                                                             const Board& board);
+
 }  // namespace frangia

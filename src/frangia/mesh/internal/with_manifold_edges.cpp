@@ -54,9 +54,10 @@ Mesh with_manifold_edges(Mesh mesh, std::string_view operation, const Run& run) 
                             operation));
   }
   run.warn(
-      fmt::format("the mesh has {} non-manifold edges; {} split them first, as "
+      fmt::format("the mesh has {} non-manifold edge{}; {} split them first, as "
                   "`make_manifold` does",
                   count,
+                  count == 1 ? "" : "s",
                   operation));
   return make_manifold(std::move(mesh), run);
 }

@@ -67,7 +67,9 @@ std::string keys_to_set(const OtherCharuco& seen, const Board& board) {
     if (!keys.empty()) keys += ", ";
     keys += key;
   };
-  if (family_of(seen.dictionary) != family_of(board.dictionary))
+  const bool other_kind = board.kind != BoardKind::Charuco;
+  if (other_kind) add("kind = \"charuco\"");
+  if (other_kind || family_of(seen.dictionary) != family_of(board.dictionary))
     add(fmt::format("dictionary = \"{}\"", seen.dictionary));
   const int first = seen.columns > 0 ? seen.layout_first_id : seen.first_id;
   const int end = board.first_id + static_cast<int>(marker_squares(board).size());

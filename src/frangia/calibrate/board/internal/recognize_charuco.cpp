@@ -95,7 +95,8 @@ std::optional<OtherCharuco> recognize_charuco(const cv::Mat& bytes, const Board&
   out.last_id = seen.markers.back().id;
   out.dictionary = dictionary_with(seen.cells, out.last_id);
   const int cells = find_aruco_dictionary(expected.dictionary).value().cells;
-  const bool of_its_kind = seen.cells == cells && !seen.inverted && !seen.mirrored;
+  const bool of_its_kind = expected.kind == BoardKind::Charuco && seen.cells == cells &&
+                           !seen.inverted && !seen.mirrored;
   if (!seen.mirrored) find_layout(seen.markers, expected, out);
   const auto end = expected.first_id + static_cast<int>(marker_squares(expected).size());
   const auto outside =
