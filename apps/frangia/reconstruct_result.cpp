@@ -165,6 +165,17 @@ nlohmann::ordered_json json_of(const RigAgreement& agreement) {
           {"text", with_flags(agreement.text())}};
 }
 
+nlohmann::ordered_json json_of(const SilhouetteReport& report) {
+  return {{"views", report.views},
+          {"rims", report.rims},
+          {"outside_mm", report.outside_mm},
+          {"largest_mm", report.largest_mm},
+          {"limit_mm", report.limit_mm},
+          {"excluded_mm", report.excluded_mm},
+          {"consistent", !report.contradicts()},
+          {"text", report.text()}};
+}
+
 nlohmann::ordered_json json_of(const TargetsReport& report) {
   nlohmann::ordered_json json;
   json["targets"] = nlohmann::ordered_json::array();
@@ -217,6 +228,7 @@ nlohmann::ordered_json json_of(const Reconstruction& result, const std::filesyst
   if (!raw.empty()) json["raw"] = raw.string();
   if (result.refinement) json["refinement"] = json_of(*result.refinement);
   if (result.registration) json["registration"] = json_of(*result.registration);
+  if (result.silhouettes) json["silhouettes"] = json_of(*result.silhouettes);
   if (result.targets) json["targets"] = json_of(*result.targets);
   if (!std::isnan(result.turntable_top_height_mm))
     json["turntable_top_height_mm"] = result.turntable_top_height_mm;
@@ -243,6 +255,8 @@ void print_reconstruction(const Reconstruction& result,
              result.mesh.triangles.size(),
              text_of(result.sigma),
              text_of(result.islands));
+  if (result.silhouettes && !result.silhouettes->contradicts())
+    print_text("{}\n", result.silhouettes->text());
   if (result.targets) print_text("{}\n", result.targets->text());
   if (result.refinement) print_refinement(*result.refinement);
   print_mesh_summary(terminal, outputs);

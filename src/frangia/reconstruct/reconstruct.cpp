@@ -28,6 +28,7 @@
 #include "frangia/reconstruct/internal/register_setups.h"
 #include "frangia/reconstruct/internal/remove_background.h"
 #include "frangia/reconstruct/internal/resolve_fringe_orders.h"
+#include "frangia/reconstruct/internal/scan_silhouettes.h"
 #include "frangia/reconstruct/internal/scan_targets.h"
 #include "frangia/reconstruct/internal/split_setups.h"
 #include "frangia/reconstruct/internal/tie_cameras.h"
@@ -62,6 +63,8 @@ std::string untrusted_reason_of(const Reconstruction& result) {
   }
   std::string reason;
   if (result.registration) reason = result.registration->untrusted_reason();
+  if (reason.empty() && result.silhouettes && result.silhouettes->contradicts())
+    reason = result.silhouettes->text();
   if (reason.empty() && blames_rig(result.registration)) {
     reason =
         "the views show that the rig is not what rig.toml states, and do not determine how: "
@@ -340,6 +343,7 @@ Reconstruction reconstruct(const Scan& scan, const ReconstructOptions& given, co
     throw Error(ErrorKind::Input,
                 explain_no_surface(scan, rays, options.decode, {out.points, unresolved}, run));
   }
+  out.silhouettes = silhouettes_of(scan, registered.joined.measured, out.mesh, run);
   if (out.targets && out.targets->scale) apply_scale(out, out.targets->scale->factor);
   out.untrusted_reason = untrusted_reason_of(out);
   if (!out.untrusted_reason.empty()) discard_sigma(out.mesh);

@@ -17,6 +17,7 @@
 #include "frangia/geometry/mesh.h"
 #include "frangia/indirect_light/indirect_light_report.h"
 #include "frangia/range/remove_mixed_pixels.h"
+#include "frangia/reconstruct/check_silhouettes.h"
 #include "frangia/reconstruct/finish_mesh.h"
 #include "frangia/reconstruct/rig_agreement.h"
 #include "frangia/reconstruct/setup_join.h"
@@ -77,6 +78,7 @@ struct Reconstruction {
   std::vector<RigAgreement> agreements{};
   std::size_t cameras = 1;                            ///< of the rig
   std::optional<IndirectLightReport> indirect_light;  ///< empty: none was found
+  std::optional<SilhouetteReport> silhouettes{};      ///< empty where no background is lit
   std::optional<TargetsReport> targets{};             ///< empty for a scan without `[targets]`
   /// Why the mesh must not be trusted, as one clause without a full stop; empty when it can be.
   std::string untrusted_reason{};
