@@ -207,7 +207,7 @@ void add_part_faults(CLI::App& verb, SimulateArguments& arguments) {
           "none (default), or checker: cubes of 8 mm, of albedo 0.10 and 0.85")
       ->check(one_of({"none", "checker"}))
       ->group(kGroup);
-  verb.add_option("--targets", arguments.discs, "stickers with a dark disc on flat places")
+  verb.add_option("--targets", arguments.discs, "dark discs on flat places")
       ->check(from_to(1, 200))
       ->group(kGroup);
   verb.add_option("--coded-targets",

@@ -175,10 +175,6 @@ void add_stickers(const SimulateArguments& arguments,
     targets.dictionary = "DICT_4X4_50";
     targets.marker_mm = 2.0 * arguments.target_mm;
   }
-  // Paper around what is printed.
-  constexpr double kPaper = 1.3;
-  targets.sticker_mm = kPaper * (arguments.coded_targets > 0 ? sticker_diameter_mm(targets, true)
-                                                             : targets.diameter_mm);
   options.stickers =
       place_stickers(part, targets, arguments.discs, arguments.coded_targets, options.seed, run);
   plan.targets = targets;

@@ -59,27 +59,30 @@ std::vector<Sticker> place_stickers(const Mesh& part,
                                     const Run& run) {
   constexpr std::size_t kPlaces = 4000;
   constexpr double kRoom = 1.15;  // of the radius: a sticker does not reach the edge of its face
-  constexpr double kApart = 1.3;  // diameters of the larger kind
+  constexpr double kApart = 1.3;  // mean diameters of two stickers
   check_targets(targets);
   const RayScene surface(part, run);
   const auto places = sample_surface(part, kPlaces, seed);
-  const double apart_mm =
-      kApart * std::max(sticker_diameter_mm(targets, false), sticker_diameter_mm(targets, true));
   std::vector<Sticker> stickers;
-  const auto nearest_mm = [&](const Eigen::Vector3d& point_mm) {
-    double least = 1e300;
-    for (const Sticker& sticker : stickers)
-      least = std::min(least, (sticker.center_mm - point_mm).norm());
+  // What is left between a sticker at a point and the others, beyond what they need.
+  const auto room_mm = [&](const Eigen::Vector3d& point_mm, double size_mm) {
+    double least = 1e6;
+    for (const Sticker& sticker : stickers) {
+      const double other_mm = sticker_diameter_mm(targets, sticker.code >= 0);
+      least = std::min(least,
+                       (sticker.center_mm - point_mm).norm() - 0.5 * kApart * (size_mm + other_mm));
+    }
     return least;
   };
   for (std::size_t i = 0; i < discs + coded; ++i) {
     run.check();
     const bool is_coded = i >= discs;
-    const double radius_mm = 0.5 * kRoom * sticker_diameter_mm(targets, is_coded);
+    const double size_mm = sticker_diameter_mm(targets, is_coded);
+    const double radius_mm = 0.5 * kRoom * size_mm;
     const SurfaceSample* best = nullptr;
-    double farthest = apart_mm;
+    double farthest = 0.0;
     for (const SurfaceSample& place : places) {
-      const double away = std::min(1e6, nearest_mm(place.point_mm));
+      const double away = room_mm(place.point_mm, size_mm);
       if (away <= farthest || !is_flat(surface, place, radius_mm)) continue;
       farthest = away;
       best = &place;

@@ -118,12 +118,15 @@ double wait_for_drift(const Scan& plan,
     return capture_finest(plan.patterns, plan.rig, 0, devices, exposure_ms);
   };
   FrameStack before = look();
+  auto looked = std::chrono::steady_clock::now();
   const double distance_mm = fringe_distance_mm(before.pattern, plan.rig);
   double moved_mm = static_cast<double>(kMissing);
   for (int still = 0; still < kStill;) {
     sleep(options.drift_interval_s, run);
     run.check();
     FrameStack after = look();
+    const std::chrono::duration<double> between = std::chrono::steady_clock::now() - looked;
+    looked = std::chrono::steady_clock::now();
     moved_mm = distance_mm * fringe_motion_rad(before, after) / kTwoPi;
     before = std::move(after);
     if (std::isnan(moved_mm)) {
@@ -132,19 +135,18 @@ double wait_for_drift(const Scan& plan,
           "no fringes are seen, so that their drift cannot be measured: check the light and "
           "the exposure, or leave out `wait_for_drift`");
     }
-    run.note(fmt::format("the fringes moved by {:.4f} mm at the part within {:g} s",
-                         moved_mm,
-                         options.drift_interval_s));
+    run.note(fmt::format(
+        "the fringes moved by {:.4f} mm at the part within {:.1f} s", moved_mm, between.count()));
     still = moved_mm < options.drift_limit_mm ? still + 1 : 0;
     const std::chrono::duration<double> waited = std::chrono::steady_clock::now() - begin;
     if (still < kStill && waited.count() > options.drift_patience_s) {
       throw Error(
           ErrorKind::Device,
-          fmt::format("the fringes still move by {:.4f} mm at the part within {:g} s after "
+          fmt::format("the fringes still move by {:.4f} mm at the part within {:.1f} s after "
                       "{:.0f} s: let the rig warm up, look for what moves, or allow more by "
                       "`wait_for_drift`",
                       moved_mm,
-                      options.drift_interval_s,
+                      between.count(),
                       waited.count()));
     }
   }
