@@ -35,7 +35,7 @@ TEST(PlaceStickers, LiesFlatOnTheFacesOfAPlateAndApart) {
 }
 
 TEST(PlaceStickers, RefusesMoreThanThePartHasRoomFor) {
-  EXPECT_THROW(static_cast<void>(place_stickers(make_plate(), kSet, 200, 0, 1)), Error);
+  EXPECT_THROW(static_cast<void>(place_stickers(make_plate(), kSet, 600, 0, 1)), Error);
 }
 
 TEST(StickerAlbedo, IsInkOnPaperAndNothingBesideIt) {

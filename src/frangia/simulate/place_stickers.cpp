@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 
 #include <fmt/format.h>
@@ -74,16 +75,23 @@ std::vector<Sticker> place_stickers(const Mesh& part,
     }
     return least;
   };
+  std::vector<SurfaceSample> flat;  // places for the present kind
   for (std::size_t i = 0; i < discs + coded; ++i) {
     run.check();
     const bool is_coded = i >= discs;
     const double size_mm = sticker_diameter_mm(targets, is_coded);
     const double radius_mm = 0.5 * kRoom * size_mm;
+    if (i == 0 || i == discs) {
+      flat.clear();
+      std::copy_if(places.begin(), places.end(), std::back_inserter(flat), [&](const auto& place) {
+        return is_flat(surface, place, radius_mm);
+      });
+    }
     const SurfaceSample* best = nullptr;
     double farthest = 0.0;
-    for (const SurfaceSample& place : places) {
+    for (const SurfaceSample& place : flat) {
       const double away = room_mm(place.point_mm, size_mm);
-      if (away <= farthest || !is_flat(surface, place, radius_mm)) continue;
+      if (away <= farthest) continue;
       farthest = away;
       best = &place;
     }

@@ -176,7 +176,9 @@ def report(text, results):
         "faces and eight on three cubes of 16 mm fixed to the plate, are all that ties the setups along its thickness. "
         f"{len(found)} seeds of the camera's noise.\n"
     )
-    text.table("seeds", "joined", "targets in both setups", "error, mm: mean", "RMS", "largest", "U95, mm", "within U95")
+    text.table(
+        "seeds", "joined", "targets in both setups", "error, mm: mean", "RMS", "largest", "U95, mm", "within U95"
+    )
     text.row(
         len(found),
         sum(one["joined"] for one in found),
