@@ -21,6 +21,7 @@
 #include "calibrate_check_verb.h"
 #include "calibrate_exchange_verbs.h"
 #include "calibrate_rig_verb.h"
+#include "calibrate_targets_verb.h"
 #include "calibrate_turntable_verb.h"
 #endif
 #include "calibrate_display_verb.h"
@@ -102,6 +103,7 @@ void add_calibrate_verb(CLI::App& program, Terminal& terminal) {
   verb->require_subcommand(1);
 #ifdef FRANGIA_WITH_CALIBRATION
   add_calibrate_board_verb(*verb, terminal);
+  add_calibrate_targets_verb(*verb, terminal);
   add_calibrate_capture_verb(*verb, terminal);
   add_calibrate_rig_verb(*verb, terminal);
   add_calibrate_turntable_verb(*verb, terminal);

@@ -54,6 +54,7 @@ void print_capture(const std::filesystem::path& output,
                                   {"disk_s", report.disk_s},
                                   {"overhead_ms_per_frame", report.overhead_ms()},
                                   {"warnings", terminal.warnings()}};
+    if (report.drift_mm) result["drift_mm"] = *report.drift_mm;
     print_json(result);
     return;
   }

@@ -165,6 +165,44 @@ nlohmann::ordered_json json_of(const RigAgreement& agreement) {
           {"text", with_flags(agreement.text())}};
 }
 
+nlohmann::ordered_json json_of(const SilhouetteReport& report) {
+  return {{"views", report.views},
+          {"rims", report.rims},
+          {"outside_mm", report.outside_mm},
+          {"largest_mm", report.largest_mm},
+          {"limit_mm", report.limit_mm},
+          {"excluded_mm", report.excluded_mm},
+          {"consistent", !report.contradicts()},
+          {"text", report.text()}};
+}
+
+nlohmann::ordered_json json_of(const TargetsReport& report) {
+  nlohmann::ordered_json json;
+  json["targets"] = nlohmann::ordered_json::array();
+  for (const MeasuredTarget& target : report.targets) {
+    json["targets"].push_back(
+        {{"code", target.code < 0 ? nlohmann::ordered_json() : nlohmann::ordered_json(target.code)},
+         {"center_mm", {target.center_mm.x(), target.center_mm.y(), target.center_mm.z()}},
+         {"sigma_mm", target.sigma_mm},
+         {"views", target.views},
+         {"setups", target.setups}});
+  }
+  json["tying"] = report.tying;
+  json["tying_setups"] = report.tying_setups;
+  json["rms_mm"] = report.rms_mm;
+  json["over_sigma"] = report.over_sigma;
+  json["masked"] = report.masked;
+  json["filled"] = report.filled;
+  if (report.scale) {
+    json["scale"] = {{"factor", report.scale->factor},
+                     {"sigma", report.scale->sigma},
+                     {"distances", report.scale->distances},
+                     {"consistent", !report.scale->contradicts()}};
+  }
+  json["text"] = report.text();
+  return json;
+}
+
 /// The answer of --json.
 nlohmann::ordered_json json_of(const Reconstruction& result, const std::filesystem::path& raw) {
   nlohmann::ordered_json json;
@@ -190,6 +228,8 @@ nlohmann::ordered_json json_of(const Reconstruction& result, const std::filesyst
   if (!raw.empty()) json["raw"] = raw.string();
   if (result.refinement) json["refinement"] = json_of(*result.refinement);
   if (result.registration) json["registration"] = json_of(*result.registration);
+  if (result.silhouettes) json["silhouettes"] = json_of(*result.silhouettes);
+  if (result.targets) json["targets"] = json_of(*result.targets);
   if (!std::isnan(result.turntable_top_height_mm))
     json["turntable_top_height_mm"] = result.turntable_top_height_mm;
   return json;
@@ -215,6 +255,9 @@ void print_reconstruction(const Reconstruction& result,
              result.mesh.triangles.size(),
              text_of(result.sigma),
              text_of(result.islands));
+  if (result.silhouettes && !result.silhouettes->contradicts())
+    print_text("{}\n", result.silhouettes->text());
+  if (result.targets) print_text("{}\n", result.targets->text());
   if (result.refinement) print_refinement(*result.refinement);
   print_mesh_summary(terminal, outputs);
   if (!raw.empty()) terminal.print_written(raw.string());

@@ -113,6 +113,10 @@ void add_surface_options(CLI::App& verb, ReconstructArguments& arguments) {
       arguments.options.finish.keep_islands,
       "keep components of a few voxels, or smaller than their sigma, which are removed by "
       "default");
+  verb.add_flag("--fill-targets",
+                arguments.options.fill_targets,
+                "close the holes under the stickers of [targets]; their triangles are marked as "
+                "synthesized");
   verb.add_flag("--watertight",
                 arguments.options.finish.watertight,
                 "close all holes; their triangles are marked as synthesized (mark 2 in a PLY, a "

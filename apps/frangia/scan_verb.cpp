@@ -130,6 +130,14 @@ void add_reliability_options(CLI::App& verb, ScanArguments& arguments) {
                   "a scan")
       ->check(from_to(-1e6, 1e6))
       ->group("Reliability");
+  verb.add_option("--wait-for-drift",
+                  options.drift_limit_mm,
+                  "begin when the fringes on the part move by less than this from one look to the "
+                  "next, mm, such as 0.005mm")
+      ->transform(length_above_zero())
+      ->group("Reliability");
+  add("--drift-interval", options.drift_interval_s, "time from one look to the next, s");
+  add("--drift-patience", options.drift_patience_s, "give up after this time, s");
   verb.add_flag("--no-step-control",
                 arguments.no_step_control,
                 "do not correct the phase shifter by the steps measured in the frames")

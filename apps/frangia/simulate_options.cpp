@@ -207,6 +207,20 @@ void add_part_faults(CLI::App& verb, SimulateArguments& arguments) {
           "none (default), or checker: cubes of 8 mm, of albedo 0.10 and 0.85")
       ->check(one_of({"none", "checker"}))
       ->group(kGroup);
+  verb.add_option("--targets", arguments.discs, "dark discs on flat places")
+      ->check(from_to(1, 200))
+      ->group(kGroup);
+  verb.add_option("--coded-targets",
+                  arguments.coded_targets,
+                  "stickers with a marker of DICT_4X4_50 on flat places, with the codes 0, 1, ...")
+      ->check(from_to(1, 50))
+      ->group(kGroup);
+  add_fault(verb,
+            kGroup,
+            "--target-size",
+            arguments.target_mm,
+            "diameter of the discs; the markers are twice as wide, mm")
+      ->transform(length_above_zero());
   add_fault(verb, kGroup, "--color", options.color, "strength of bands of changing hue, 0 to 0.95")
       ->check(from_to(0.0, 0.95));
   add_fault(verb, kGroup, "--gloss", options.gloss, "strength of the highlight")

@@ -36,6 +36,9 @@ struct SimulateArguments {
   const CLI::Option* fringes_per_degree = nullptr;
   ReadOptions read;
   SimulatedFrameFaults frame_faults;
+  std::size_t discs = 0;
+  std::size_t coded_targets = 0;
+  double target_mm = 4.0;
   std::string slide_part;
   std::string lost_step;
 };

@@ -110,6 +110,8 @@ void refuse_faults_of_parts(const SimulateArguments& arguments) {
                                                  {"repeat_frame", !frames.repeated.empty()},
                                                  {"lamp_on", !frames.lamps_on.empty()},
                                                  {"video_levels", frames.video_levels},
+                                                 {"targets", arguments.discs > 0},
+                                                 {"coded_targets", arguments.coded_targets > 0},
                                                  {"slide_part", !arguments.slide_part.empty()},
                                                  {"lost_step", !arguments.lost_step.empty()},
                                                  {"drift", motion.drift_mm != 0.0},
@@ -118,7 +120,7 @@ void refuse_faults_of_parts(const SimulateArguments& arguments) {
   for (const auto& [name, is_set] : faults) {
     if (is_set) {
       throw Error(ErrorKind::Input,
-                  fmt::format("`{}` is a fault of the scan of a part; leave it out where "
+                  fmt::format("`{}` is for the scan of a part; leave it out where "
                               "`calibration` is set",
                               name));
     }
@@ -158,6 +160,24 @@ void simulate_poses(const SimulateArguments& arguments,
   Scan scan = simulate_calibration(plan, options, run);
   state_label(arguments, scan);
   print_result(scan, "truth-rig.toml", terminal);
+}
+
+/// Places the stickers that were asked for, and states them in the scan.
+void add_stickers(const SimulateArguments& arguments,
+                  const Mesh& part,
+                  Scan& plan,
+                  SimulateOptions& options,
+                  const Run& run) {
+  if (arguments.discs + arguments.coded_targets == 0) return;
+  TargetSet& targets = options.targets;
+  if (arguments.discs > 0) targets.diameter_mm = arguments.target_mm;
+  if (arguments.coded_targets > 0) {
+    targets.dictionary = "DICT_4X4_50";
+    targets.marker_mm = 2.0 * arguments.target_mm;
+  }
+  options.stickers =
+      place_stickers(part, targets, arguments.discs, arguments.coded_targets, options.seed, run);
+  plan.targets = targets;
 }
 
 void simulate(SimulateArguments arguments, Terminal& terminal) {
@@ -200,6 +220,7 @@ void simulate(SimulateArguments arguments, Terminal& terminal) {
   check_frame_faults(arguments.frame_faults, plan);
   read_motion_faults(arguments, plan.views.size());
   SimulateOptions with_lamps = options;
+  add_stickers(arguments, part, plan, with_lamps, run);
   with_lamps.lamps_on = lamps_of(arguments.frame_faults, plan);
   run.stage("render");
   refuse_label_of_one_camera(arguments, plan.rig);

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <fstream>
 #include <string>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -159,6 +160,36 @@ TEST(CalibrateProgram, WritesTheRigOfSimulatedPosesAndNoneForAFault) {
   EXPECT_EQ(wrong.exit_code, 3);
   EXPECT_NE(wrong.output.find("set corners = [10, 7]"), std::string::npos) << wrong.output;
   EXPECT_FALSE(std::filesystem::exists(other));
+}
+
+TEST(CalibrateTargets, DrawsDiscsAndMarkersAtTrueScale) {
+  const TemporaryFolder folder;
+  const auto file = folder.path() / "targets.pdf";
+  const Answer answer = run_program(
+      "calibrate targets --discs 3 --diameter 4mm --coded 2 --marker 9mm -o " + file.string());
+  EXPECT_EQ(answer.exit_code, 0) << answer.output;
+  EXPECT_NE(answer.output.find("diameter_mm = 4\ndisc = \"dark\""), std::string::npos);
+  EXPECT_NE(answer.output.find("marker_mm = 9"), std::string::npos);
+  const std::string pdf = text_of(file);
+  EXPECT_EQ(pdf.substr(0, 5), "%PDF-");
+  // A cell of a marker of six is 1.5 mm, 4.25197 points.
+  EXPECT_NE(pdf.find("4.25197 4.25197 re"), std::string::npos);
+}
+
+TEST(CalibrateTargets, RefusesWhatCannotBePrintedInOneSentence) {
+  const TemporaryFolder folder;
+  const std::string file = (folder.path() / "targets.pdf").string();
+  const std::pair<const char*, const char*> faults[] = {
+      {"--dictionary DICT_9X9_50", "\"DICT_9X9_50\" is unknown"},
+      {"--coded 60", "DICT_4X4_50 has the codes 0 to 49"},
+      {"--diameter 300mm", "does not fit on paper"},
+      {"--discs 0 --coded 0", "there is no target to print"}};
+  for (const auto& [options, names] : faults) {
+    const Answer answer = run_program(std::string("calibrate targets ") + options + " -o " + file);
+    EXPECT_NE(answer.exit_code, 0);
+    EXPECT_NE(answer.output.find(names), std::string::npos) << answer.output;
+    EXPECT_FALSE(std::filesystem::exists(file));
+  }
 }
 
 }  // namespace

@@ -114,7 +114,7 @@ TEST_F(Program, UsageErrorsExitWithTwoAndOneSentence) {
       "the program has no verb recnstruct, perhaps reconstruct was meant; see frangia --help");
   expect_usage_error(
       "calibrate",
-      "calibrate needs a verb: board, capture, rig, turntable, check, import, export, "
+      "calibrate needs a verb: board, targets, capture, rig, turntable, check, import, export, "
       "refine, display, piezo; see frangia calibrate --help");
   expect_usage_error(
       "calibrate peizo x",

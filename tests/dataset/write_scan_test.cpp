@@ -61,6 +61,29 @@ TEST(WriteScan, KeepsEveryKindOfPatternAndEverySetup) {
   EXPECT_TRUE(back.part_poses.at(1).isApprox(scan.part_poses.at(1), 1e-10));
 }
 
+TEST(WriteScan, KeepsTheTargets) {
+  const SmallFolder folder;
+  Scan scan = read_scan(folder.path());
+  scan.targets = TargetSet{.diameter_mm = 4.0,
+                           .tone = TargetTone::Light,
+                           .dictionary = "DICT_5X5_100",
+                           .marker_mm = 9.5,
+                           .sticker_mm = 16.0,
+                           .distances = {{3, 17, 250.013, 0.004}}};
+  write_scan(scan);
+  const Scan back = read_scan(folder.path());
+  ASSERT_TRUE(back.targets.has_value());
+  EXPECT_EQ(back.targets->diameter_mm, 4.0);
+  EXPECT_EQ(back.targets->tone, TargetTone::Light);
+  EXPECT_EQ(back.targets->dictionary, "DICT_5X5_100");
+  EXPECT_EQ(back.targets->marker_mm, 9.5);
+  EXPECT_EQ(back.targets->sticker_mm, 16.0);
+  ASSERT_EQ(back.targets->distances.size(), 1U);
+  EXPECT_EQ(back.targets->distances[0].second, 17);
+  EXPECT_EQ(back.targets->distances[0].distance_mm, 250.013);
+  EXPECT_EQ(back.targets->distances[0].sigma_mm, 0.004);
+}
+
 TEST(WriteScan, WritesRoundNumbersAsPeopleDo) {
   const SmallFolder folder;
   Scan scan = read_scan(folder.path());

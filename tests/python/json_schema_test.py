@@ -216,6 +216,7 @@ class Answers(unittest.TestCase):
 
     def test_rigs(self):
         self.answer("calibrate", "board", "-o", "board.pdf", verb="calibrate-board")
+        self.answer("calibrate", "targets", "-o", "targets.pdf", verb="calibrate-targets")
         self.answer("calibrate", "export", "rig.toml", "-o", "rig.yml", verb="calibrate-export")
         self.answer("calibrate", "import", "rig.yml", "-o", "imported.toml", verb="calibrate-import")
         self.answer("calibrate", "refine", "scan", "-o", "refined.toml", verb="calibrate-refine")

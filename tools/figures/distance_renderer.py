@@ -122,11 +122,11 @@ def white(points):
     return 1.0
 
 
-def seen(part, rig, angle_deg, part_motion=NO_MOTION, table_motion=NO_MOTION, paint=white, across=2):
+def seen(part, rig, angle_deg, part_motion=NO_MOTION, table_motion=NO_MOTION, paint=white, across=2, radius=RADIUS):
     """Projector column and shading of `across`² points of each pixel, the shading 0 where no light comes from.
 
     The part moved on its table (object frame), the table in the rig's frame; both are (rotation, translation). `paint` gives
-    the albedo of points.
+    the albedo of points; nothing is seen of the part beyond `radius` around CENTRE.
     """
     pose = table_motion[0] @ turned(rig.axis, np.radians(angle_deg)) @ rig.object_axes
     centre = rig.axis_point + table_motion[1]
@@ -140,7 +140,7 @@ def seen(part, rig, angle_deg, part_motion=NO_MOTION, table_motion=NO_MOTION, pa
         directions = rays.reshape(-1, 3) @ to_object.T
         directions /= np.linalg.norm(directions, axis=1)[:, None]
         half = directions @ (offset - CENTRE)
-        room = half**2 - (offset - CENTRE) @ (offset - CENTRE) + RADIUS**2
+        room = half**2 - (offset - CENTRE) @ (offset - CENTRE) + radius**2
         index = np.flatnonzero(room > 0)
         half, root = half[index], np.sqrt(room[index])
         distance = march(part, offset, directions[index], -half - root, -half + root)
@@ -151,7 +151,7 @@ def seen(part, rig, angle_deg, part_motion=NO_MOTION, table_motion=NO_MOTION, pa
         away /= length[:, None]
         normals = gradients(part, points)
         normals /= np.linalg.norm(normals, axis=1)[:, None]
-        lit = march(part, source, away, length - 150, length + 1) > length - 0.05
+        lit = march(part, source, away, length - 2 * radius, length + 1) > length - 0.05
         x, y, z = (((points - offset) @ to_object - rig.position) @ rig.projector.T).T
         column = rig.shown_focal * x / z + rig.shown_principal[0]
         row = rig.shown_focal * y / z + rig.shown_principal[1]

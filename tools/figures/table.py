@@ -14,6 +14,7 @@ SECTIONS = {
     "views": Inputs(SCAN, case_s=20),
     "poses": Inputs(modules="registration simulate", files="benchmarks/pose_study.cpp tests/support", case_s=120),
     "moved_parts": Inputs("reconstruct", case_s=20),
+    "targets": Inputs("reconstruct", case_s=10),
     "edits": Inputs(SCAN + " edit", case_s=25),
     "decimation": Inputs("simulate reconstruct", modules="mesh", files="benchmarks/mesh_bench.cpp", case_s=200),
     "calibration": Inputs("simulate reconstruct calibrate", shared="skull skull-calibration", case_s=8),

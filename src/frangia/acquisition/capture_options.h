@@ -42,6 +42,11 @@ struct CaptureOptions {
   double settle_s = 0.0;    ///< wait after a table move, in addition to the table's own
   /// Per device call, in addition to the exposure or to 1.5 times the expected duration of a move.
   double timeout_s = 10.0;
+  /// The scan begins when the fringes on the part move by less than this from one look at them to
+  /// the next, twice in a row; 0 begins at once.
+  double drift_limit_mm = 0.0;
+  double drift_interval_s = 20.0;    ///< between two looks
+  double drift_patience_s = 3600.0;  ///< until the capture gives up
   /// The setup in which the part is clamped now. Views of other setups are kept as earlier sessions
   /// left them: complete, or left out.
   int setup = 0;
@@ -78,6 +83,7 @@ struct CaptureReport {
   std::size_t set_retakes = 0;       ///< sets captured again because of motion, all sessions
   std::vector<SkippedView> skipped;  ///< in the order of the plan
   std::vector<double> exposures_ms;  ///< of the fringes
+  std::optional<double> drift_mm{};  ///< between the last two looks at the fringes before the scan
   double device_s = 0.0;             ///< time in device calls: exposing, settling, moving
   double disk_s = 0.0;               ///< time waiting for fsync
   double other_s = 0.0;              ///< remaining time of the session

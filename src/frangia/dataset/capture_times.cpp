@@ -31,4 +31,8 @@ std::vector<double> read_capture_times(const Scan& scan) {
   return times_s;
 }
 
+double read_capture_begin(const Scan& scan) {
+  return read_began_s(scan.folder);
+}
+
 }  // namespace frangia

@@ -14,4 +14,9 @@ namespace frangia {
 ///           of imported scans
 [[nodiscard]] std::vector<double> read_capture_times(const Scan& scan);
 
+/// When the capture of a scan began, by its manifest: seconds since 1970, UTC.
+///
+/// @missing  NaN without a manifest that states it
+[[nodiscard]] double read_capture_begin(const Scan& scan);
+
 }  // namespace frangia

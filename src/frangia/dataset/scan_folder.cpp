@@ -13,6 +13,7 @@
 #include "frangia/dataset/internal/assume_rig.h"
 #include "frangia/dataset/internal/read_board.h"
 #include "frangia/dataset/internal/read_pattern.h"
+#include "frangia/dataset/internal/read_targets.h"
 #include "frangia/rig/read_rig.h"
 #include "frangia/rig/toml_reader.h"
 
@@ -195,6 +196,14 @@ Scan read_scan(const std::filesystem::path& folder, const Run& run, RigContent c
     const BoardOrArtifact target = read_board(reader.table("board"), run);
     if (const auto* board = std::get_if<Board>(&target)) scan.board = *board;
     if (const auto* artifact = std::get_if<Artifact>(&target)) scan.artifact = *artifact;
+  }
+  if (reader.has("targets")) {
+    scan.targets = read_targets(reader.table("targets"), run);
+    try {
+      check_targets(*scan.targets);
+    } catch (const Error& error) {
+      reader.fail("[targets]:", error.what());
+    }
   }
   if (reader.has("frames")) scan.frames = read_frame_storage(reader.table("frames"), scan.rig, run);
   if (reader.has("name")) scan.name = reader.text("name");

@@ -14,6 +14,7 @@
 #include "frangia/rig/board.h"
 #include "frangia/rig/read_rig.h"
 #include "frangia/rig/rig.h"
+#include "frangia/rig/target_set.h"
 
 namespace frangia {
 
@@ -59,7 +60,8 @@ struct Scan {
   std::optional<Board> board{};  ///< of a scan whose views are poses for calibration
   /// Instead of `board`: a screen, plate or balls; its views are at turntable angles or poses.
   std::optional<Artifact> artifact{};
-  FrameStorage frames{};  ///< how the frames are stored
+  std::optional<TargetSet> targets{};  ///< round stickers on the part, where it has some
+  FrameStorage frames{};               ///< how the frames are stored
 };
 
 /// Reads scan.toml and rig.toml of a scan folder, see docs/scan-format.md. Unknown keys are warned

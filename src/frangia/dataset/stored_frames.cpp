@@ -35,14 +35,28 @@ bool take_checksum(std::string_view& line) {
   return crc32(std::span(line.data(), line.size())) == stated;
 }
 
+constexpr std::uint64_t kMostBytes = 200'000'000;  // a line has about 80
+
 }  // namespace
+
+double read_began_s(const std::filesystem::path& scan) {
+  const auto file = scan / "capture" / kManifestName;
+  if (!std::filesystem::exists(file)) return kMissing;
+  constexpr std::string_view kBegan = "began ";
+  std::istringstream lines(read_text_file(file, kMostBytes));
+  for (std::string line; std::getline(lines, line);) {
+    std::string_view text = line;
+    if (text.starts_with(kBegan) && take_checksum(text))
+      return number_of(std::string(text.substr(kBegan.size())));
+  }
+  return kMissing;
+}
 
 std::map<std::string, StoredFrame> read_stored_frames(const std::filesystem::path& scan) {
   const auto file = scan / "capture" / kManifestName;
   std::map<std::string, StoredFrame> frames;
   if (!std::filesystem::exists(file)) return frames;
   constexpr std::string_view kAt = "at=";
-  constexpr std::uint64_t kMostBytes = 200'000'000;  // a line has about 80
   std::istringstream lines(read_text_file(file, kMostBytes));
   for (std::string line; std::getline(lines, line);) {
     std::string_view text = line;

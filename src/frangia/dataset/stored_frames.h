@@ -26,4 +26,10 @@ struct StoredFrame {
 [[nodiscard]] std::map<std::string, StoredFrame> read_stored_frames(
     const std::filesystem::path& scan);
 
+/// When the capture began, as seconds since 1970.
+///
+/// @missing  NaN without a manifest that states it
+/// @errors   as read_stored_frames
+[[nodiscard]] double read_began_s(const std::filesystem::path& scan);
+
 }  // namespace frangia

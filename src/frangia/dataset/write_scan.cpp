@@ -94,6 +94,26 @@ void put_artifact(TomlWriter& writer, const Artifact& artifact) {
   }
 }
 
+void put_targets(TomlWriter& writer, const TargetSet& targets) {
+  writer.begin_table("targets");
+  if (targets.diameter_mm > 0.0) {
+    writer.put("diameter_mm", targets.diameter_mm);
+    writer.put("disc", std::string(targets.tone == TargetTone::Light ? "light" : "dark"));
+  }
+  if (!targets.dictionary.empty()) {
+    writer.put("dictionary", targets.dictionary);
+    writer.put("marker_mm", targets.marker_mm);
+  }
+  if (targets.sticker_mm > 0.0) writer.put("sticker_mm", targets.sticker_mm);
+  for (const KnownTargetDistance& known : targets.distances) {
+    writer.begin_table_of_list("targets.distance");
+    writer.put("from", known.first);
+    writer.put("to", known.second);
+    writer.put("distance_mm", known.distance_mm);
+    writer.put("sigma_mm", known.sigma_mm);
+  }
+}
+
 void put_frame_storage(TomlWriter& writer, const FrameStorage& frames) {
   if (frames == FrameStorage{}) return;
   writer.begin_table("frames");
@@ -113,6 +133,7 @@ TomlWriter composed(const Scan& scan) {
   writer.put("name", scan.name);
   if (scan.board) put_board(writer, *scan.board);
   if (scan.artifact) put_artifact(writer, *scan.artifact);
+  if (scan.targets) put_targets(writer, *scan.targets);
   put_frame_storage(writer, scan.frames);
   for (const Pattern& pattern : scan.patterns)
     put_pattern(writer, pattern);

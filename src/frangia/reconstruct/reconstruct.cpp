@@ -21,12 +21,15 @@
 #include "frangia/reconstruct/internal/correct_indirect_light.h"
 #include "frangia/reconstruct/internal/count_indirect_light.h"
 #include "frangia/reconstruct/internal/explain_no_surface.h"
+#include "frangia/reconstruct/internal/finish_targets.h"
 #include "frangia/reconstruct/internal/mark_left_out.h"
 #include "frangia/reconstruct/internal/measure_views.h"
 #include "frangia/reconstruct/internal/points_of_setups.h"
 #include "frangia/reconstruct/internal/register_setups.h"
 #include "frangia/reconstruct/internal/remove_background.h"
 #include "frangia/reconstruct/internal/resolve_fringe_orders.h"
+#include "frangia/reconstruct/internal/scan_silhouettes.h"
+#include "frangia/reconstruct/internal/scan_targets.h"
 #include "frangia/reconstruct/internal/split_setups.h"
 #include "frangia/reconstruct/internal/tie_cameras.h"
 #include "frangia/reconstruct/internal/turntable_part.h"
@@ -60,6 +63,8 @@ std::string untrusted_reason_of(const Reconstruction& result) {
   }
   std::string reason;
   if (result.registration) reason = result.registration->untrusted_reason();
+  if (reason.empty() && result.silhouettes && result.silhouettes->contradicts())
+    reason = result.silhouettes->text();
   if (reason.empty() && blames_rig(result.registration)) {
     reason =
         "the views show that the rig is not what rig.toml states, and do not determine how: "
@@ -89,12 +94,32 @@ TurntableStations stations_of(const Rig& rig, const MeasuredViews& measured) {
   return given;
 }
 
+/// Whether the views of a setup were triangulated again by a rig that drifts, so that their targets
+/// are elsewhere, too.
+bool drifts(const MeasuredSetup& setup) {
+  if (!setup.registration) return false;
+  const PoseExplanation& found = setup.registration->explanation;
+  return found.decided && found.best == PoseCause::RigDrift;
+}
+
+/// Finds the targets of a scan that has some.
+std::optional<ScanTargets> targets_of(const Scan& scan,
+                                      const MeasuredViews& measured,
+                                      const ReconstructOptions& options,
+                                      const Run& run) {
+  if (scan.targets) return find_scan_targets(scan, measured, run);
+  require(!options.fill_targets,
+          "`fill_targets` needs the targets of the scan: describe them in [targets] of scan.toml");
+  return std::nullopt;
+}
+
 /// Removes what is not the part from the views of one setup, corrects them for indirect light, and
 /// registers them on the turntable.
 EarlyIndirectLight register_setup(MeasuredSetup& setup,
                                   const ScanDecoding& decoding,
                                   const Capabilities& can,
                                   const ReconstructOptions& options,
+                                  std::optional<ScanTargets>& targets,
                                   double& turntable_top_height_mm,
                                   const Run& run) {
   MeasuredViews& measured = setup.measured;
@@ -108,8 +133,16 @@ EarlyIndirectLight register_setup(MeasuredSetup& setup,
   if (can.registers_views) {
     if (can.corrects_before_registration)
       indirect_light = correct_before_registration(measured, decoding, options.fusion, run);
-    setup.registration = register_views(
-        measured.reference(), camera, stations_of(scan.rig, measured), options.registration, run);
+    TurntableStations given = stations_of(scan.rig, measured);
+    std::vector<PointTie> ties;
+    if (targets) ties = target_ties(*targets, measured);
+    given.ties = ties;
+    setup.registration =
+        register_views(measured.reference(), camera, given, options.registration, run);
+    if (targets && drifts(setup)) {
+      for (auto& [name, sightings] : find_scan_targets(scan, measured, run).sightings)
+        targets->sightings[name] = std::move(sightings);
+    }
     clear_outliers_of_cameras(setup);
   }
   return indirect_light;
@@ -118,11 +151,15 @@ EarlyIndirectLight register_setup(MeasuredSetup& setup,
 MeasuredSetup join_setups(std::vector<MeasuredSetup> setups,
                           const Scan& scan,
                           const ReconstructOptions& options,
+                          const std::optional<ScanTargets>& targets,
                           const Run& run) {
   if (setups.size() == 1) return std::move(setups.front());
   return register_setups(std::move(setups),
                          scan.rig,
-                         {scan.part_poses, options.register_views, options.registration},
+                         {scan.part_poses,
+                          options.register_views,
+                          options.registration,
+                          targets ? &*targets : nullptr},
                          run);
 }
 
@@ -148,10 +185,11 @@ ViewMotions motions_of_views(const MeasuredSetup& joined,
 MeasuredSetup register_together(std::vector<MeasuredSetup> setups,
                                 const Scan& scan,
                                 const ReconstructOptions& options,
+                                const std::optional<ScanTargets>& targets,
                                 std::set<std::string> outliers,
                                 Reconstruction& out,
                                 const Run& run) {
-  MeasuredSetup joined = join_setups(std::move(setups), scan, options, run);
+  MeasuredSetup joined = join_setups(std::move(setups), scan, options, targets, run);
   clear_outliers_of_cameras(joined);
   if (joined.registration && joined.registration->iterations > 0)
     run.note(joined.registration->text());
@@ -251,6 +289,7 @@ Reconstruction reconstruct(const Scan& scan, const ReconstructOptions& given, co
   run.stage("views");
   for (const std::string& correction : measured.corrections)
     run.note(correction);
+  std::optional<ScanTargets> targets = targets_of(scan, measured, options, run);
   std::vector<MeasuredSetup> setups = split_setups(std::move(measured));
   FringeOrderCorrectionOptions correction = options.fringe_order_correction;
   correction.mixed_pixels = options.mixed_pixels;
@@ -261,7 +300,7 @@ Reconstruction reconstruct(const Scan& scan, const ReconstructOptions& given, co
     unresolved += resolve_fringe_orders(
         setup.measured, scan.rig, rays, options.resolve_by_views, correction, run);
     const EarlyIndirectLight early =
-        register_setup(setup, decoding, can, options, out.turntable_top_height_mm, run);
+        register_setup(setup, decoding, can, options, targets, out.turntable_top_height_mm, run);
     indirect_light.found = indirect_light.found || early.found;
     indirect_light.corrects = indirect_light.corrects && early.corrects;
     out.points += setup.measured.points;
@@ -284,9 +323,19 @@ Reconstruction reconstruct(const Scan& scan, const ReconstructOptions& given, co
 
   // All setups in the frame of the first one, then one surface, then the finished mesh.
   RegisteredViews registered{
-      register_together(std::move(setups), scan, options, std::move(outliers), out, run),
+      register_together(std::move(setups), scan, options, targets, std::move(outliers), out, run),
       indirect_light};
+  std::vector<Target> stickers;
+  if (targets) {
+    stickers = registered_targets(*targets, registered.joined);
+    out.targets = report_targets(stickers, *targets, registered.joined, out.view_summaries, run);
+    out.targets->masked =
+        mask_targets(stickers, targets->set, registered.joined.measured, scan.rig);
+    run.note(out.targets->text());
+  }
   FusedSurface fused = fuse_registered(registered, decoding, can, options, out, run);
+  if (options.fill_targets)
+    out.targets->filled = fill_targets(stickers, targets->set, fused.mesh, run);
   FinishedMesh finished = finish_mesh(std::move(fused.mesh), options.finish, run);
   out.mesh = std::move(finished.mesh);
   out.islands = finished.removed;
@@ -294,6 +343,8 @@ Reconstruction reconstruct(const Scan& scan, const ReconstructOptions& given, co
     throw Error(ErrorKind::Input,
                 explain_no_surface(scan, rays, options.decode, {out.points, unresolved}, run));
   }
+  out.silhouettes = silhouettes_of(scan, registered.joined.measured, out.mesh, run);
+  if (out.targets && out.targets->scale) apply_scale(out, out.targets->scale->factor);
   out.untrusted_reason = untrusted_reason_of(out);
   if (!out.untrusted_reason.empty()) discard_sigma(out.mesh);
   out.sigma = median_sigma(out.mesh);

@@ -17,9 +17,11 @@
 #include "frangia/geometry/mesh.h"
 #include "frangia/indirect_light/indirect_light_report.h"
 #include "frangia/range/remove_mixed_pixels.h"
+#include "frangia/reconstruct/check_silhouettes.h"
 #include "frangia/reconstruct/finish_mesh.h"
 #include "frangia/reconstruct/rig_agreement.h"
 #include "frangia/reconstruct/setup_join.h"
+#include "frangia/reconstruct/targets_report.h"
 #include "frangia/registration/find_turntable_top.h"
 #include "frangia/registration/refine_rig.h"
 #include "frangia/registration/register_views.h"
@@ -49,6 +51,7 @@ struct ReconstructOptions {
   FusionOptions fusion;                         ///< fusion of the views
   FrameColors colors = FrameColors::Linear;     ///< of the vertices
   bool indirect_light = true;  ///< looks for indirect light, corrects it, counts the rest in sigma
+  bool fill_targets = false;   ///< closes the mesh under the targets
   FinishOptions finish;        ///< hole filling and decimation
   bool keep_raw = false;       ///< returns the registered points, too
   /// Returns about this many registered points of each joined setup, too, where there are several.
@@ -75,6 +78,8 @@ struct Reconstruction {
   std::vector<RigAgreement> agreements{};
   std::size_t cameras = 1;                            ///< of the rig
   std::optional<IndirectLightReport> indirect_light;  ///< empty: none was found
+  std::optional<SilhouetteReport> silhouettes{};      ///< empty where no background is lit
+  std::optional<TargetsReport> targets{};             ///< empty for a scan without `[targets]`
   /// Why the mesh must not be trusted, as one clause without a full stop; empty when it can be.
   std::string untrusted_reason{};
 };

@@ -45,6 +45,10 @@ bool fits_as_well(const Bundle& bundle,
     return one.distances_mm.size() < other.distances_mm.size() / 100 * 99;
   };
   if (has_fewer(given, found)) return false;
+  constexpr double kMuch = 9.0;  // of chi squared: three standard deviations
+  if (sum_ties(bundle.ties, bundle.given).chi_squared >
+      sum_ties(bundle.ties, bundle.state).chi_squared + kMuch)
+    return false;
   // A better axis brings more points together, not fewer.
   constexpr double kNearly = 1.1;
   return ratio < (has_fewer(found, given) ? std::max(allowed, kNearly) : allowed);
@@ -153,6 +157,7 @@ void correct_drift(Registration& work,
     work.views.replace(
         view, retriangulate(work.views.load(view), *given.pattern, *given.rig, rigs[view]));
   }
+  // The ties go with the old bundle: their points are those of the rig as stated.
   work.bundle = make_bundle(
       work.views, given.rig->reference().model, work.bundle.given, work.options, work.run);
   work.surfels = pick_all_surfels(work.bundle.maps, surfels_to_explain(work.views.size()));
@@ -239,6 +244,7 @@ RegistrationReport register_views(ViewStore& views,
     return report;
   }
   Bundle made = make_bundle(views, camera, start, options, run);
+  made.ties.assign(given.ties.begin(), given.ties.end());
   const double reach_mm = made.gate_mm;
   Registration work{std::move(made), {}, reach_mm, views, given.stations, options, run};
   Bundle& bundle = work.bundle;
@@ -248,7 +254,7 @@ RegistrationReport register_views(ViewStore& views,
   report.rms_before_mm = rms_of(before.distances_mm);
   report.closure_before_rad = closure_rad(before);
   report.overlap = overlap_of(before, surfels);
-  if (report.overlap < kMinOverlap) {
+  if (report.overlap < kMinOverlap && bundle.ties.empty()) {
     report_rig_alone(report, before, work);
     return report;
   }

@@ -10,6 +10,7 @@
 #include "frangia/core/missing.h"
 #include "frangia/core/run.h"
 #include "frangia/pattern/pattern.h"
+#include "frangia/registration/point_tie.h"
 #include "frangia/registration/registration_report.h"
 #include "frangia/rig/rig.h"
 #include "frangia/views/view_store.h"
@@ -76,6 +77,8 @@ struct TurntableStations {
   /// With its pattern: a rig that is not what it states is one of the explanations, too.
   const Rig* rig = nullptr;
   const Pattern* pattern = nullptr;  ///< any fringe pattern in the direction of the fringes
+  /// Points that several views measured, which count beside the surfaces of the views.
+  std::span<const PointTie> ties{};
 };
 
 /// Refines the turntable's axis, the angle of each view and the part pose of each setup but the

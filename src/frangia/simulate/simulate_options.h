@@ -7,6 +7,8 @@
 
 #include "frangia/rig/artifact.h"
 #include "frangia/rig/board.h"
+#include "frangia/rig/target_set.h"
+#include "frangia/simulate/place_stickers.h"
 
 namespace frangia {
 
@@ -69,6 +71,8 @@ struct SimulateOptions {
   double color = 0.0;             ///< 0: grey; below 1: strength of bands of changing hue
   std::optional<Board> board;     ///< printed on the part's plane z = 0, in black on white
   std::optional<Screen> screen;   ///< the part's plane z = 0 is a monitor that shows the patterns
+  TargetSet targets;              ///< what `stickers` are
+  std::vector<Sticker> stickers;  ///< on the part, over all other paint
   double gloss = 0.0;             ///< strength of the highlight, relative to the diffuse white
   double shininess = 40.0;        ///< exponent of the highlight
   double albedo = 0.8;            ///< diffuse reflectance of white, for bounces

@@ -10,6 +10,7 @@
 
 #include "frangia/acquisition/internal/capture_folder.h"
 #include "frangia/acquisition/internal/recover_frames.h"
+#include "frangia/acquisition/internal/wait_for_drift.h"
 #include "frangia/core/make_folder.h"
 #include "frangia/core/open_below.h"
 
@@ -56,6 +57,10 @@ void CaptureSession::check_stored_frames() {
 }
 
 CaptureReport CaptureSession::capture() {
+  if (options_.drift_limit_mm > 0.0 && is_something_left()) {
+    report_.drift_mm = wait_for_drift(plan_, devices_, options_, exposures_.single_ms, run_);
+    run_.stage("scan");
+  }
   capture_views();
   finish();
   return_table();
@@ -67,6 +72,13 @@ CaptureReport CaptureSession::capture() {
   report_.disk_s = store_.disk_wait_s();
   report_.other_s = time.count() - report_.device_s - report_.disk_s;
   return report_;
+}
+
+bool CaptureSession::is_something_left() const {
+  for (std::size_t view = 0; view < plan_.views.size(); ++view) {
+    if (plan_.views[view].setup == options_.setup && !files_.is_complete(view)) return true;
+  }
+  return false;
 }
 
 void CaptureSession::capture_views() {

@@ -30,6 +30,7 @@ class CaptureSession {
 
  private:
   void check_stored_frames();
+  [[nodiscard]] bool is_something_left() const;
   void capture_views();
   enum class Ready { Yes, No, End };
   Ready set_up(std::size_t view);

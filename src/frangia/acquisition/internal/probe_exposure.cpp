@@ -13,17 +13,19 @@ const Pattern& finest_fringes(std::span<const Pattern> patterns) {
     if (finest == nullptr || pattern.fringes_per_unit() > finest->fringes_per_unit())
       finest = &pattern;
   }
-  require(finest != nullptr, "an automatic exposure needs a fringe pattern; add one to the plan");
+  require(
+      finest != nullptr,
+      "an automatic exposure, or a wait for drift, needs a fringe pattern; add one to the plan");
   return *finest;
 }
 
 }  // namespace
 
-Image<PixelStatus> probe_exposure(std::span<const Pattern> patterns,
-                                  const Rig& rig,
-                                  int view,
-                                  CaptureDevices& devices,
-                                  double exposure_ms) {
+FrameStack capture_finest(std::span<const Pattern> patterns,
+                          const Rig& rig,
+                          int view,
+                          CaptureDevices& devices,
+                          double exposure_ms) {
   FrameStack stack{finest_fringes(patterns), {}, rig.reference().white_level};
   stack.pattern.exposures_ms.clear();
   devices.begin_set(stack.pattern, 1.0);
@@ -32,7 +34,16 @@ Image<PixelStatus> probe_exposure(std::span<const Pattern> patterns,
     devices.show(stack.pattern, frame);
     stack.frames.push_back(devices.capture({view, stack.pattern.name, frame, 0, 0}).frame);
   }
-  return pixel_status_of(stack, rig.reference().noise);
+  return stack;
+}
+
+Image<PixelStatus> probe_exposure(std::span<const Pattern> patterns,
+                                  const Rig& rig,
+                                  int view,
+                                  CaptureDevices& devices,
+                                  double exposure_ms) {
+  return pixel_status_of(capture_finest(patterns, rig, view, devices, exposure_ms),
+                         rig.reference().noise);
 }
 
 }  // namespace frangia

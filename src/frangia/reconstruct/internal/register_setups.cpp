@@ -78,6 +78,51 @@ std::optional<SetupPoses> refine_given_poses(const std::vector<MeasuredSetup>& s
   return setup_poses;
 }
 
+/// Poses of the setups whose targets match those of a setup that is joined already. None unless all
+/// match. Where they match in two ways alike, the user is told.
+std::optional<SetupPoses> join_by_targets(const std::vector<MeasuredSetup>& setups,
+                                          const ScanTargets& targets,
+                                          const Run& run) {
+  std::vector<std::vector<Target>> found;
+  for (const MeasuredSetup& setup : setups)
+    found.push_back(match_targets(target_views(targets, setup.measured), targets.set));
+  SetupPoses poses{0, {}, {}, {}};
+  poses.setup_from_reference.resize(setups.size());
+  poses.setup_from_reference[0] = Eigen::Isometry3d::Identity();
+  std::size_t joined = 1;
+  for (bool grows = true; grows && joined < setups.size();) {
+    grows = false;
+    for (std::size_t from = 1; from < setups.size(); ++from) {
+      if (poses.setup_from_reference[from]) continue;
+      for (std::size_t to = 0; to < setups.size(); ++to) {
+        if (!poses.setup_from_reference[to]) continue;
+        const auto join = join_targets(found[to], found[from], targets.set);
+        if (!join) continue;
+        if (join->ambiguous()) {
+          run.warn(fmt::format(
+              "{} and {} have {} targets in common that match in more than one way: move one, or "
+              "use coded ones",
+              name_of(setups[to]),
+              name_of(setups[from]),
+              join->pairs.size()));
+          continue;
+        }
+        run.note(fmt::format("{} is joined to {} by {} targets, which agree to {:.3f} mm",
+                             name_of(setups[from]),
+                             name_of(setups[to]),
+                             join->pairs.size(),
+                             join->rms_mm));
+        poses.setup_from_reference[from] =
+            join->to_from.inverse() * *poses.setup_from_reference[to];
+        ++joined;
+        grows = true;
+        break;
+      }
+    }
+  }
+  return joined == setups.size() ? std::optional(std::move(poses)) : std::nullopt;
+}
+
 SetupPoses find_part_poses(const std::vector<MeasuredSetup>& setups,
                            const CameraModel& camera,
                            const RegisterSetupsOptions& options,
@@ -101,6 +146,10 @@ SetupPoses find_part_poses(const std::vector<MeasuredSetup>& setups,
     }
     return poses;
   };
+  if (options.targets != nullptr) {
+    if (auto by_targets = join_by_targets(setups, *options.targets, run))
+      return with_fits(std::move(*by_targets));
+  }
   if (auto given = refine_given_poses(setups, groups, views, options, spacing_mm))
     return with_fits(std::move(*given));
   const JoinedGroups joined = join_by_shape(groups, views, {.spacing_mm = spacing_mm}, run);
@@ -189,14 +238,14 @@ MeasuredSetup register_setups(std::vector<MeasuredSetup> setups,
         reference_from_rig * given_from_rig.inverse());
     append(joined.measured, setups[i].measured, registration.part_poses.size());
   }
+  set_poses(joined, rig, registration.part_poses);
   if (options.refine) {
-    joined.registration = register_views(joined.measured.reference(),
-                                         camera,
-                                         {*rig.turntable, joined.measured.stations},
-                                         registration,
-                                         run);
-  } else {
-    set_poses(joined, rig, registration.part_poses);
+    std::vector<PointTie> ties;
+    if (options.targets != nullptr) ties = target_ties(*options.targets, joined.measured);
+    TurntableStations given{*rig.turntable, joined.measured.stations};
+    given.ties = ties;
+    joined.registration =
+        register_views(joined.measured.reference(), camera, given, registration, run);
   }
   const auto& found =
       joined.registration ? joined.registration->part_poses : registration.part_poses;

@@ -41,6 +41,12 @@ Eigen::MatrixXd information_of(const Bundle& bundle, const BundleSums& sums) {
   return std::min(1.0, independent / count) / (excess * excess) * sums.hessian;
 }
 
+/// The information of points that several views measured.
+Eigen::MatrixXd information_of_ties(const Bundle& bundle) {
+  const TieSums ties = sum_ties(bundle.ties, bundle.state);
+  return ties.hessian / std::pow(ties.excess(), 2);
+}
+
 /// The standard deviations of the rig's own turntable, at least as large as its values differ from
 /// those that the views fit, which contradict a smaller one.
 TurntableSigma as_found(const TurntableSigma& stated, const Bundle& bundle) {
@@ -88,6 +94,10 @@ void assess_places(RegistrationReport& report,
       sigmas_of(state, moved ? as_found(report.sigma, bundle) : report.sigma, bundle.prior_sigma);
   Eigen::MatrixXd information;
   if (overlap == Overlap::Determines) information = information_of(bundle, sums);
+  if (!bundle.ties.empty()) {
+    const Eigen::MatrixXd of_ties = information_of_ties(bundle);
+    information = information.size() > 0 ? Eigen::MatrixXd(information + of_ties) : of_ties;
+  }
   report.motions = state_motions(state, sigma, information, offset);
   if (report.rests_on_rig) assess_disagreement(report, sums, sigma);
 }

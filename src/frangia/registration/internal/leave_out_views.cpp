@@ -15,6 +15,8 @@ void Registration::optimize_again() {
 void Registration::leave_out(std::size_t view) {
   views.clear(view);
   surfels[view].clear();
+  std::erase_if(bundle.ties,
+                [view](const PointTie& tie) { return tie.from == view || tie.to == view; });
   for (auto& surfel : bundle.maps[view].surfels.pixels())
     surfel = {};
 }

@@ -73,6 +73,11 @@ void optimize_bundle(Bundle& bundle,
     at.hessian.diagonal() += information;
     at.gradient =
         weight * sums.gradient + information.cwiseProduct(deviation(bundle.state, bundle.given));
+    if (!bundle.ties.empty()) {
+      const TieSums ties = sum_ties(bundle.ties, bundle.state);
+      at.hessian += ties.hessian;
+      at.gradient += ties.gradient;
+    }
     at.median_residual = static_cast<double>(median(std::move(sums.distances_mm)));
     return at;
   };

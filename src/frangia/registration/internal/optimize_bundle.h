@@ -7,6 +7,7 @@
 
 #include "frangia/core/run.h"
 #include "frangia/local_fit/surfel_map.h"
+#include "frangia/registration/internal/sum_ties.h"
 #include "frangia/registration/internal/turntable_bundle.h"
 #include "frangia/registration/internal/view_pairs.h"
 #include "frangia/rig/fast_camera_model.h"
@@ -19,12 +20,13 @@ struct Bundle {
   FastCameraModel model;
   TableState given;
   TableState state;
-  Eigen::VectorXd prior_sigma;  ///< of each unknown
-  double gate_mm = 0.0;         ///< pairs farther apart do not count
-  double min_gate_mm = 0.0;     ///< the noise of the surfels allows no narrower gate
-  double systematic_mm = 0.0;   ///< error that all pairs of two views have in common
-  int iterations = 0;           ///< of all optimizations
-  ViewPairs pairs{};            ///< the views that are compared
+  Eigen::VectorXd prior_sigma;   ///< of each unknown
+  double gate_mm = 0.0;          ///< pairs farther apart do not count
+  double min_gate_mm = 0.0;      ///< the noise of the surfels allows no narrower gate
+  double systematic_mm = 0.0;    ///< error that all pairs of two views have in common
+  int iterations = 0;            ///< of all optimizations
+  ViewPairs pairs{};             ///< the views that are compared
+  std::vector<PointTie> ties{};  ///< points that several views measured
 };
 
 /// One list of surfels a view.

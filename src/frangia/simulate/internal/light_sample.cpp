@@ -45,6 +45,11 @@ double albedo_at(const Vector3d& position_mm, const SimulatedScene& scene) {
     return std::abs(point.z()) < kFace_mm ? board_albedo(*scene.options.board, point.head<2>())
                                           : 1.0;
   }
+  if (!scene.options.stickers.empty()) {
+    const double albedo = sticker_albedo(
+        scene.options.targets, scene.options.stickers, scene.part_from_object * position_mm);
+    if (!std::isnan(albedo)) return albedo;
+  }
   if (scene.options.checker_mm > 0.0) {
     constexpr double kDark = 0.10;
     constexpr double kBright = 0.85;

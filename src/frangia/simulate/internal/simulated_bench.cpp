@@ -92,6 +92,7 @@ struct BenchCamera::Light {
   Light(const SimulatedBench& bench, int view_of)
       : scene(bench.scene),
         table_rad(bench.table_rad),
+        projector_mm(scene->rig.projector.position_mm),
         view(view_of),
         renderer(*scene,
                  bench.rig_from_part(static_cast<std::size_t>(view)),
@@ -103,6 +104,7 @@ struct BenchCamera::Light {
 
   std::shared_ptr<const SimulatedScene> scene;
   double table_rad;
+  Eigen::Vector3d projector_mm;  ///< which moves while it warms up
   int view;
   ViewRenderer renderer;
   std::vector<LitRow> rows;
@@ -112,7 +114,8 @@ Frame BenchCamera::capture(const SimulatedBench& bench,
                            const FrameLabel& label,
                            const FrameFaults& faults) {
   const bool same = light_ && light_->scene == bench.scene && light_->view == label.view &&
-                    light_->table_rad == bench.table_rad;
+                    light_->table_rad == bench.table_rad &&
+                    light_->projector_mm == bench.scene->rig.projector.position_mm;
   if (!same) {
     light_.reset();  // frees the large cache before the next one is made
     light_ = std::make_shared<Light>(bench, label.view);

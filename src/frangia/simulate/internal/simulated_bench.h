@@ -21,7 +21,7 @@ struct TimedPicture {
 
 /// The physical state of the simulated rig, which all simulated drivers share. A frame depends only
 /// on this state and on its label, so that an interrupted scan continues with the same bytes; with
-/// a latency or a flicker also on the clock.
+/// a latency, a flicker or a warm-up also on the clock.
 struct SimulatedBench {
   std::shared_ptr<const SimulatedScene> scene;  ///< null until a simulated camera is opened
   std::optional<SimulatedBoard> board;          ///< stands in place of the part

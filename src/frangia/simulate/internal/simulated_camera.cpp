@@ -16,6 +16,7 @@
 #include "frangia/geometry/transform_mesh.h"
 #include "frangia/rig/read_rig.h"
 #include "frangia/simulate/internal/fault_script.h"
+#include "frangia/simulate/internal/move_views.h"
 #include "frangia/simulate/internal/simulated_devices.h"
 #include "frangia/simulate/parts.h"
 #include "frangia/simulate/simulate_calibration.h"
@@ -69,9 +70,9 @@ Mesh read_part(DeviceSettings& settings) {
 }
 
 /// A board in the poses that a person, or the turntable, gives it.
-std::shared_ptr<const SimulatedScene> make_board_scene(DeviceSettings& settings,
-                                                       const Rig& rig,
-                                                       SimulatedBench& bench) {
+std::shared_ptr<SimulatedScene> make_board_scene(DeviceSettings& settings,
+                                                 const Rig& rig,
+                                                 SimulatedBench& bench) {
   if (settings.has("part")) static_cast<void>(settings.text_or("part", ""));
   SimulateOptions options = read_options(settings, rig);
   const BoardPoses planned = plan_board_poses({.folder = {},
@@ -91,7 +92,7 @@ std::shared_ptr<const SimulatedScene> make_board_scene(DeviceSettings& settings,
   for (Eigen::Vector3f& vertex : plate.vertices_mm)
     vertex = (first * vertex.cast<double>()).cast<float>();
   const std::vector<SimulatedView> views{{0, 0.0}};
-  return std::make_shared<const SimulatedScene>(
+  return std::make_shared<SimulatedScene>(
       make_simulated_scene(plate, planned.scan.rig, views, options, first));
 }
 
@@ -111,7 +112,10 @@ Rig true_rig(DeviceSettings& settings, const Rig& known) {
 class SceneOfSetups {
  public:
   SceneOfSetups(DeviceSettings& settings, const Rig& rig, SimulatedBench& bench)
-      : tilt_rad_(rad_from_deg(settings.number_or("setup_tilt_deg", 180.0, -360.0, 360.0))) {
+      : tilt_rad_(rad_from_deg(settings.number_or("setup_tilt_deg", 180.0, -360.0, 360.0))),
+        warm_up_mm_(settings.number_or("warm_up_mm", 0.0, -100.0, 100.0)),
+        warm_up_s_(settings.number_or("warm_up_s", 60.0, 1e-3, 1e6)),
+        warm_(rig.projector) {
     if (bench.board) {
       if (!rig.reference().name.empty())
         settings.fail("driver", "shows a simulated board to one camera; remove [[more_cameras]]");
@@ -121,7 +125,19 @@ class SceneOfSetups {
     part_ = read_part(settings);
     rig_ = rig;
     options_ = read_options(settings, rig);
-    first_ = std::make_shared<const SimulatedScene>(make(part_, Eigen::Isometry3d::Identity()));
+    first_ = std::make_shared<SimulatedScene>(make(part_, Eigen::Isometry3d::Identity()));
+  }
+
+  /// Moves the projector to where it is at a time of the bench's clock.
+  void warm_up(double clock_s) {
+    if (warm_up_mm_ == 0.0) return;
+    // In steps that frames hardly show, because the light of each is traced anew. It ends where the
+    // rig states it.
+    constexpr double kSteps = 100.0;
+    const double done = std::round(kSteps * -std::expm1(-clock_s / warm_up_s_)) / kSteps;
+    for (const auto& scene : {first_, later_}) {
+      if (scene) scene->rig.projector = drift(warm_, warm_up_mm_, done - 1.0);
+    }
   }
 
   [[nodiscard]] std::shared_ptr<const SimulatedScene> of(int setup) {
@@ -132,7 +148,7 @@ class SceneOfSetups {
       const Eigen::Isometry3d pose = pose_on_table(part_, setup * tilt_rad_, turn_rad);
       SimulatedScene scene = make(transform_mesh(part_, pose), pose);
       scene.exposure = first_->exposure;  // the camera does not adapt to another side of the part
-      later_ = std::make_shared<const SimulatedScene>(std::move(scene));
+      later_ = std::make_shared<SimulatedScene>(std::move(scene));
       later_setup_ = setup;
     }
     return later_;
@@ -151,9 +167,12 @@ class SceneOfSetups {
   Mesh part_;  ///< empty with a board
   Rig rig_;
   SimulateOptions options_;
-  double tilt_rad_ = 0.0;  ///< from one setup to the next
-  std::shared_ptr<const SimulatedScene> first_;
-  std::shared_ptr<const SimulatedScene> later_;
+  double tilt_rad_ = 0.0;    ///< from one setup to the next
+  double warm_up_mm_ = 0.0;  ///< way of the projector until it is warm
+  double warm_up_s_ = 60.0;  ///< after which 63 % of it are done
+  Projector warm_;           ///< as the rig has it
+  std::shared_ptr<SimulatedScene> first_;
+  std::shared_ptr<SimulatedScene> later_;
   int later_setup_ = 0;
 };
 
@@ -232,6 +251,7 @@ class SimulatedCamera final : public CameraDevice {
     for (std::size_t i = 0; i <= skip_frames_; ++i) {
       seen.pictures = bench_->pictures;
       seen.clock_s = bench_->clock_s;
+      scenes_.warm_up(bench_->clock_s);
       under_way_.push_back(camera_.capture(seen, label, faults));
       bench_->clock_s += 1e-3 * bench_->camera.exposure_ms;
       if (under_way_.size() > late_frames_ + 1) under_way_.pop_front();

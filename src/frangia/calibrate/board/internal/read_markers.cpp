@@ -135,27 +135,38 @@ class MarkerTable {
   int correct_ = 0;
 };
 
-/// The markers of a table in some quadrangles of an image.
+/// The marker of a table that a quadrangle shows.
+std::optional<SeenMarker> marker_in(
+    const cv::Mat& bytes, Quad quad, const MarkerTable& table, int cells, bool mirrored) {
+  if (mirrored) std::reverse(quad.begin(), quad.end());
+  const auto bits = cells_of(bytes, quad, cells);
+  if (!bits) return std::nullopt;
+  const auto match = table.find(*bits);
+  if (!match) return std::nullopt;
+  // A marker turned clockwise by a quarter shows its first corner at the second of the image.
+  std::rotate(quad.begin(), quad.begin() + match->quarters, quad.end());
+  return SeenMarker{match->id, quad};
+}
+
+/// The markers of a table in some quadrangles of an image, the first one of each id.
 std::vector<SeenMarker> markers_in(const cv::Mat& bytes,
                                    const std::vector<Quad>& quads,
                                    const MarkerTable& table,
                                    int cells,
                                    bool mirrored) {
   std::map<int, SeenMarker> seen;
-  for (Quad quad : quads) {
-    if (mirrored) std::reverse(quad.begin(), quad.end());
-    const auto bits = cells_of(bytes, quad, cells);
-    if (!bits) continue;
-    const auto match = table.find(*bits);
-    if (!match) continue;
-    // A marker turned clockwise by a quarter shows its first corner at the second of the image.
-    std::rotate(quad.begin(), quad.begin() + match->quarters, quad.end());
-    seen.try_emplace(match->id, SeenMarker{match->id, quad});
+  for (const Quad& quad : quads) {
+    if (const auto marker = marker_in(bytes, quad, table, cells, mirrored))
+      seen.try_emplace(marker->id, *marker);
   }
   std::vector<SeenMarker> markers;
   for (const auto& [id, marker] : seen)
     markers.push_back(marker);
   return markers;
+}
+
+cv::Point2f center_of(const SeenMarker& marker) {
+  return 0.25F * (marker.corners[0] + marker.corners[1] + marker.corners[2] + marker.corners[3]);
 }
 
 }  // namespace
@@ -165,6 +176,22 @@ std::vector<SeenMarker> read_markers(const cv::Mat& bytes, const Board& board, b
   const MarkerTable table(
       dictionary, board.first_id, static_cast<int>(marker_squares(board).size()));
   return markers_in(bytes, dark_quads(bytes), table, dictionary.cells, mirrored);
+}
+
+std::vector<SeenMarker> read_all_markers(const cv::Mat& bytes, const ArucoDictionary& dictionary) {
+  const MarkerTable table(dictionary, 0, dictionary.markers);
+  std::vector<SeenMarker> markers;
+  for (const Quad& quad : dark_quads(bytes)) {
+    const auto marker = marker_in(bytes, quad, table, dictionary.cells, false);
+    if (!marker) continue;
+    const double side_px = cv::norm(marker->corners[1] - marker->corners[0]);
+    const bool known = std::any_of(markers.begin(), markers.end(), [&](const SeenMarker& other) {
+      return other.id == marker->id &&
+             cv::norm(center_of(other) - center_of(*marker)) < 0.5 * side_px;
+    });
+    if (!known) markers.push_back(*marker);
+  }
+  return markers;
 }
 
 AnyMarkers read_any_markers(const cv::Mat& bytes) {

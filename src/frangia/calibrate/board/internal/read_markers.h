@@ -5,6 +5,7 @@
 
 #include <opencv2/core.hpp>
 
+#include "frangia/rig/aruco_dictionary.h"
 #include "frangia/rig/board.h"
 
 namespace frangia {
@@ -24,6 +25,12 @@ struct SeenMarker {
 [[nodiscard]] std::vector<SeenMarker> read_markers(const cv::Mat& bytes,
                                                    const Board& board,
                                                    bool mirrored = false);
+
+/// Reads the markers of a dictionary, also several with one id.
+///
+/// @shape    8-bit image
+[[nodiscard]] std::vector<SeenMarker> read_all_markers(const cv::Mat& bytes,
+                                                       const ArucoDictionary& dictionary);
 
 /// The markers of one size of cells that most of an image shows.
 struct AnyMarkers {
