@@ -4,7 +4,7 @@
 //   node rig.mjs PROGRAM FOLDER      FOLDER receives the screenshots
 import fs from 'node:fs';
 import path from 'node:path';
-import { coarsenCamera, expect, launch, look, newHome, newLink, openPage, passed, reopen, requireChromium, startServer, stateOf, tell, waitForState } from './harness.mjs';
+import { coarsenCamera, expect, idle, launch, look, newHome, newLink, openPage, passed, reopen, requireChromium, startServer, stateOf, tell, waitForState } from './harness.mjs';
 
 const [program, shots] = process.argv.slice(2).map((name) => path.resolve(name));
 const here = import.meta.dirname ?? path.dirname(new URL(import.meta.url).pathname);
@@ -14,7 +14,6 @@ fs.mkdirSync(shots, { recursive: true });
 const server = await startServer(program, home);
 let browser;
 
-const idle = (page) => waitForState(page, (state) => state.jobs.every((job) => !['waiting', 'running'].includes(job.state)));
 const notice = async (page) => (await page.locator('.notice').first().innerText()).replace(/\s+/g, ' ');
 
 async function create(page, name, source) {
@@ -140,8 +139,8 @@ await tell(home, async () => {
   await look(page, shots, 'loupe');
   await page.click('#loupe');
   expect((await scaleOf()) === 1, 'the whole picture does not come back');
-  await page.click('#auto-exposure');
   const before = (await stateOf(page)).project.capture.exposure_ms;
+  await page.click('#auto-exposure');
   await waitForState(page, (state) => state.project.capture.exposure_ms !== before && state.project.live !== null);
   passed(`the exposure is ${(await stateOf(page)).project.capture.exposure_ms.toFixed(1)} ms`);
 

@@ -218,9 +218,11 @@ export class App extends LitElement {
     this.requestUpdate();
   }
   async command(name: string, argument: object = {}): Promise<boolean> {
+    // A job may fail before the answer that it was started arrives: what it says stays.
+    const before = this.problem;
     try {
       await this.session.command(name, argument);
-      this.problem = '';
+      if (this.problem === before) this.problem = '';
       return true;
     } catch (error) {
       this.say(error);

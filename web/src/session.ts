@@ -53,6 +53,8 @@ export class Session {
   /** Public name of the session that may act; the others watch. */
   operator = '';
   private id = sessionStorage.getItem(ID) ?? '';
+  /** Requests that the server has not answered yet. */
+  unanswered = 0;
   private patience = 500;
   private socket: WebSocket | null = null;
   private layer: Layer = 'none';
@@ -186,11 +188,14 @@ export class Session {
 
   private async request(path: string, init: RequestInit): Promise<Response> {
     const headers = { ...(init.headers as Record<string, string>), Authorization: `Bearer ${this.key}` };
+    ++this.unanswered;
     try {
       return await answerOf(await fetch(path, { ...init, headers }));
     } catch (error) {
       if (error instanceof Refusal && error.status === 401) this.set('refused');
       throw error;
+    } finally {
+      --this.unanswered;
     }
   }
 
