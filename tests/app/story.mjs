@@ -39,7 +39,7 @@ await tell(home, async () => {
   await page.fill('input[name=poses]', String(poses));
   await page.click('#calibrate');
   for (let pose = 0; pose < poses; pose++) {
-    await waitForProject(page, `pose ${pose}`, ({ calibration }) => calibration.waiting && calibration.found === 70 && calibration.poses.length === pose);
+    await waitForProject(page, `pose ${pose}`, ({ calibration }) => calibration?.waiting && calibration.found === 70 && calibration.poses.length === pose);
     if (pose === poses - 1) await look('calibrate');
     await page.keyboard.press('Enter');
     await waitForState(page, (state) => state.project.calibration.poses.length === pose + 1);
