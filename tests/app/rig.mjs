@@ -62,7 +62,7 @@ await tell(home, async () => {
   await page.click('#choose-devices');
   await page.waitForSelector('textarea.lines');
   await page.locator('textarea.lines').first().fill('driver = "simulated"\npart = "plate"\nsamples = 1\n');
-  await page.locator('h2').first().click();
+  await page.keyboard.press('Tab');
   await page.click('#set-devices');
   await page.waitForFunction(() => document.querySelectorAll('.device .dot.done').length === 3);
   await idle(page);
@@ -73,13 +73,14 @@ await tell(home, async () => {
   fs.writeFileSync(rigFile, fs.readFileSync(rigFile, 'utf8').replace('[devices.fringes]\n', '[devices.fringes]\nlatency_ms = 40\n'));
   await reopen(page, 'Uploaded');
   await page.keyboard.press('2');
+  await page.click('[data-stage=display]');
   await page.click('#measure-display:not([disabled])');
   const fitted = await waitForState(page, (state) => state.project.display !== null);
   const { latency_s: latency, delay_s: delay } = fitted.project.display;
   expect(Math.abs(latency - 0.04) < 0.002, `the latency is ${latency} s, not 0.04`);
   expect(fs.readFileSync(rigFile, 'utf8').includes(`delay_s = ${delay}`), 'the rig does not keep the delay');
   await idle(page);
-  await page.locator('#display').scrollIntoViewIfNeeded();
+  await page.locator('#measure-display').scrollIntoViewIfNeeded();
   await look(page, shots, 'display-measured');
   passed(`the latency of the display is ${(1000 * latency).toFixed(0)} ms`);
 
@@ -109,6 +110,7 @@ await tell(home, async () => {
   await waitForState(page, (state) => state.project.rig.turntable !== null);
   await page.locator('#rig-history').scrollIntoViewIfNeeded();
   await look(page, shots, 'rig-history');
+  await page.click('[data-stage=calibration]');
   await page.getByText('Print a board', { exact: true }).click();
   const saving = page.waitForEvent('download');
   await page.click('[data-paper=a4]');

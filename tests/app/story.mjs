@@ -36,6 +36,7 @@ await tell(home, async () => {
   await idle();
   await look('rig');
   const poses = 3;
+  await page.click('[data-stage=calibration]');
   await page.fill('input[name=poses]', String(poses));
   await page.click('#calibrate');
   for (let pose = 0; pose < poses; pose++) {

@@ -289,7 +289,7 @@ export interface RigFigures {
 export interface KeptRig extends RigFigures {
   number: number;
   kept_s: number;
-  before: 'geometry' | 'devices' | 'calibration' | 'axis' | 'restored';
+  before: 'geometry' | 'devices' | 'display' | 'calibration' | 'axis' | 'restored';
 }
 /** A rig that is kept for any project. */
 export interface LibraryRig extends RigFigures {
@@ -360,9 +360,15 @@ export interface Project {
   /** Number of the version that is shown; 0 for none. */
   current_version: number;
   /** Of which version and revision an exported surface is. */
-  exports: { name: string; bytes: number; version: number | null; revision: number | null }[];
+  exports: ExportedFile[];
   reference: { name: string; format: string } | null;
   commands: { rig?: string[]; scan?: string[]; reconstruct?: string[]; edit?: string[]; inspect?: string[] };
+}
+export interface ExportedFile {
+  name: string;
+  bytes: number;
+  version: number | null;
+  revision: number | null;
 }
 export interface ProjectEntry {
   name: string;

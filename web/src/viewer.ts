@@ -70,6 +70,7 @@ export class Viewer {
   private readonly holes = new HoleMarks();
   private readonly rig = new RigModel();
   private rigShown = 'null';
+  private tableKnown = true;
   private picks: THREE.Vector3[] = [];
   private answered = Promise.resolve();
   private due = false;
@@ -156,8 +157,12 @@ export class Viewer {
   setRig(rig: RigGeometry | null): void {
     const text = JSON.stringify(rig);
     if (text === this.rigShown) return;
+    const appears = rig !== null && (this.rigShown === 'null' || this.tableKnown !== (rig.turntable !== null));
+    this.tableKnown = !rig || rig.turntable !== null;
     this.rigShown = text;
     this.rig.set(rig);
+    this.table.visible = this.tableKnown;
+    if (appears) this.frame();
     this.draw();
   }
 

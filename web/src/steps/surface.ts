@@ -4,7 +4,7 @@ import { icon } from '../icons';
 import { joinedSetups } from '../legend';
 import type { Coloring } from '../mesh_colors';
 import { number, t } from '../messages';
-import { choice, plain } from '../ui';
+import { choice, nextStep, plain } from '../ui';
 import { comparing } from './compare';
 import { findings } from './surface_findings';
 import { joins } from './scan_setups';
@@ -194,5 +194,5 @@ export function surfaceStep(app: App): TemplateResult {
           : ''
       }
     </section>
-    ${versions(app)}`;
+    ${versions(app)} ${nextStep(app, 'edit')}`;
 }
