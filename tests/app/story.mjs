@@ -211,7 +211,7 @@ print(sum(1 for one in document.modelspace() if one.dxftype() == "3DFACE"))`, dx
 
   await page.keyboard.press('Escape');
   await page.click('[data-tool=link]');
-  await page.waitForSelector('#link[open] .qr');
+  await page.waitForSelector('#link[open] .linkbox');
   await look('link');
   await page.keyboard.press('Escape');
 

@@ -112,7 +112,7 @@ export function exportStep(app: App): TemplateResult {
         <button
           class="btn"
           id="zip"
-          ?disabled=${app.occupied || !project.scan_complete}
+          ?disabled=${app.occupied || app.session.watches || !project.scan_complete}
           @click=${() => app.command('export', { format: 'zip' })}
         >
           ${t('export.zip')}
@@ -129,7 +129,7 @@ export function exportStep(app: App): TemplateResult {
       <p class="quiet num" id="estimate">
         ${estimate ? t('export.about', { size: bytes(estimate.bytes, number), triangles: number(estimate.triangles) }) : html`&nbsp;`}
       </p>
-      <button class="btn primary wide" id="export" ?disabled=${app.busy} @click=${start}>
+      <button class="btn primary wide" id="export" ?disabled=${app.busy || app.session.watches} @click=${start}>
         ${t('export.write', { format: format.toUpperCase() })}
       </button>
       ${newest ? written(app, newest) : ''}

@@ -117,7 +117,7 @@ function absent(app: App): TemplateResult {
       <button
         class="btn wide"
         id="read"
-        ?disabled=${app.busy}
+        ?disabled=${app.busy || app.session.watches}
         @click=${() => app.command('open-version', { version: current })}
       >
         ${t('surface.read')}
@@ -188,7 +188,7 @@ export function surfaceStep(app: App): TemplateResult {
       ${summary?.registration ? html`<p class="quiet">${registrationWords(summary)}</p>` : ''}
       ${
         app.project.scan_complete
-          ? html`<button class="btn wide" ?disabled=${app.busy} @click=${() => app.build()}>
+          ? html`<button class="btn wide" ?disabled=${app.busy || app.session.watches} @click=${() => app.build()}>
               ${t('surface.build')}
             </button>`
           : ''
