@@ -285,7 +285,7 @@ export class App extends LitElement {
           this.step === 'project' || !this.state.project
             ? projectStep(this)
             : html`${picture(this)}
-                <main class="panel" tabindex="-1">
+                <main class="panel" tabindex=${this.session.watches ? 0 : -1}>
                   <h1 class="sr">${t(`step.${this.step}`)}</h1>
                   ${ACTING.has(this.step) ? acts(this, PANELS[this.step](this)) : PANELS[this.step](this)}
                 </main>`
