@@ -177,9 +177,6 @@ await tell(home, async () => {
   await browser.close();
   browser = await launch({ webgl: false });
   const plain = await openPage(browser, newLink(program, home));
-  await plain.waitForSelector('#take-over');
-  await plain.click('#take-over');
-  await plain.waitForSelector('#take-over', { state: 'detached' });
   await plain.getByText('WebGL is off').waitFor();
   await plain.keyboard.press('3');
   await plain.waitForFunction(() => Number(document.querySelector('#live-points')?.textContent.replaceAll(',', '')) > 1000);

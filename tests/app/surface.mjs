@@ -307,6 +307,11 @@ await tell(home, async () => {
   for (const [x, y] of [[0.42, 0.5], [0.58, 0.5], [0.42, 0.45], [0.58, 0.45]]) await page.mouse.click(...at(x, y));
   await page.waitForFunction(() => document.querySelectorAll('.measured tr').length === 2);
   await look('measured');
+  // They are kept with the project: a page that is opened again shows them.
+  await idle();
+  await page.reload();
+  await page.waitForFunction(() => document.querySelector('frangia-app')?.meshes?.fine && document.querySelectorAll('.measured tr').length === 2);
+  expect((await page.locator('.view-labels text').allTextContents()).join() === 'A,B', 'the letters are not in the picture');
   await page.keyboard.press('Escape');
 
   // A mesh that is chosen from the first page opens in a project of its own.

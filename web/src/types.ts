@@ -362,7 +362,15 @@ export interface Project {
   /** Of which version and revision an exported surface is. */
   exports: ExportedFile[];
   reference: { name: string; format: string } | null;
+  measurements: HandMeasurement[];
   commands: { rig?: string[]; scan?: string[]; reconstruct?: string[]; edit?: string[]; inspect?: string[] };
+}
+/** Points that were clicked on a mesh: two for a distance, three for an angle. */
+export interface HandMeasurement {
+  label: string;
+  mesh: string;
+  points_mm: [number, number, number][];
+  sigmas_mm: (number | null)[];
 }
 export interface ExportedFile {
   name: string;

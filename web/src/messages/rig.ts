@@ -46,11 +46,6 @@ export const RIG = {
     'Dieses Projekt hat noch keinen Aufbau. Geräte wählen, dann kalibrieren.',
     'Questo progetto non ha ancora un apparato. Scegliere i dispositivi, poi calibrare.',
   ],
-  'rig.uncalibrated': [
-    'This rig is not calibrated yet. Sizes are known; the calibration finds lenses, baseline and angles.',
-    'Dieser Aufbau ist noch nicht kalibriert. Größen sind bekannt; die Kalibrierung findet Objektive, Basis und Winkel.',
-    'Questo apparato non è ancora calibrato. Le misure sono note; la calibrazione trova ottiche, base e angoli.',
-  ],
   'rig.findings': ['Findings', 'Befunde', 'Riscontri'],
   'rig.sound': [
     'The checks of the poses found nothing wrong.',

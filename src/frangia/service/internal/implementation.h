@@ -66,6 +66,7 @@ class Service::Implementation {
   Json take_back_project(CommandArguments& arguments);
   Json set_notes(CommandArguments& arguments);
   Json set_thumbnail(CommandArguments& arguments);
+  Json set_measurements(CommandArguments& arguments);
   Json open_file(CommandArguments& arguments);
   /// Leaves the open project when it has this name, and says whether it had.
   bool leave(const std::string& name);

@@ -17,6 +17,7 @@
 #include "frangia/service/calibration_wizard.h"
 #include "frangia/service/capture_settings.h"
 #include "frangia/service/check_scan.h"
+#include "frangia/service/hand_measurements.h"
 #include "frangia/service/internal/exported_files.h"
 #include "frangia/service/internal/surface_model.h"
 #include "frangia/service/internal/surface_versions.h"
@@ -84,6 +85,7 @@ struct OpenProject {
   int open_job = 0;              ///< number of the job; 0: it begins in a moment
   std::vector<ExportEntry> exports;
   ProjectReference reference;
+  std::vector<HandMeasurement> measurements;
 };
 
 /// Whether the parts of its rig can be moved by hand: they are simulated, and nothing was measured
