@@ -225,7 +225,7 @@ nlohmann::ordered_json Service::Implementation::open_file(CommandArguments& argu
   require(project.folder.scan != project.folder.folder && !project.scan_begun &&
               !project.scan_complete && project.versions && project.versions->current == 0,
           "this project has a scan or a surface; open the file in a project of its own");
-  require_idle();
+  require_idle(project.open_job);  // which reads nothing of an empty project
   stop_live();
   std::error_code error;
   const auto present = std::filesystem::file_size(project.folder.reference_part(), error);

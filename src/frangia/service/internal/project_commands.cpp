@@ -230,10 +230,10 @@ nlohmann::ordered_json Service::Implementation::close_project(CommandArguments& 
   refresh_projects();
   return Json::object();
 }
-void Service::Implementation::require_idle() const {
+void Service::Implementation::require_idle(int except) const {
   for (const Job& job : queue_.jobs()) {
     const bool unfinished = job.state == JobState::Waiting || job.state == JobState::Running;
-    require(!unfinished || job.kind == "live",
+    require(!unfinished || job.kind == "live" || job.number == except,
             "a task is running; stop it, or let it finish, first");
   }
 }
