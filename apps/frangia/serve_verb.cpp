@@ -27,6 +27,7 @@
 #include "serve/app_routes.h"
 #include "serve/command_lines.h"
 #include "serve/http_server.h"
+#include "serve/lan_door.h"
 #include "serve/runtime_file.h"
 #include "show_file.h"
 #include "verbs.h"
@@ -139,25 +140,38 @@ void serve(ServeArguments& arguments, Terminal& terminal) {
   arguments.projects = std::filesystem::absolute(arguments.projects).lexically_normal();
   const Run run = terminal.run();
   const std::unique_ptr<HttpServer> server = listen(arguments);
+  LanDoor door;
+  const auto announce = [&server, &door] {
+    server->announce_change();
+    door.announce_change();
+  };
   ServiceOptions options;
   options.projects = arguments.projects;
   options.version = FRANGIA_VERSION;
   options.command_lines = command_lines;
-  options.on_picture = [&server] { server->announce_picture(); };
+  options.on_picture = [&server, &door] {
+    server->announce_picture();
+    door.announce_picture();
+  };
   options.capture = {
       .drivers = [] { return all_drivers(); },
       .board_drivers = [](const SimulatedBoard& board) { return all_drivers(board); },
       .guardian = guardian_program(),
       .hold_devices = [] { return std::make_shared<DeviceScope>(); }};
-  Service service(std::move(options), [&server] { server->announce_change(); });
+  Service service(std::move(options), announce);
   if (!arguments.project.empty()) service.open_folder(arguments.project);
   SessionKeys keys(sessions_file(arguments, server->port()),
                    password_hash,
                    [&run](const std::string& sentence) { run.warn(sentence); });
-  const AppRoutes routes(
-      service, keys, password, app_address(arguments.access, server->port()), [&server] {
-        server->announce_change();
-      });
+  AppRoutes routes(
+      service, keys, password, app_address(arguments.access, server->port()), announce);
+  const auto say_closed = [&run](const std::string& words) {
+    run.warn(fmt::format("a connection was closed: {}", words));
+  };
+  // From the network itself nobody widens the access to it.
+  if (arguments.access.listen.empty() && !arguments.access.behind_proxy)
+    routes.offer(door.access(service, keys, announce, say_closed));
+  const std::shared_ptr<void> closing(nullptr, [&door](void*) { door.close(); });
   const RuntimeFile file(server->port(), keys.issue_key());
   const std::string link = routes.new_link();
   print_link(link, arguments.projects, terminal);
@@ -171,9 +185,7 @@ void serve(ServeArguments& arguments, Terminal& terminal) {
     });
   }
   HttpApp app = routes.app();
-  app.on_exception = [&run](const std::string& words) {
-    run.warn(fmt::format("a connection was closed: {}", words));
-  };
+  app.on_exception = say_closed;
   server->serve(std::move(app), run.stop);
 }
 

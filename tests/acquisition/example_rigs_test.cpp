@@ -52,6 +52,7 @@ TEST(ExampleRigs, HaveEveryKeyThatTheirDriversAskFor) {
       {"simulated-binocular", {"camera", "camera-left", "fringes", "turntable"}},
       {"simulated-digital", {"camera", "fringes", "turntable"}},
       {"simulated-maker", {"camera", "fringes", "turntable"}},
+      {"simulated-maker-unpacked", {"camera", "fringes", "turntable"}},
       {"simulated-interferometer", {"camera", "fringes", "light", "line", "turntable"}}};
   std::size_t rigs = 0;
   for (const auto& file : examples()) {

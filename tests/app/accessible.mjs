@@ -72,7 +72,7 @@ await tell(home, async () => {
       if (id === 'link') await page.click('[data-tool=link]');
       else await page.evaluate((name) => document.getElementById(name).showModal(), id);
       await page.waitForSelector(`#${id}[open]`);
-      if (id === 'link') await page.waitForSelector('#link .qr');
+      if (id === 'link') await page.waitForSelector('#link .linkbox');
       await axe(page, `dialog ${id}, ${which}`);
       await page.keyboard.press('Escape');
       await page.waitForSelector(`#${id}[open]`, { state: 'detached' });

@@ -64,7 +64,7 @@ export async function reopen(page, name) {
     });
     if (!answer.ok) throw new Error(await answer.text());
   }, name);
-  await page.waitForFunction(() => document.querySelector('frangia-app').state.jobs.every((job) => !['waiting', 'running'].includes(job.state)));
+  await idle(page);
 }
 
 /** Creates a project on the page whose simulated rig has a part, and opens it. */
@@ -79,6 +79,26 @@ export async function createProject(page, name, part, stations) {
 
 /** What ends each browser and server that was started, in their order. */
 const endings = [];
+/** The pages that were opened. */
+const pages = [];
+
+/** Tells what each open page shows, with a picture of it in `folder` if there is one: for whoever reads why a story broke off. */
+async function describePages(folder) {
+  let number = 0;
+  for (const page of pages) {
+    if (page.isClosed()) continue;
+    const told = page.evaluate(() => {
+      const app = document.querySelector('frangia-app');
+      const jobs = app?.session.state?.jobs.map(({ number, kind, state, stage, error }) => [number, kind, state, stage, error].join(' '));
+      return { step: app?.step, tool: app?.viewer.tool, link: app?.session.link, problem: app?.problem, unanswered: app?.session.unanswered, live: app?.session.state?.project?.live, jobs };
+    });
+    const patience = new Promise((resolve) => setTimeout(resolve, 20_000, 'the page does not answer'));
+    console.log(`page ${++number}: ${JSON.stringify(await Promise.race([told, patience]).catch(String))}`);
+    if (!folder) continue;
+    const file = path.join(folder, `broken-off-${number}.png`);
+    await page.screenshot({ path: file, timeout: 20_000 }).then(() => console.log(`  ${file}`), (error) => console.log(`  ${error.message}`));
+  }
+}
 
 /** Runs a story; prints what went wrong, ends browsers and servers, removes the folder, and ends the process. */
 export async function tell(home, story, ending) {
@@ -88,6 +108,7 @@ export async function tell(home, story, ending) {
     code = problems.length === 0 ? 0 : 1;
   } catch (error) {
     console.log(error.stack ?? error);
+    await describePages(process.argv[3] && fs.existsSync(process.argv[3]) ? process.argv[3] : null);
   } finally {
     for (const sentence of new Set(problems)) console.log(`wrong: ${sentence}`);
     for (const end of endings.reverse()) await end();
@@ -158,6 +179,7 @@ export async function openPage(browser, url, viewport = { width: 1440, height: 9
     const text = message.text();
     if (message.type() === 'error' && !/GL Driver|403|404|409|ERR_CONNECTION|WebSocket/.test(text) && !expected.test(text)) fail(`the page says: ${text.slice(0, 300)}`);
   });
+  pages.push(page);
   page.on('request', (request) => {
     const { pathname, origin } = new URL(request.url());
     if (origin !== new URL(url).origin && !request.url().startsWith('blob:')) fail(`the page asked for ${request.url()}`);
@@ -210,6 +232,10 @@ export async function look(page, folder, name) {
 export const stateOf = (page) =>
   page.evaluate(async () => (await fetch('/api/state', { headers: { Authorization: `Bearer ${sessionStorage.getItem('frangia-key')}` } })).json());
 
+/** Waits for the next state that the server sends the page after the one that was noted as `stateSeen`. */
+const nextState = (page) =>
+  page.waitForFunction(() => document.querySelector('frangia-app')?.session.state !== window.stateSeen, null, { timeout: PATIENCE });
+
 /** Asks the server for its state, again whenever it sends the page a new one, until it is as wanted; returns it. */
 export async function waitForState(page, wanted) {
   for (;;) {
@@ -217,9 +243,49 @@ export async function waitForState(page, wanted) {
     await page.evaluate(() => (window.stateSeen = document.querySelector('frangia-app')?.session.state));
     const state = await stateOf(page);
     if (wanted(state)) return state;
-    const next = page.waitForFunction(() => document.querySelector('frangia-app')?.session.state !== window.stateSeen, null, {
-      timeout: PATIENCE,
+    await nextState(page).catch(() => expect(false, `the state does not come: ${wanted}; the jobs are ${JSON.stringify(state.jobs)}`));
+  }
+}
+
+/** Number of the last job that failed; 0 without any. */
+export const lastFailure = async (page) => Math.max(0, ...(await stateOf(page)).jobs.filter((job) => job.state === 'failed').map((job) => job.number));
+
+/** Waits until the open project, as the page knows it and has drawn it, is as wanted; returns it. A job that fails and has a number above `forgiven` ends the wait with its error. */
+export async function waitForProject(page, what, wanted, forgiven = 0) {
+  for (;;) {
+    const { project, jobs } = await page.evaluate(async () => {
+      const app = document.querySelector('frangia-app');
+      window.stateSeen = app.session.state;
+      await app.updateComplete;
+      return window.stateSeen;
     });
-    await next.catch(() => expect(false, `the state does not come: ${wanted}; the jobs are ${JSON.stringify(state.jobs)}`));
+    if (wanted(project)) return project;
+    const failed = jobs.find((job) => job.state === 'failed' && job.number > forgiven);
+    expect(!failed, `${what}: ${failed?.error}`);
+    await nextState(page).catch(() => expect(false, `${what} does not come; the jobs are ${JSON.stringify(jobs)}`));
+  }
+}
+
+const unfinished = ({ kind, state }) => kind !== 'live' && (state === 'waiting' || state === 'running');
+
+/** Waits until everything that the page asked for is answered and done, and the page has heard of it and drawn it. The preview may go on. */
+export async function idle(page) {
+  for (;;) {
+    await page.waitForFunction(() => document.querySelector('frangia-app').session.unanswered === 0);
+    const { jobs, project } = await waitForState(page, (state) => !state.jobs.some(unfinished));
+    await page.waitForFunction(async ([last, revision]) => {
+      const app = document.querySelector('frangia-app');
+      await app.updateComplete;
+      const { jobs, project } = app.session.state;
+      return (jobs.at(-1)?.number ?? 0) >= last && (project?.revision ?? 0) >= revision;
+    }, [jobs.at(-1)?.number ?? 0, project?.revision ?? 0]);
+    // What was answered meanwhile may have started a job, or brought something to draw.
+    const known = await page.evaluate(async () => {
+      const app = document.querySelector('frangia-app');
+      await app.updateComplete;
+      return app.session.unanswered === 0 ? app.session.state.jobs : null;
+    });
+    if (known && !known.some(unfinished) && !(await stateOf(page)).jobs.some(unfinished)) return;
+    await page.evaluate(() => new Promise(requestAnimationFrame));
   }
 }

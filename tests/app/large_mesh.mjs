@@ -7,7 +7,7 @@
 // FRANGIA_WEB as in story.mjs. Ends with 77 where Chromium is missing.
 import fs from 'node:fs';
 import path from 'node:path';
-import { expect, fail, launch, newHome, openPage, problems, requireChromium, startServer, stateOf } from './harness.mjs';
+import { expect, fail, idle, launch, newHome, openPage, problems, requireChromium, startServer, stateOf } from './harness.mjs';
 
 const plain = process.argv.slice(2).filter((word) => word !== '--json');
 const json = process.argv.includes('--json');
@@ -71,7 +71,8 @@ try {
   await page.getByText('large', { exact: true }).click();
   await page.waitForFunction(() => document.querySelector('frangia-app').viewer.shown, null, { timeout: 120_000, polling: 20 });
   figures.first_picture_s = (Date.now() - begin) / 1000;
-  await page.waitForFunction(() => document.querySelector('frangia-app').meshes.fine && !document.querySelector('.foot .bar'), null, { timeout: 120_000 });
+  await page.waitForFunction(() => document.querySelector('frangia-app').meshes.fine);
+  await idle(page);
   figures.finest_picture_s = (Date.now() - begin) / 1000;
 
   // A hand that orbits: a move of the pointer before each frame.
@@ -145,12 +146,12 @@ try {
   await lasso(0.15);
   figures.lasso_ms = await timed(() => page.mouse.up(), selects);
   figures.lasso_triangles = (await stateOf(page)).project.surface.selected;
-  await page.waitForFunction(() => !document.querySelector('.foot .bar'));
+  await idle(page);
   const revision = (await stateOf(page)).project.surface.mesh_revision;
   const shows = (what) => `app.viewer.meshShown ${what} && app.project.surface.mesh_revision ${what} && app.meshes.selectionShown === app.project.surface.selection_revision`;
   figures.delete_ms = await timed(() => page.keyboard.press('Delete'), shows(`!== ${revision}`));
-  await page.waitForFunction(() => !document.querySelector('.foot .bar'), null, { timeout: 60_000 });
-  await page.waitForFunction(() => document.querySelector('frangia-app').meshes.fine, null, { timeout: 60_000 });
+  await idle(page);
+  await page.waitForFunction(() => document.querySelector('frangia-app').meshes.fine);
   // From rest: whoever undoes has seen what the edit did.
   await page.waitForFunction(() => {
     const { viewer, project } = document.querySelector('frangia-app');
@@ -158,7 +159,7 @@ try {
   });
   await page.waitForTimeout(1500);
   figures.undo_ms = await timed(() => page.keyboard.press('Control+z'), shows(`=== ${revision}`));
-  await page.waitForFunction(() => !document.querySelector('.foot .bar'));
+  await idle(page);
   figures.redo_ms = await timed(() => page.keyboard.press('Control+Shift+Z'), shows(`!== ${revision}`));
   expect(figures.lasso_triangles > wanted / 25, `the lasso selected ${figures.lasso_triangles} triangles only`);
   code = 0;

@@ -46,7 +46,11 @@ await tell(home, async () => {
   await waitForState(page, (state) => share(state) > 0.02);
   await page.context().close();
 
-  // A new browser finds the scan going on. It watches, since the first one was the operator, and takes over by asking.
+  // A new browser finds the scan going on, and operates: the role of the first one ended with it. A third one watches, and
+  // takes over by asking.
+  const second = await openPage(browser, newLink(program, home));
+  await second.waitForFunction(() => document.querySelector('frangia-app').session.state && !document.querySelector('frangia-app').session.watches);
+  await second.evaluate(() => document.querySelector('frangia-app').session.command('set-notes', { name: 'Plate', text: 'seen' }));
   page = await openPage(browser, newLink(program, home));
   await page.waitForSelector('#take-over');
   const seen = share(await waitForState(page, (state) => share(state) > 0));

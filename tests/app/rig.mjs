@@ -4,7 +4,7 @@
 //   node rig.mjs PROGRAM FOLDER      FOLDER receives the screenshots
 import fs from 'node:fs';
 import path from 'node:path';
-import { coarsenCamera, expect, launch, look, newHome, newLink, openPage, passed, reopen, requireChromium, startServer, stateOf, tell, waitForState } from './harness.mjs';
+import { coarsenCamera, expect, idle, launch, look, newHome, newLink, openPage, passed, reopen, requireChromium, startServer, stateOf, tell, waitForState } from './harness.mjs';
 
 const [program, shots] = process.argv.slice(2).map((name) => path.resolve(name));
 const here = import.meta.dirname ?? path.dirname(new URL(import.meta.url).pathname);
@@ -14,7 +14,6 @@ fs.mkdirSync(shots, { recursive: true });
 const server = await startServer(program, home);
 let browser;
 
-const idle = (page) => waitForState(page, (state) => state.jobs.every((job) => !['waiting', 'running'].includes(job.state)));
 const notice = async (page) => (await page.locator('.notice').first().innerText()).replace(/\s+/g, ' ');
 
 async function create(page, name, source) {
@@ -63,7 +62,7 @@ await tell(home, async () => {
   await page.click('#choose-devices');
   await page.waitForSelector('textarea.lines');
   await page.locator('textarea.lines').first().fill('driver = "simulated"\npart = "plate"\nsamples = 1\n');
-  await page.locator('h2').first().click();
+  await page.keyboard.press('Tab');
   await page.click('#set-devices');
   await page.waitForFunction(() => document.querySelectorAll('.device .dot.done').length === 3);
   await idle(page);
@@ -74,13 +73,14 @@ await tell(home, async () => {
   fs.writeFileSync(rigFile, fs.readFileSync(rigFile, 'utf8').replace('[devices.fringes]\n', '[devices.fringes]\nlatency_ms = 40\n'));
   await reopen(page, 'Uploaded');
   await page.keyboard.press('2');
+  await page.click('[data-stage=display]');
   await page.click('#measure-display:not([disabled])');
   const fitted = await waitForState(page, (state) => state.project.display !== null);
   const { latency_s: latency, delay_s: delay } = fitted.project.display;
   expect(Math.abs(latency - 0.04) < 0.002, `the latency is ${latency} s, not 0.04`);
   expect(fs.readFileSync(rigFile, 'utf8').includes(`delay_s = ${delay}`), 'the rig does not keep the delay');
   await idle(page);
-  await page.locator('#display').scrollIntoViewIfNeeded();
+  await page.locator('#measure-display').scrollIntoViewIfNeeded();
   await look(page, shots, 'display-measured');
   passed(`the latency of the display is ${(1000 * latency).toFixed(0)} ms`);
 
@@ -110,6 +110,7 @@ await tell(home, async () => {
   await waitForState(page, (state) => state.project.rig.turntable !== null);
   await page.locator('#rig-history').scrollIntoViewIfNeeded();
   await look(page, shots, 'rig-history');
+  await page.click('[data-stage=calibration]');
   await page.getByText('Print a board', { exact: true }).click();
   const saving = page.waitForEvent('download');
   await page.click('[data-paper=a4]');
@@ -140,8 +141,8 @@ await tell(home, async () => {
   await look(page, shots, 'loupe');
   await page.click('#loupe');
   expect((await scaleOf()) === 1, 'the whole picture does not come back');
-  await page.click('#auto-exposure');
   const before = (await stateOf(page)).project.capture.exposure_ms;
+  await page.click('#auto-exposure');
   await waitForState(page, (state) => state.project.capture.exposure_ms !== before && state.project.live !== null);
   passed(`the exposure is ${(await stateOf(page)).project.capture.exposure_ms.toFixed(1)} ms`);
 
@@ -176,9 +177,6 @@ await tell(home, async () => {
   await browser.close();
   browser = await launch({ webgl: false });
   const plain = await openPage(browser, newLink(program, home));
-  await plain.waitForSelector('#take-over');
-  await plain.click('#take-over');
-  await plain.waitForSelector('#take-over', { state: 'detached' });
   await plain.getByText('WebGL is off').waitFor();
   await plain.keyboard.press('3');
   await plain.waitForFunction(() => Number(document.querySelector('#live-points')?.textContent.replaceAll(',', '')) > 1000);

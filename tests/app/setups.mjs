@@ -3,7 +3,7 @@
 //   node setups.mjs PROGRAM FOLDER      FOLDER receives the screenshots
 import fs from 'node:fs';
 import path from 'node:path';
-import { check, coarsenCamera, createProject, expect, launch, look, newHome, openPage, passed, requireChromium, startServer, stateOf, tell } from './harness.mjs';
+import { check, coarsenCamera, createProject, expect, idle, launch, look, newHome, openPage, passed, requireChromium, startServer, stateOf, tell } from './harness.mjs';
 
 const [program, shots] = process.argv.slice(2).map((name) => path.resolve(name));
 requireChromium();
@@ -43,7 +43,7 @@ await tell(home, async () => {
 
   await page.click('#build');
   await page.waitForSelector('.joins');
-  await page.waitForFunction(() => !document.querySelector('.foot .bar'));
+  await idle(page);
   const before = (await stateOf(page)).project;
   const { setups } = before.surface.summary;
   const [, second] = setups;
@@ -93,7 +93,7 @@ await tell(home, async () => {
   expect(after.surface.summary.setups.map((setup) => setup.joined).join() === 'true,true,false', 'another setup was joined');
   expect(after.stations.length === 3 * STATIONS && after.stations.every((station) => station.state === 'done'), 'stations were lost');
   expect(after.surface.triangles > 0.8 * before.surface.triangles, `the surface has ${after.surface.triangles} triangles instead of ${before.surface.triangles}`);
-  await page.waitForFunction(() => !document.querySelector('.foot .bar'));
+  await idle(page);
   await page.locator('.joins').scrollIntoViewIfNeeded();
   await look(page, shots, 'not-joined');
 }, 'the setups are joined, and one that fits nowhere is left out');

@@ -7,7 +7,7 @@
 import { spawnSync } from 'node:child_process';
 import fs from 'node:fs';
 import path from 'node:path';
-import { check, expect, launch, look as lookAt, newHome, openPage, passed, requireChromium, settled, startServer, stateOf, tell, waitForState } from './harness.mjs';
+import { check, expect, idle as allDone, launch, look as lookAt, newHome, openPage, passed, requireChromium, settled, startServer, stateOf, tell, waitForProject, waitForState } from './harness.mjs';
 
 const [program, shots] = process.argv.slice(2).map((name) => path.resolve(name));
 requireChromium();
@@ -20,7 +20,7 @@ await tell(home, async () => {
   const page = await openPage(browser, url);
   const context = page.context();
   const look = (name) => lookAt(page, shots, name);
-  const idle = () => page.waitForFunction(() => !document.querySelector('.foot .bar'));
+  const idle = () => allDone(page);
   const text = (selector) => page.locator(selector).first().innerText();
 
   await page.waitForSelector('#try');
@@ -36,11 +36,11 @@ await tell(home, async () => {
   await idle();
   await look('rig');
   const poses = 3;
+  await page.click('[data-stage=calibration]');
   await page.fill('input[name=poses]', String(poses));
   await page.click('#calibrate');
   for (let pose = 0; pose < poses; pose++) {
-    await page.waitForSelector('#pose:not([disabled])');
-    await waitForState(page, (state) => state.project.calibration.found === 70);
+    await waitForProject(page, `pose ${pose}`, ({ calibration }) => calibration?.waiting && calibration.found === 70 && calibration.poses.length === pose);
     if (pose === poses - 1) await look('calibrate');
     await page.keyboard.press('Enter');
     await waitForState(page, (state) => state.project.calibration.poses.length === pose + 1);
@@ -211,7 +211,7 @@ print(sum(1 for one in document.modelspace() if one.dxftype() == "3DFACE"))`, dx
 
   await page.keyboard.press('Escape');
   await page.click('[data-tool=link]');
-  await page.waitForSelector('#link[open] .qr');
+  await page.waitForSelector('#link[open] .linkbox');
   await look('link');
   await page.keyboard.press('Escape');
 

@@ -7,7 +7,7 @@
 import { spawnSync } from 'node:child_process';
 import fs from 'node:fs';
 import path from 'node:path';
-import { check, expect, launch, look as lookAt, newHome, openPage, passed, PATIENCE, requireChromium, startServer, stateOf, tell } from './harness.mjs';
+import { check, expect, idle as allDone, lastFailure, launch, look as lookAt, newHome, openPage, passed, requireChromium, startServer, stateOf, tell, waitForProject, waitForState } from './harness.mjs';
 
 const [program, shots] = process.argv.slice(2).map((name) => path.resolve(name));
 requireChromium();
@@ -86,24 +86,13 @@ await tell(home, async () => {
   const browser = await launch();
   const page = await openPage(browser, server.url);
   const look = (name) => lookAt(page, shots, name);
+  const idle = () => allDone(page);
+  // Failures that the story asks for; any other one ends a wait.
+  let forgiven = 0;
+  const forgive = async () => (forgiven = await lastFailure(page));
   // As the page knows it, which hears of a change a moment after the server made it, and has drawn it.
-  const state = () => page.evaluate(async () => {
-    const app = document.querySelector('frangia-app');
-    await app.updateComplete;
-    return app.state.project;
-  });
-  const idle = () => page.waitForFunction(() => !document.querySelector('.foot .bar'));
-  const until = async (what, wanted) => {
-    const end = Date.now() + PATIENCE;
-    for (;;) {
-      const now = await state();
-      if (wanted(now)) return now;
-      const failed = (await stateOf(page)).jobs.at(-1);
-      expect(failed?.state !== 'failed', `${what}: ${failed?.error}`);
-      expect(Date.now() < end, `${what} does not come`);
-      await page.waitForTimeout(60);
-    }
-  };
+  const until = (what, wanted) => waitForProject(page, what, wanted, forgiven);
+  const state = () => until('the state', () => true);
   const words = async () => (await page.locator('.history li').last().innerText()).replace(/\s+/g, ' ');
   await page.waitForSelector('#try');
   await page.getByText('slab', { exact: true }).click();
@@ -114,12 +103,12 @@ await tell(home, async () => {
   await page.setInputFiles('#reference', { name: 'notes.txt', mimeType: 'text/plain', buffer: Buffer.from('x') });
   await page.waitForSelector('text=no STL, PLY, OBJ');
   await page.setInputFiles('#reference', { name: 'broken.stl', mimeType: 'model/stl', buffer: fs.readFileSync(reference).subarray(0, 5000) });
-  await page.waitForFunction(() => document.querySelector('frangia-app').state.jobs.at(-1)?.state === 'failed');
+  await waitForState(page, ({ jobs }) => jobs.some((job) => job.state === 'failed'));
   await idle();
   const failures = async () => (await stateOf(page)).jobs.filter((job) => job.state === 'failed').length;
   expect((await failures()) === 1, 'a broken file was taken');
+  await forgive();
   await page.setInputFiles('#reference', reference);
-  await page.waitForFunction(() => document.querySelector('frangia-app').state.jobs.filter((job) => job.kind === 'compare').length === 2);
   const compared = await until('the comparison', (project) => project.surface.comparison);
   const found = compared.surface.comparison;
   expect(compared.reference.name === 'slab as designed.stl', 'the reference has another name');
@@ -225,6 +214,7 @@ await tell(home, async () => {
   await pick(top, besides, left);
   await page.waitForSelector('.notice >> text=choose faces that meet at an angle');
   await idle();
+  await forgive();
   await change('aligning', 'align', /Aligned by three faces/, () => pick(top, left, right), (now, was, { moved }) => moved > 1000);
   expect(Math.abs((await width()) - 60) < 0.1, 'undo left another size');
   await page.locator('.panel').evaluate((panel) => (panel.scrollTop = 0));
@@ -317,6 +307,11 @@ await tell(home, async () => {
   for (const [x, y] of [[0.42, 0.5], [0.58, 0.5], [0.42, 0.45], [0.58, 0.45]]) await page.mouse.click(...at(x, y));
   await page.waitForFunction(() => document.querySelectorAll('.measured tr').length === 2);
   await look('measured');
+  // They are kept with the project: a page that is opened again shows them.
+  await idle();
+  await page.reload();
+  await page.waitForFunction(() => document.querySelector('frangia-app')?.meshes?.fine && document.querySelectorAll('.measured tr').length === 2);
+  expect((await page.locator('.view-labels text').allTextContents()).join() === 'A,B', 'the letters are not in the picture');
   await page.keyboard.press('Escape');
 
   // A mesh that is chosen from the first page opens in a project of its own.

@@ -237,7 +237,7 @@ TEST_F(LiveServiceTest, MeasuresTheDisplayAndKeepsInTheRigWhatItFound) {
   ASSERT_NE(fringes, devices.end());
   EXPECT_EQ(DeviceSettings(*fringes).number("delay_s"), found.at("delay_s").get<double>());
   EXPECT_TRUE(read_rig(file).projector.response);
-  EXPECT_EQ(project().at("kept_rigs")[0].at("before"), "devices");
+  EXPECT_EQ(project().at("kept_rigs")[0].at("before"), "display");
   command("restore-rig", {{"number", project().at("kept_rigs")[0].at("number")}});
   ASSERT_TRUE(wait([&] { return !busy(); }));
   EXPECT_EQ(testing::text_of(file), rig);

@@ -1,16 +1,23 @@
 #include <atomic>
+#include <chrono>
 #include <filesystem>
+#include <fstream>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "frangia/core/read_text_file.h"
+#include "frangia/dataset/scan_folder.h"
+#include "frangia/files/write_mesh.h"
 #include "frangia/files/zip_folder.h"
+#include "frangia/reconstruct/reconstruct.h"
 
 #include "service/service_fixture.h"
 #include "support/small_scan.h"
+#include "support/text_of.h"
 
 namespace frangia {
 namespace {
@@ -130,6 +137,41 @@ TEST_F(ServiceTest, OpensAScanFromAFileAndCapturesNothingOverIt) {
   static_cast<void>(command("open-project", {{"name", "mine"}}));
   static_cast<void>(finish());
   is_kept();
+}
+
+/// The surface that the library makes of a scan folder, as bytes of a PLY file.
+std::string surface_of(const std::filesystem::path& scan, const std::filesystem::path& file) {
+  write_mesh(file, reconstruct(read_scan(scan)).mesh);
+  return testing::text_of(file);
+}
+
+TEST_F(ServiceTest, BuildsTheSameBytesFromTheViewsThatItDecodedDuringTheScan) {
+  static_cast<void>(
+      command("create-project", {{"name", "try"}, {"part", "plate"}, {"stations", 2}}));
+  static_cast<void>(finish());
+  static_cast<void>(command("start-scan"));
+  ASSERT_EQ(finish().at("state"), "done");
+  const auto project = folder_.path() / "projects" / "try";
+  const std::string wanted = surface_of(project / "scan", folder_.path() / "wanted.ply");
+  const auto build = [&](int version) {
+    static_cast<void>(command("reconstruct"));
+    EXPECT_EQ(finish().at("state"), "done");
+    return testing::text_of(project / "versions" / fmt::format("{:03}", version) / "surface.ply");
+  };
+  EXPECT_TRUE(build(1) == wanted);
+  // Frames that seem to be the same are not read again; those that changed are.
+  const auto views = project / "scan" / "views";
+  std::filesystem::path frame;
+  for (const auto& entry : std::filesystem::directory_iterator(views / "001"))
+    if (frame.empty() || entry.path() < frame) frame = entry.path();
+  const auto time = std::filesystem::last_write_time(frame);
+  const std::string bytes = testing::text_of(frame);
+  std::ofstream(frame, std::ios::binary) << std::string(bytes.size(), 'x');
+  std::filesystem::last_write_time(frame, time);
+  EXPECT_TRUE(build(2) == wanted);
+  std::filesystem::last_write_time(frame, time + std::chrono::seconds(1));
+  static_cast<void>(command("reconstruct"));
+  EXPECT_EQ(finish().at("state"), "failed") << "a damaged frame was not read";
 }
 
 }  // namespace

@@ -162,5 +162,24 @@ TEST_F(SessionsOnDisk, HoldWhereTheFileCannotBeWrittenAndSayItOnce) {
   EXPECT_EQ(said_, said);
 }
 
+TEST(SessionKeys, EndTheRoleWithTheLastPageOfItsSession) {
+  SessionKeys keys;
+  const SessionKey first = keys.admit();
+  const SessionKey second = keys.admit();
+  EXPECT_EQ(keys.arrive(first.key), first.id);
+  EXPECT_EQ(keys.arrive(first.key), first.id);
+  EXPECT_EQ(keys.arrive(second.key), second.id);
+  EXPECT_EQ(keys.arrive("no key"), "");
+  EXPECT_FALSE(keys.leave(second.id)) << "it watched";
+  EXPECT_FALSE(keys.leave(first.id)) << "another page of it is there";
+  EXPECT_FALSE(keys.may_act(second.key));
+  EXPECT_TRUE(keys.leave(first.id));
+  EXPECT_EQ(keys.operator_id(), "");
+  EXPECT_TRUE(keys.may_act(second.key));
+  EXPECT_FALSE(keys.may_act("no key"));
+  keys.take_over(second.key);
+  EXPECT_FALSE(keys.may_act(first.key));
+}
+
 }  // namespace
 }  // namespace frangia

@@ -9,6 +9,7 @@ import { Editing } from './editing';
 import { Exporting } from './exporting';
 import { dialogs, footer, header, picture } from './frame_parts';
 import { onKey } from './keyboard';
+import type { Sharing } from './link_dialog';
 import { LiveStage } from './live_stage';
 import type { Coloring } from './mesh_colors';
 import { Measuring } from './measuring';
@@ -17,9 +18,9 @@ import { type Language, setLanguage, t } from './messages';
 import { applyPreferences } from './preferences';
 import { Opening } from './opening';
 import { Projects } from './projects';
-import { Session } from './session';
+import { CONFLICT, Refusal, Session } from './session';
 import { Setups } from './setups';
-import { blankPage, notices } from './shell';
+import { acts, blankPage, notices } from './shell';
 import { StationClouds } from './station_clouds';
 import { editStep } from './steps/edit';
 import { exportStep } from './steps/export';
@@ -48,6 +49,9 @@ const PANELS: Record<Exclude<StepName, 'project'>, (app: App) => TemplateResult>
   export: exportStep,
 };
 
+/** Steps whose panels do nothing but act. */
+const ACTING: ReadonlySet<StepName> = new Set(['rig', 'live', 'scan', 'edit']);
+
 /** The window: steps, picture, panel, and the line at the bottom. What each step does is in a part of its own. */
 @customElement('frangia-app')
 export class App extends LitElement {
@@ -72,8 +76,10 @@ export class App extends LitElement {
   meshes!: MeshSource;
   private clouds!: StationClouds;
   problem = '';
+  /** Whether `problem` is that another browser operates. */
+  refused = false;
   copied = false;
-  link = '';
+  sharing: Sharing = { link: '', lan: null };
   private seenFailure = 0;
   private projectShown = '';
   private wantSurface = false;
@@ -151,6 +157,7 @@ export class App extends LitElement {
       if (failed && failed.number > this.seenFailure) {
         this.seenFailure = failed.number;
         this.problem = failed.error;
+        this.refused = false;
       }
       this.showWantedSurface();
       this.comparing.follow();
@@ -218,9 +225,11 @@ export class App extends LitElement {
     this.requestUpdate();
   }
   async command(name: string, argument: object = {}): Promise<boolean> {
+    // A job may fail before the answer that it was started arrives: what it says stays.
+    const before = this.problem;
     try {
       await this.session.command(name, argument);
-      this.problem = '';
+      if (this.problem === before) this.problem = '';
       return true;
     } catch (error) {
       this.say(error);
@@ -242,6 +251,7 @@ export class App extends LitElement {
   }
   say(error: unknown): void {
     this.problem = error instanceof Error ? error.message : String(error);
+    this.refused = error instanceof Refusal && error.status === CONFLICT;
     this.requestUpdate();
   }
   dismiss(): void {
@@ -275,9 +285,9 @@ export class App extends LitElement {
           this.step === 'project' || !this.state.project
             ? projectStep(this)
             : html`${picture(this)}
-                <main class="panel" tabindex="-1">
+                <main class="panel" tabindex=${this.session.watches ? 0 : -1}>
                   <h1 class="sr">${t(`step.${this.step}`)}</h1>
-                  ${PANELS[this.step](this)}
+                  ${ACTING.has(this.step) ? acts(this, PANELS[this.step](this)) : PANELS[this.step](this)}
                 </main>`
         }
         ${notices(this)}

@@ -1,6 +1,7 @@
 import type { App } from './app';
 import { arranged, type RigDraft } from './arrange';
 import type { DeviceDraft } from './steps/rig_devices';
+import type { StageName } from './steps/rig_stages';
 import type { Residuals, RigGeometry } from './types';
 
 /** What the step Rig changes: the geometry, the devices, and which residuals are on the stage. */
@@ -12,7 +13,24 @@ export class Arranging {
   private residualsShown = 0;
   private draft: RigDraft = {};
 
+  /** Stages that were opened or closed by hand, until another one is the next. */
+  private byHand = { next: '', open: new Map<StageName, boolean>() };
+
   constructor(private readonly app: App) {}
+
+  isOpen(stage: StageName, next: StageName): boolean {
+    if (this.byHand.next !== next) this.byHand = { next, open: new Map() };
+    return this.byHand.open.get(stage) ?? stage === next;
+  }
+  toggle(stage: StageName, next: StageName): void {
+    this.byHand.open.set(stage, !this.isOpen(stage, next));
+    this.app.requestUpdate();
+  }
+  /** The stage whose result is the newest, which stays open when nothing else is wanted. */
+  get newest(): StageName | undefined {
+    const { axis, calibration, display } = this.app.project;
+    return axis ? 'axis' : calibration ? 'calibration' : display ? 'display' : undefined;
+  }
 
   /** The rig as the sliders stand. */
   get drawnRig(): RigGeometry | null {

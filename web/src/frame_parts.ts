@@ -118,7 +118,11 @@ export function footer(app: App): TemplateResult {
               <span
                 >${t(`job.${job.kind}`)}${job.stage && job.kind !== 'live' ? ` · ${stageName(job.stage)}` : ''}${timeLeft(job)}</span
               >
-              <button class="btn small" @click=${() => app.command('stop-job', { job: job.number })}>
+              <button
+                class="btn small"
+                ?disabled=${app.session.watches}
+                @click=${() => app.command('stop-job', { job: job.number })}
+              >
                 ${t('job.stop')}
               </button>`
           : html`<span>${said}</span>`
@@ -169,5 +173,5 @@ export function dialogs(app: App): TemplateResult {
       </div>
       ${close('keys')}
     </dialog>
-    ${linkDialog(app.link, close('link'))} ${app.asking.dialog()}`;
+    ${linkDialog(app, close('link'))} ${app.asking.dialog()}`;
 }

@@ -19,10 +19,22 @@ function code(text: string): TemplateResult {
   </svg>`;
 }
 
+/** How tablets in the network of the scanner reach it. */
+export interface Lan {
+  addresses: string[];
+  open: { url: string; link: string; password: string } | null;
+}
+
+/** What the dialog shows; `lan` is null where tablets cannot be let in. */
+export interface Sharing {
+  link: string;
+  lan: Lan | null;
+}
+
 /** Makes a link and shows it. */
 export async function share(app: App): Promise<void> {
   try {
-    app.link = await app.session.newLink();
+    app.sharing = { link: await app.session.newLink(), lan: await app.session.lan() };
     app.requestUpdate();
     app.dialog('link').showModal();
   } catch (error) {
@@ -30,12 +42,65 @@ export async function share(app: App): Promise<void> {
   }
 }
 
-/** A link for one more browser, to be clicked, copied or scanned. */
-export function linkDialog(link: string, close: TemplateResult): TemplateResult {
+async function change(app: App, address?: string): Promise<void> {
+  try {
+    app.sharing.lan = await app.session.changeLan(address);
+  } catch (error) {
+    app.dialog('link').close(); // it would hide the words
+    app.say(error);
+  }
+  app.requestUpdate();
+}
+
+function tablets(app: App, lan: Lan): TemplateResult {
+  const letIn = (event: SubmitEvent) => {
+    event.preventDefault();
+    const chosen = new FormData(event.target as HTMLFormElement).get('address');
+    void change(app, String(chosen ?? lan.addresses[0]));
+  };
+  if (lan.open)
+    return html`${code(lan.open.link)}
+      <p>${t('lan.scan')}</p>
+      <dl class="figures" id="lan">
+        <dt>${t('lan.address')}</dt>
+        <dd class="num">${lan.open.url}</dd>
+        <dt>${t('app.password')}</dt>
+        <dd class="num">${lan.open.password}</dd>
+      </dl>
+      <button class="btn wide" id="close-lan" @click=${() => void change(app)}>${t('lan.close')}</button>`;
+  if (lan.addresses.length === 0) return html`<p class="quiet">${t('lan.none')}</p>`;
+  return html`<form class="form-plain" @submit=${letIn}>
+    <p class="quiet">${t('lan.hint')}</p>
+    ${
+      lan.addresses.length > 1
+        ? html`<label class="field"
+            ><span>${t('lan.address')}</span
+            ><select name="address">
+              ${lan.addresses.map((address) => html`<option>${address}</option>`)}
+            </select></label
+          >`
+        : ''
+    }
+    <button class="btn wide" id="let-in">${t('lan.letIn')}</button>
+  </form>`;
+}
+
+/** Whether a link leads to the machine on which it is opened. */
+const isLocal = (link: string): boolean => /^http:\/\/(127\.|localhost|\[::1\])/.test(link);
+
+/** Lets a tablet in, or one more browser by a link. A link to this machine itself has no code that a tablet could use. */
+export function linkDialog(app: App, close: TemplateResult): TemplateResult {
+  const { link, lan } = app.sharing;
   return html`<dialog id="link" aria-label=${t('app.link')}>
+    ${
+      lan
+        ? html`<h2>${t('lan.title')}</h2>
+            ${tablets(app, lan)}`
+        : ''
+    }
     <h2>${t('app.link')}</h2>
-    <p class="quiet">${t('app.linkHint')}</p>
+    <p class="quiet">${t(isLocal(link) ? 'app.linkHint' : 'app.linkOnce')}</p>
     <div class="linkbox">${link}</div>
-    ${link ? code(link) : ''} ${close}
+    ${link && !isLocal(link) ? code(link) : ''} ${close}
   </dialog>`;
 }

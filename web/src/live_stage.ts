@@ -11,6 +11,8 @@ export class LiveStage {
 
   /** The largest contrast of fringes since the focus is turned. */
   peak = 0;
+  /** Whether the preview is to begin as soon as nothing else runs. */
+  private wanted = false;
 
   constructor(private readonly app: App) {
     const { canvas } = this.view;
@@ -58,6 +60,7 @@ export class LiveStage {
   follow(): void {
     const { app } = this;
     const project = app.session.state?.project;
+    this.startWanted();
     if (app.step === 'live' && project?.live) app.session.show(this.layer);
     else if (app.step === 'rig' && project?.calibration?.active) app.session.show('camera');
     else app.session.show('none');
@@ -68,16 +71,23 @@ export class LiveStage {
     this.peak = Math.max(this.peak, this.view.figures?.contrast ?? 0);
     this.app.requestUpdate();
   }
-  /** The preview begins with the step Live, and ends when another one is opened. */
+  /** The preview begins with the step Live, as soon as nothing else runs. */
+  private startWanted(): void {
+    const { app } = this;
+    const project = app.session.state?.project;
+    if (!this.wanted || !project?.can_scan || app.session.watches) return;
+    if (!project.live && app.busy) return;
+    this.wanted = false;
+    if (!project.live) void app.command('start-live');
+  }
+  /** It ends when another step is opened. */
   stepped(before: string, step: string): void {
     const { app } = this;
-    const project = app.session.state?.project ?? null;
     if (step === 'live') this.peak = 0;
-    if (step === 'live' && project?.can_scan && !project.live && !app.busy && !app.session.watches)
-      void app.command('start-live');
+    this.wanted = step === 'live';
     const live = app.session.state ? app.job('live') : undefined;
     if (before === 'live' && step !== 'live' && live && !app.session.watches) {
-      void app.command('stop-job', { job: live.number });
+      void app.session.command('stop-job', { job: live.number }).catch(() => undefined); // it has ended by itself
       this.view.clear();
     }
     this.follow();

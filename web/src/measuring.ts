@@ -1,8 +1,10 @@
 import { html, type TemplateResult } from 'lit';
+import { Vector3 } from 'three';
 import type { App } from './app';
 import { icon } from './icons';
 import { number, t } from './messages';
-import type { Measurement } from './ruler';
+import { type Measurement, measured } from './ruler';
+import type { HandMeasurement, Surface } from './types';
 
 interface Measured {
   label: string;
@@ -25,38 +27,87 @@ function delta({ points }: Measurement): [number, number, number] {
   return [0, 1, 2].map((i) => (b[i] as number) - (a[i] as number)) as [number, number, number];
 }
 
-/** What was measured on the surface by hand. It belongs to the mesh on which it was clicked, and comes back with it. */
+/** Operations that choose triangles and leave the mesh as it is. */
+const CHOOSES = /^(select|invert$|grow$|shrink$|add$|without$|within$)/;
+
+/** Names the mesh that is shown, also after a restart: the version, and the edits that made it. */
+function meshOf({ version, steps, steps_done: done }: Surface): string {
+  const edits = steps.slice(0, done).filter(({ operation }) => !CHOOSES.test(operation));
+  let hash = 2166136261; // FNV-1a
+  for (const letter of JSON.stringify(edits.map(({ operation, value }) => [operation, value])))
+    hash = Math.imul(hash ^ (letter.codePointAt(0) as number), 16777619) >>> 0;
+  return `${version}-${hash.toString(16)}`;
+}
+
+const measuredBy = ({ label, points_mm: points, sigmas_mm: sigmas }: HandMeasurement): Measured => ({
+  label,
+  result: measured(
+    points.map((point) => new Vector3(...point)),
+    sigmas.map((sigma) => sigma ?? NaN),
+  ),
+});
+
+/** What was measured on the surface by hand, kept with the project. It belongs to the mesh on which it was clicked. */
 export class Measuring {
-  private readonly lists = new Map<number, { next: number; all: Measured[] }>();
+  /** The list as it is sent, until the server has it. */
+  private sent: HandMeasurement[] | null = null;
+  private known: { of: string; all: Measured[] } = { of: '', all: [] };
   private shown = '';
 
   constructor(private readonly app: App) {}
 
-  private get list(): { next: number; all: Measured[] } {
-    const revision = this.app.viewer.meshShown;
-    const known = this.lists.get(revision) ?? { next: 0, all: [] };
-    this.lists.set(revision, known);
-    return known;
+  private get kept(): readonly HandMeasurement[] {
+    return this.sent ?? this.app.session.state?.project?.measurements ?? [];
   }
   get all(): readonly Measured[] {
-    return this.app.viewer.shown ? this.list.all : [];
+    const { app } = this;
+    const surface = app.session.state?.project?.surface;
+    if (!surface || !app.viewer.shown || app.viewer.meshShown !== surface.mesh_revision) return [];
+    const mesh = meshOf(surface);
+    const own = this.kept.filter((one) => one.mesh === mesh);
+    const of = JSON.stringify(own);
+    if (of !== this.known.of) this.known = { of, all: own.map(measuredBy) };
+    return this.known.all;
   }
   /** The newest one, which the picture shows large. */
   get last(): Measured | undefined {
     return this.all.at(-1);
   }
   forget(): void {
-    this.lists.clear();
+    this.sent = null;
     this.follow();
   }
   add(result: Measurement): void {
-    const { list } = this;
-    list.all = [...list.all, { label: letter(list.next++), result }];
+    const surface = this.app.session.state?.project?.surface;
+    if (!surface) return;
+    const taken = new Set(this.kept.map(({ label }) => label));
+    let index = 0;
+    while (taken.has(letter(index))) ++index;
+    const one = {
+      label: letter(index),
+      mesh: meshOf(surface),
+      points_mm: [...result.points],
+      sigmas_mm: result.sigmas_mm.map((sigma) => (Number.isFinite(sigma) ? sigma : null)),
+    };
+    void this.keep([...this.kept, one]);
+  }
+  private async keep(list: HandMeasurement[]): Promise<void> {
+    this.sent = list;
+    this.follow();
+    const kept = await this.app.command('set-measurements', { measurements: list });
+    if (this.sent !== list) return; // a newer one is on its way
+    if (kept) await this.arrived(list);
+    this.sent = null;
     this.follow();
   }
+  /** Until the state holds what was sent, so that nothing flickers. */
+  private async arrived(list: HandMeasurement[]): Promise<void> {
+    const wanted = list.map(({ label }) => label).join();
+    const has = () => this.app.session.state?.project?.measurements.map(({ label }) => label).join() === wanted;
+    for (let i = 0; i < 40 && !has(); ++i) await new Promise((resolve) => setTimeout(resolve, 50));
+  }
   private remove(label: string): void {
-    this.list.all = this.list.all.filter((one) => one.label !== label);
-    this.follow();
+    void this.keep(this.kept.filter((one) => one.label !== label));
   }
   /** Brings the measurements of the mesh into the picture. */
   follow(): void {
@@ -109,6 +160,7 @@ export class Measuring {
                     class="icon-btn"
                     title=${t('measure.remove')}
                     aria-label="${t('measure.remove')} ${label}"
+                    ?disabled=${this.app.session.watches}
                     @click=${() => this.remove(label)}
                   >
                     ${icon('close')}

@@ -1,5 +1,5 @@
 import { meshOf, unpack, valuesOf } from './arrays';
-import type { Session } from './session';
+import { Refusal, type Session } from './session';
 import type { Surface } from './types';
 import type { Viewer } from './viewer';
 
@@ -76,10 +76,15 @@ export class MeshSource {
             (viewer.meshShown !== surface.mesh_revision || this.selectionShown !== surface.selection_revision),
         );
         this.again = false;
-        await this.step();
+        const { state } = this.session;
+        try {
+          await this.step();
+        } catch (error) {
+          // What is there no longer is of a state that is over: the one after it is followed now, or when it comes.
+          if (this.session.state !== state) this.again = true;
+          else if (!(error instanceof Refusal && error.status === 404)) this.failed(error);
+        }
       }
-    } catch (error) {
-      this.failed(error);
     } finally {
       this.viewer.setIncomplete(false);
       this.running = false;

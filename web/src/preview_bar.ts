@@ -22,11 +22,11 @@ export function previewBar(app: App): TemplateResult {
           </div>`
     }
     <div class="row">
-      ${nothing ? '' : html`<button class="btn primary grow" id="apply" ?disabled=${app.occupied} @click=${() => app.editing.applyPreview()}>${t('preview.apply')}</button>`}
+      ${nothing ? '' : html`<button class="btn primary grow" id="apply" ?disabled=${app.occupied || app.session.watches} @click=${() => app.editing.applyPreview()}>${t('preview.apply')}</button>`}
       <button
         class="btn grow"
         id="cancel-preview"
-        ?disabled=${app.occupied}
+        ?disabled=${app.occupied || app.session.watches}
         @click=${() => app.command('drop-preview')}
       >
         ${t(nothing ? 'app.close' : 'preview.cancel')}

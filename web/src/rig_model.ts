@@ -25,6 +25,7 @@ export class RigModel {
     if (!rig) return;
     const objectFromRig = new THREE.Matrix4();
     if (rig.turntable) objectFromRig.set(...(rig.turntable.object_from_rig as Sixteen));
+    else objectFromRig.set(1, 0, 0, 0, 0, 0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 1); // level, looking away
     const distance = rig.turntable?.distance_mm ?? 500;
     const reach = 1.22 * distance;
     const camera = cone(rig.camera, new THREE.Matrix4(), reach);

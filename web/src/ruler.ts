@@ -3,6 +3,8 @@ import * as THREE from 'three';
 export type MeasureKind = 'distance' | 'angle' | 'points';
 export interface Measurement {
   points: readonly [number, number, number][];
+  /** Of the points; NaN where not known. */
+  sigmas_mm: readonly number[];
   distance_mm: number | null;
   /** Expanded uncertainty of the distance, k = 2. */
   u95_mm: number | null;
@@ -22,6 +24,7 @@ export function measured(points: readonly THREE.Vector3[], sigmas: readonly numb
   if (!c)
     return {
       points: places,
+      sigmas_mm: sigmas,
       distance_mm: a.distanceTo(b),
       u95_mm: known(Math.hypot(sa, sb)),
       angle_deg: null,
@@ -35,6 +38,7 @@ export function measured(points: readonly THREE.Vector3[], sigmas: readonly numb
   const u95 = known(Math.hypot(sa * ga.length(), (sc as number) * gc.length(), sb * ga.add(gc).length()));
   return {
     points: places,
+    sigmas_mm: sigmas,
     distance_mm: null,
     u95_mm: null,
     angle_deg: (u.angleTo(v) * 180) / Math.PI,
@@ -100,7 +104,7 @@ export class Ruler {
     this.sigmas.push(sigma);
     this.present.add(ball(point, size));
     if (this.ends.length < wanted || kind === 'points') return null;
-    const result = measured(this.ends, this.sigmas);
+    const result = measured(this.ends, [...this.sigmas]);
     this.clear();
     return result;
   }

@@ -1,3 +1,4 @@
+import type { Lan } from './link_dialog';
 import type { State } from './types';
 import type { Hit, Ray } from './viewer';
 
@@ -6,6 +7,7 @@ const ID = 'frangia-id';
 
 /** Statuses by which a proxy says that the server gave no answer. */
 const UNANSWERED = [502, 503, 504];
+const FORBIDDEN = 403;
 const ATTEMPTS = 6;
 
 const pause = (milliseconds: number): Promise<void> => new Promise((resolve) => setTimeout(resolve, milliseconds));
@@ -18,6 +20,9 @@ export type Layer = 'none' | 'camera' | 'phase' | 'modulation' | 'status' | 'dep
 
 /** The largest file that the server takes. */
 export const MOST_BYTES = 512 * 1024 * 1024;
+
+/** Status of a refusal because another browser operates. */
+export const CONFLICT = 409;
 
 /** A refusal of the server, in its words. */
 export class Refusal extends Error {
@@ -53,6 +58,8 @@ export class Session {
   /** Public name of the session that may act; the others watch. */
   operator = '';
   private id = sessionStorage.getItem(ID) ?? '';
+  /** Requests that the server has not answered yet. */
+  unanswered = 0;
   private patience = 500;
   private socket: WebSocket | null = null;
   private layer: Layer = 'none';
@@ -171,6 +178,20 @@ export class Session {
     return ((await response.json()) as { url: string }).url;
   }
 
+  /** How tablets are let in; null where that is not offered. */
+  async lan(): Promise<Lan | null> {
+    try {
+      return (await (await this.request('/api/lan', {})).json()) as Lan;
+    } catch (error) {
+      if (error instanceof Refusal && error.status === FORBIDDEN) return null;
+      throw error;
+    }
+  }
+  /** Lets tablets in at an address of the machine, or nobody any more. */
+  async changeLan(address?: string): Promise<Lan> {
+    return (await (await this.post('/api/lan', address ? { address } : {})).json()) as Lan;
+  }
+
   async bytes(path: string): Promise<ArrayBuffer> {
     return (await this.request(path, {})).arrayBuffer();
   }
@@ -186,11 +207,14 @@ export class Session {
 
   private async request(path: string, init: RequestInit): Promise<Response> {
     const headers = { ...(init.headers as Record<string, string>), Authorization: `Bearer ${this.key}` };
+    ++this.unanswered;
     try {
       return await answerOf(await fetch(path, { ...init, headers }));
     } catch (error) {
       if (error instanceof Refusal && error.status === 401) this.set('refused');
       throw error;
+    } finally {
+      --this.unanswered;
     }
   }
 

@@ -57,26 +57,39 @@ function advice(app: App): TemplateResult | string {
   </button>`;
 }
 
+/** What a browser that watches may not do: all its buttons and fields are disabled there. */
+export const acts = (app: App, content: TemplateResult): TemplateResult =>
+  html`<fieldset class="acts" ?disabled=${app.session.watches}>${content}</fieldset>`;
+
+async function takeOver(app: App): Promise<void> {
+  try {
+    await app.session.takeOver();
+    if (app.refused) app.dismiss();
+  } catch (error) {
+    app.say(error);
+  }
+}
+
 /** Who operates, a lost connection, and what went wrong. */
 export function notices(app: App): TemplateResult {
   const lost = app.session.link === 'lost';
+  // It stands in the refusal, where there is one.
+  const refused = app.refused && app.problem !== '' && app.session.watches;
+  const button = html`<button class="btn small" id="take-over" @click=${() => void takeOver(app)}>
+    ${t('app.takeOver')}
+  </button>`;
   return html`<div class="messages" role="region" aria-label=${t('app.messages')}>
     ${
-      app.session.watches && !lost
-        ? html`<div class="notice warn" role="status">
-            <span>${t('app.watching')}</span
-            ><button class="btn small" id="take-over" @click=${() => void app.session.takeOver()}>
-              ${t('app.takeOver')}
-            </button>
-          </div>`
+      app.session.watches && !lost && !refused
+        ? html`<div class="notice warn" role="status"><span>${t('app.watching')}</span>${button}</div>`
         : ''
     }
     ${lost ? html`<div class="notice warn" role="alert"><span>${t('app.lost')}</span></div>` : ''}
     ${
       app.problem && !lost
         ? html`<div class="notice" role="alert">
-            <span>${plain(app.problem)}</span>
-            ${advice(app)}
+            <span>${refused ? t('app.watching') : plain(app.problem)}</span>
+            ${refused ? button : advice(app)}
             <button class="icon-btn" aria-label=${t('app.dismiss')} @click=${() => app.dismiss()}>
               ${icon('close')}
             </button>

@@ -289,7 +289,7 @@ export interface RigFigures {
 export interface KeptRig extends RigFigures {
   number: number;
   kept_s: number;
-  before: 'geometry' | 'devices' | 'calibration' | 'axis' | 'restored';
+  before: 'geometry' | 'devices' | 'display' | 'calibration' | 'axis' | 'restored';
 }
 /** A rig that is kept for any project. */
 export interface LibraryRig extends RigFigures {
@@ -360,9 +360,23 @@ export interface Project {
   /** Number of the version that is shown; 0 for none. */
   current_version: number;
   /** Of which version and revision an exported surface is. */
-  exports: { name: string; bytes: number; version: number | null; revision: number | null }[];
+  exports: ExportedFile[];
   reference: { name: string; format: string } | null;
+  measurements: HandMeasurement[];
   commands: { rig?: string[]; scan?: string[]; reconstruct?: string[]; edit?: string[]; inspect?: string[] };
+}
+/** Points that were clicked on a mesh: two for a distance, three for an angle. */
+export interface HandMeasurement {
+  label: string;
+  mesh: string;
+  points_mm: [number, number, number][];
+  sigmas_mm: (number | null)[];
+}
+export interface ExportedFile {
+  name: string;
+  bytes: number;
+  version: number | null;
+  revision: number | null;
 }
 export interface ProjectEntry {
   name: string;

@@ -73,6 +73,7 @@ export class ViewCamera {
   /** The ray through a pixel. */
   rayAt([x, y]: [number, number]): THREE.Ray {
     const ray = new THREE.Raycaster();
+    this.camera.updateMatrixWorld(); // of a view that is not drawn yet
     ray.setFromCamera(
       new THREE.Vector2((2 * x) / this.canvas.clientWidth - 1, 1 - (2 * y) / this.canvas.clientHeight),
       this.camera,

@@ -70,7 +70,9 @@ export class Viewer {
   private readonly holes = new HoleMarks();
   private readonly rig = new RigModel();
   private rigShown = 'null';
+  private tableKnown = true;
   private picks: THREE.Vector3[] = [];
+  private answered = Promise.resolve();
   private due = false;
   private resting = 0;
   private held = false;
@@ -126,7 +128,10 @@ export class Viewer {
       outlined: (stroke, keys) => this.events.outlined(this.view.outlineOf(stroke), this.through, keys),
       clicked: (point, keys) => {
         const { tool } = this;
-        void this.events.pick(this.pickRay(point)).then((hit) => {
+        const asked = this.events.pick(this.pickRay(point));
+        // In the order of the clicks, whichever is answered first.
+        this.answered = this.answered.then(async () => {
+          const hit = await asked;
           if (hit && tool === this.tool) this.onHit(hit, keys);
         });
       },
@@ -152,8 +157,12 @@ export class Viewer {
   setRig(rig: RigGeometry | null): void {
     const text = JSON.stringify(rig);
     if (text === this.rigShown) return;
+    const appears = rig !== null && (this.rigShown === 'null' || this.tableKnown !== (rig.turntable !== null));
+    this.tableKnown = !rig || rig.turntable !== null;
     this.rigShown = text;
     this.rig.set(rig);
+    this.table.visible = this.tableKnown;
+    if (appears) this.frame();
     this.draw();
   }
 
@@ -374,6 +383,7 @@ export class Viewer {
   }
   drawNow(): void {
     const { camera } = this.view;
+    camera.updateMatrixWorld(); // before letters are placed by it
     this.lights.quaternion.copy(camera.quaternion);
     this.marks.update(camera, this.view.mmPerPixel);
     this.ruler.place(camera, this.canvas.clientWidth, this.canvas.clientHeight);

@@ -87,9 +87,21 @@ std::string path_of(const HttpRequest& request) {
   return request.target.substr(0, request.target.find('?'));
 }
 
+constexpr const char* kOtherOperates =
+    "another browser operates the scanner; take over to act here";
+constexpr const char* kOnlyHere = "only a browser on the machine itself lets others in";
+
 /// The key that a request shows; empty without one.
 std::string key_of(const HttpRequest& request) {
   return rest_of(request.authorization, kBearer).value_or("");
+}
+
+/// The key in the first message of a WebSocket; empty without one.
+std::string key_of_hello(std::string_view message) {
+  const auto json = nlohmann::json::parse(message, nullptr, false);
+  if (!json.is_object() || json.value("type", nlohmann::json()) != "hello") return {};
+  const auto key = json.find("key");
+  return key != json.end() && key->is_string() ? key->get<std::string>() : std::string();
 }
 
 /// Whether Content-Type states JSON, in UTF-8 where it says so, or bytes.
@@ -133,10 +145,15 @@ HttpApp AppRoutes::app() const {
   app.answer = [this](const HttpRequest& request) { return answer(request); };
   app.may_connect = [](const HttpRequest& request) { return request.target == kLivePath; };
   app.authorizes = [this](std::string_view message) {
-    const auto json = nlohmann::json::parse(message, nullptr, false);
-    if (!json.is_object() || json.value("type", nlohmann::json()) != "hello") return false;
-    const auto key = json.find("key");
-    return key != json.end() && key->is_string() && keys_.is_valid(key->get<std::string>());
+    return keys_.is_valid(key_of_hello(message));
+  };
+  app.attend = [this](std::string_view message) -> std::shared_ptr<void> {
+    const std::string id = keys_.arrive(key_of_hello(message));
+    const auto gone = [this, id, alive = std::weak_ptr<int>(alive_)](int* held) {
+      delete held;  // NOLINT(cppcoreguidelines-owning-memory)
+      if (!alive.expired() && keys_.leave(id)) on_operator_();
+    };
+    return {new int(0), gone};  // NOLINT(cppcoreguidelines-owning-memory)
   };
   app.live_message = [this] {
     return fmt::format(
@@ -234,6 +251,11 @@ HttpResponse AppRoutes::answer(const HttpRequest& request) const {
 
 HttpResponse AppRoutes::answer_api(const HttpRequest& request, const std::string& path) const {
   if (path == "/api/session") return begin_session(request);
+  if (path == "/api/lan" && request.method == "GET") {
+    if (!lan_.state) return failure(kForbidden, kOnlyHere);
+    return keys_.may_act(key_of(request)) ? HttpResponse{.body = lan_.state()}
+                                          : failure(kConflict, kOtherOperates);
+  }
   return request.method == "GET" ? get(path) : post(path, request.body, key_of(request));
 }
 
@@ -281,19 +303,38 @@ HttpResponse AppRoutes::post(const std::string& path,
   }
   const auto command = rest_of(path, "/api/commands/");
   const auto offset = number_after(path, "/api/reference/");
-  if (!command && !offset && path != "/api/links")
+  if (!command && !offset && path != "/api/links" && path != "/api/lan")
     return failure(kNotFound, "there is no such resource");
-  if (!keys_.may_act(key))
-    return failure(kConflict, "another browser operates the scanner; take over to act here");
+  if (!keys_.may_act(key)) return failure(kConflict, kOtherOperates);
+  if (keys_.operator_id().empty()) {  // who acts where nobody operates has the role
+    keys_.take_over(key);
+    on_operator_();
+  }
   if (path == "/api/links") {
     const nlohmann::json json{{"url", new_link()}};
     return {.body = json.dump()};
   }
+  if (path == "/api/lan") return post_lan(body);
   if (offset) {
     service_.add_to_reference(*offset, body);
     return {.body = "{}"};
   }
   return {.status = kOk, .body = service_.command(*command, body)};
+}
+
+HttpResponse AppRoutes::post_lan(const std::string& body) const {
+  if (!lan_.open) return failure(kForbidden, kOnlyHere);
+  const auto json = nlohmann::json::parse(body, nullptr, false);
+  const auto address = json.is_object() ? json.find("address") : json.end();
+  const bool has_address = json.is_object() && address != json.end();
+  if (!json.is_object() || (has_address && !address->is_string()))
+    return failure(kBadRequest, "address: is an IP address of this machine, or nothing to close");
+  if (has_address) {
+    lan_.open(address->get<std::string>());
+  } else {
+    lan_.close();
+  }
+  return {.body = lan_.state()};
 }
 
 HttpResponse AppRoutes::begin_session(const HttpRequest& request) const {

@@ -1,8 +1,10 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "frangia/service/access_guard.h"
 #include "frangia/service/service.h"
@@ -12,6 +14,14 @@
 #include "http_server.h"
 
 namespace frangia {
+
+/// How the operator lets browsers of other machines in. Empty functions: it is not offered, as to
+/// those browsers themselves.
+struct LanAccess {
+  std::function<std::string()> state;                    ///< as `GET /api/lan` answers
+  std::function<void(const std::string& address)> open;  ///< at an address of this machine
+  std::function<void()> close;
+};
 
 /// The requests of the operator's app: who may send them, and what each one does. It knows the
 /// service and no sockets.
@@ -24,6 +34,8 @@ class AppRoutes {
             AppAddress address,
             std::function<void()> on_operator);
 
+  /// Offers to let browsers of other machines in; before `app`.
+  void offer(LanAccess lan) { lan_ = std::move(lan); }
   /// What the server needs.
   [[nodiscard]] HttpApp app() const;
   /// A link that opens the app in one browser, once.
@@ -40,13 +52,16 @@ class AppRoutes {
   [[nodiscard]] HttpResponse post(const std::string& path,
                                   const std::string& body,
                                   const std::string& key) const;
+  [[nodiscard]] HttpResponse post_lan(const std::string& body) const;
   [[nodiscard]] HttpResponse begin_session(const HttpRequest& request) const;
 
   Service& service_;
   SessionKeys& keys_;
   PasswordGuard& password_;
   AppAddress address_;
-  std::function<void()> on_operator_;  ///< another session operates
+  LanAccess lan_;
+  std::function<void()> on_operator_;                      ///< another session operates
+  std::shared_ptr<int> alive_ = std::make_shared<int>(0);  ///< ends with this object
 };
 
 }  // namespace frangia

@@ -56,6 +56,9 @@ struct HttpApp {
   std::function<bool(const HttpRequest&)> may_connect;
   /// Whether the first message of a WebSocket authorizes it.
   std::function<bool(std::string_view)> authorizes;
+  /// Notes the client whose first message this is. What it returns is held until the client is
+  /// gone. May be empty.
+  std::function<std::shared_ptr<void>(std::string_view)> attend;
   /// The message that every WebSocket receives at its beginning and after each change.
   std::function<std::string()> live_message;
   /// The channel of pictures that a later message of a WebSocket chooses, 0 for none; empty for a

@@ -51,6 +51,7 @@ class LiveConnection : public Connection, public std::enable_shared_from_this<Li
         self->refuse();
         return;
       }
+      if (self->shared_->app.attend) self->presence_ = self->shared_->app.attend(message);
       self->begin();
     });
   }
@@ -126,8 +127,9 @@ class LiveConnection : public Connection, public std::enable_shared_from_this<Li
   bool state_due_ = false;
   bool picture_due_ = false;
   int channel_ = 0;
-  std::uint64_t seen_ = 0;   ///< revision of the picture that was sent last
-  ConnectionPlace waiting_;  ///< until a key has come; last: leaves a list of `shared_`
+  std::uint64_t seen_ = 0;          ///< revision of the picture that was sent last
+  std::shared_ptr<void> presence_;  ///< of the client, while it is connected
+  ConnectionPlace waiting_;         ///< until a key has come; last: leaves a list of `shared_`
 };
 
 }  // namespace

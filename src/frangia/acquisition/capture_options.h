@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -18,6 +19,7 @@ enum class ExposureChoice {
 };
 
 struct DecodedView;
+class DecodedViews;
 
 /// What the assessment of a captured view found.
 struct ViewAssessment {
@@ -63,6 +65,9 @@ struct CaptureOptions {
   /// Called once for each view that is captured in this session, on the thread that decodes it,
   /// while the capture continues. It does not throw.
   std::function<void(const ViewAssessment&)> on_view;
+  /// Says how these views are decoded, and keeps them for a reconstruction. Null: by default
+  /// options, and nothing is kept.
+  std::shared_ptr<DecodedViews> decoded;
 };
 
 /// A view that could not be captured.

@@ -3,19 +3,20 @@
 #include <utility>
 
 #include "frangia/dataset/read_frames.h"
-#include "frangia/decode/internal/view_color.h"
 
 namespace frangia {
 
 ViewDecoder::ViewDecoder(const Scan& scan,
                          const Image<Eigen::Vector2f>& rays,
                          const DecodeOptions& options,
-                         const Run& run)
+                         const Run& run,
+                         std::shared_ptr<const DecodedViews> known)
     : scan_(scan),
       rays_(rays),
       options_(options),
       plan_(plan_decoding(scan.patterns, scan.rig, options)),
       run_(run),
+      known_(std::move(known)),
       forward_stop_(run.stop, [this] { stop_.request_stop(); }) {
   start();
 }
@@ -32,33 +33,33 @@ void ViewDecoder::start() {
 
 DecodedView ViewDecoder::next() {
   Outcome outcome = pending_.get();
-  for (const Message& message : outcome.messages)
-    message.warning ? run_.warn(message.sentence) : run_.note(message.sentence);
+  outcome.told.tell(run_);
   if (outcome.error) std::rethrow_exception(outcome.error);
   ++view_;
   start();
-  return std::move(outcome.view);
+  return std::move(outcome.told.view);
 }
 
 ViewDecoder::Outcome ViewDecoder::decode(std::size_t view) const {
   Outcome out;
+  std::vector<DecodeMessage> said;
   Run run;
   run.stop = stop_.get_token();
-  run.on_warning = [&](const std::string& sentence) { out.messages.push_back({true, sentence}); };
-  run.on_note = [&](const std::string& sentence) { out.messages.push_back({false, sentence}); };
-  // Frames are named by the reader; the decoder does not know which view they are.
-  const std::string prefix = scan_.views[view].folder.string() + ": ";
-  Run decoding = run;
-  decoding.on_warning = [&](const std::string& sentence) { run.warn(prefix + sentence); };
-  decoding.on_note = [&](const std::string& sentence) { run.note(prefix + sentence); };
+  run.on_warning = [&](const std::string& sentence) { said.push_back({true, sentence}); };
+  run.on_note = [&](const std::string& sentence) { said.push_back({false, sentence}); };
   try {
+    if (known_) {
+      if (const auto known = known_->find(scan_, options_, view)) {
+        out.told = *known;
+        return out;
+      }
+    }
     const std::vector<FrameStack> stacks = read_frames(scan_, view, run);
-    out.view =
-        decode_view(stacks, plan_, scan_.rig, rays_, options_of_view(options_, view), decoding);
-    out.view.color = view_color(stacks, options_.colors);
+    out.told = decode_told(scan_, view, stacks, plan_, rays_, options_, run.stop);
   } catch (...) {
     out.error = std::current_exception();
   }
+  out.told.messages.insert(out.told.messages.begin(), said.begin(), said.end());
   return out;
 }
 

@@ -4,6 +4,7 @@
 #include <exception>
 #include <functional>
 #include <future>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -12,7 +13,7 @@
 #include "frangia/core/image.h"
 #include "frangia/core/run.h"
 #include "frangia/dataset/scan_folder.h"
-#include "frangia/decode/decode_view.h"
+#include "frangia/decode/decoded_views.h"
 
 namespace frangia {
 
@@ -24,13 +25,15 @@ namespace frangia {
 /// views. The thread ends before the destructor returns.
 class ViewDecoder {
  public:
-  /// Plans the decoding of all views. The arguments must outlive this object.
+  /// Plans the decoding of all views. `known` holds views that were decoded before. The references
+  /// must outlive this object.
   ///
   /// @errors   as plan_decoding
   ViewDecoder(const Scan& scan,
               const Image<Eigen::Vector2f>& rays,
               const DecodeOptions& options,
-              const Run& run);
+              const Run& run,
+              std::shared_ptr<const DecodedViews> known = nullptr);
   ViewDecoder(const ViewDecoder&) = delete;
   ViewDecoder& operator=(const ViewDecoder&) = delete;
   ViewDecoder(ViewDecoder&&) = delete;
@@ -43,13 +46,8 @@ class ViewDecoder {
   [[nodiscard]] DecodedView next();
 
  private:
-  struct Message {
-    bool warning = false;
-    std::string sentence;
-  };
   struct Outcome {
-    DecodedView view;
-    std::vector<Message> messages;
+    ToldView told;
     std::exception_ptr error;
   };
   void start();
@@ -60,6 +58,7 @@ class ViewDecoder {
   const DecodeOptions& options_;
   const DecodePlan plan_;
   const Run& run_;
+  const std::shared_ptr<const DecodedViews> known_;
   std::stop_source stop_;
   std::stop_callback<std::function<void()>> forward_stop_;
   std::size_t view_ = 0;  ///< that `pending_` decodes

@@ -250,6 +250,7 @@ Reconstruction reconstruct_with_refined_rig(const Scan& scan,
                                             const Run& run) {
   options.refine_rig = false;
   options.explain_rig = false;
+  options.decoded = nullptr;  // with the rig before
   options.registration.wrong_rig = WrongRig::AdviseCalibration;
   RigRefinement refinement = refine_scan_rig(scan, options, run);
   run.note(refinement.text());
@@ -279,7 +280,8 @@ Reconstruction reconstruct(const Scan& scan, const ReconstructOptions& given, co
   // Frames -> phase -> range, view by view. Phase noise: phase/wrap_phase.
   DecodeOptions decode = options.decode;
   decode.colors = options.colors;
-  MeasuredViews measured = measure_views(scan, rays, decode, options.mixed_pixels, run);
+  MeasuredViews measured =
+      measure_views(scan, rays, decode, options.mixed_pixels, run, options.decoded);
   release_cached_pixels();
   out.views = measured.stations.size();
   out.view_summaries = std::move(measured.summaries);

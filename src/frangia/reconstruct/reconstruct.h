@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -9,6 +10,7 @@
 #include "frangia/core/run.h"
 #include "frangia/dataset/scan_folder.h"
 #include "frangia/decode/decode_view.h"
+#include "frangia/decode/decoded_views.h"
 #include "frangia/decode/view_summary.h"
 #include "frangia/fringe_order/correct_fringe_orders.h"
 #include "frangia/fringe_order/resolve_by_views.h"
@@ -56,6 +58,9 @@ struct ReconstructOptions {
   bool keep_raw = false;       ///< returns the registered points, too
   /// Returns about this many registered points of each joined setup, too, where there are several.
   std::size_t keep_points_of_setups = 0;
+  /// Views that were decoded, with the options of `decode`, while they were captured; null: none.
+  /// The result has the same bytes with and without.
+  std::shared_ptr<const DecodedViews> decoded;
 };
 
 /// The reconstructed surface and what the stages report.

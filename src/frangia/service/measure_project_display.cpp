@@ -24,7 +24,7 @@ DisplayMeasurement measure_project_display(const ProjectFolder& project,
     found = measure_display(opened.devices(), rig, options, run);
   }
   const std::string text = with_display(read_text_file(project.rig()), rig, found);
-  keep_rig(project, RigChange::Devices);
+  keep_rig(project, RigChange::Display);
   AtomicFile file(project.rig(), Durability::Synced);
   file.stream() << text;
   file.commit();

@@ -13,6 +13,7 @@
 #include "frangia/core/atomic_file.h"
 #include "frangia/core/folder_lock.h"
 #include "frangia/core/make_folder.h"
+#include "frangia/reconstruct/reconstruct.h"
 #include "frangia/rig/read_rig.h"
 #include "frangia/service/encode_arrays.h"
 #include "frangia/service/internal/opened_devices.h"
@@ -199,11 +200,33 @@ std::vector<ProjectStation> read_stations(const ProjectFolder& project, const Ru
   return stations;
 }
 
+DecodeOptions decode_options_of(const CaptureSettings& settings) {
+  DecodeOptions options;
+  options.algorithm = settings.algorithm;
+  options.colors = ReconstructOptions{}.colors;
+  options.keep_maps = false;
+  return options;
+}
+
+std::shared_ptr<DecodedViews> views_to_keep(const ProjectFolder& project,
+                                            const std::vector<ProjectStation>& stations,
+                                            const CaptureSettings& settings,
+                                            const std::shared_ptr<DecodedViews>& before,
+                                            const Run& run) {
+  const Scan plan = plan_of(project, stations, settings, run);
+  const DecodeOptions options = decode_options_of(settings);
+  if (!before || !before->fits(plan, options))
+    return std::make_shared<DecodedViews>(plan, options, project.in_derived("plan"));
+  before->forget_unsealed();
+  return before;
+}
+
 CaptureReport capture_project(
     const ProjectFolder& project,
     std::vector<ProjectStation> stations,
     const CaptureSettings& settings,
     const CaptureSetup& setup,
+    const std::shared_ptr<DecodedViews>& decoded,
     const std::function<void(const std::vector<ProjectStation>&)>& on_change,
     const Run& run) {
   run.stage("devices");
@@ -218,6 +241,7 @@ CaptureReport capture_project(
   options.camera = settings.camera;
   options.table_at_rad = setup.table_at_rad;
   options.setup = present_setup(stations);
+  options.decoded = decoded;
   StationBook book(project, std::move(stations), on_change);
   const StationCloud clouds(plan.rig);
   options.on_view = [&](const ViewAssessment& found) {

@@ -11,6 +11,7 @@
 #include "frangia/core/error.h"
 #include "frangia/core/run.h"
 #include "frangia/dataset/scan_folder.h"
+#include "frangia/decode/decoded_views.h"
 #include "frangia/devices/driver.h"
 #include "frangia/devices/guardian.h"
 #include "frangia/service/capture_settings.h"
@@ -81,17 +82,33 @@ class UnknownTableAngle : public Error {
 /// @errors   Error(File) when it cannot be written
 void write_stations(const ProjectFolder& project, const std::vector<ProjectStation>& stations);
 
+/// How the views of a scan are decoded, while it is captured and for its surface.
+[[nodiscard]] DecodeOptions decode_options_of(const CaptureSettings& settings);
+
+/// What keeps the views that the next session decodes: `before`, which may be null, where it is of
+/// the same scan.
+///
+/// @errors   as read_rig; Error(File)
+[[nodiscard]] std::shared_ptr<DecodedViews> views_to_keep(
+    const ProjectFolder& project,
+    const std::vector<ProjectStation>& stations,
+    const CaptureSettings& settings,
+    const std::shared_ptr<DecodedViews>& before,
+    const Run& run = {});
+
 /// Captures the present setup of a scan at its stations, or continues it, with the devices of the
 /// project's rig, and keeps stations.json and the points of each station. `on_change` receives the
 /// stations after each change, on the calling thread or on that which decodes views.
 ///
-/// The points are in the object frame of the rig as calibrated: registration comes later.
+/// Its views are decoded into `decoded`. The points are in the object frame of the rig as
+/// calibrated: registration comes later.
 /// @errors   UnknownTableAngle; as open_devices and capture_scan
 CaptureReport capture_project(
     const ProjectFolder& project,
     std::vector<ProjectStation> stations,
     const CaptureSettings& settings,
     const CaptureSetup& setup,
+    const std::shared_ptr<DecodedViews>& decoded,
     const std::function<void(const std::vector<ProjectStation>&)>& on_change,
     const Run& run = {});
 

@@ -25,6 +25,7 @@ constexpr const char* kHistory = "rigs";
 constexpr const char* kWhy = "before.txt";
 constexpr std::array kChanges = {RigChange::Geometry,
                                  RigChange::Devices,
+                                 RigChange::Display,
                                  RigChange::Calibration,
                                  RigChange::Axis,
                                  RigChange::Restored};
@@ -185,6 +186,8 @@ const char* name_of(RigChange change) {
       return "geometry";
     case RigChange::Devices:
       return "devices";
+    case RigChange::Display:
+      return "display";
     case RigChange::Calibration:
       return "calibration";
     case RigChange::Axis:

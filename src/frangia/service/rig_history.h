@@ -14,12 +14,14 @@ namespace frangia {
 enum class RigChange {
   Geometry,     ///< its parts were moved
   Devices,      ///< other devices, or other settings of them
+  Display,      ///< its display was measured
   Calibration,  ///< it was calibrated
   Axis,         ///< the axis of its turntable was found
   Restored      ///< an earlier one was brought back
 };
 
-/// Name of a change in the protocol: "geometry", "devices", "calibration", "axis" or "restored".
+/// Name of a change in the protocol: "geometry", "devices", "display", "calibration", "axis" or
+/// "restored".
 [[nodiscard]] const char* name_of(RigChange change);
 
 /// What a list shows of a rig.toml.

@@ -55,6 +55,7 @@ std::string Service::Implementation::command(const std::string& name, const std:
       {"take-back-project", &Implementation::take_back_project},
       {"set-notes", &Implementation::set_notes},
       {"set-thumbnail", &Implementation::set_thumbnail},
+      {"set-measurements", &Implementation::set_measurements},
       {"open-file", &Implementation::open_file},
       {"set-capture", &Implementation::set_capture},
       {"start-live", &Implementation::start_live},

@@ -102,12 +102,31 @@ bool SessionKeys::is_valid(std::string_view key) const {
 bool SessionKeys::may_act(std::string_view key) const {
   const std::lock_guard lock(mutex_);
   const Key* known = find(key);
-  return known != nullptr && (known->script || known->id == operator_id_);
+  return known != nullptr && (known->script || operator_id_.empty() || known->id == operator_id_);
+}
+
+std::string SessionKeys::arrive(std::string_view key) {
+  const std::lock_guard lock(mutex_);
+  const Key* known = find(key);
+  if (known == nullptr) return {};
+  ++pages_[known->id];
+  return known->id;
+}
+
+bool SessionKeys::leave(std::string_view id) {
+  const std::lock_guard lock(mutex_);
+  const auto found = pages_.find(id);
+  if (found == pages_.end() || --found->second > 0) return false;
+  pages_.erase(found);
+  if (operator_id_ != id) return false;
+  operator_id_.clear();  // the file keeps it: after a restart the page may come back
+  return true;
 }
 
 void SessionKeys::take_over(std::string_view key) {
   const std::lock_guard lock(mutex_);
-  if (const Key* known = find(key)) operator_id_ = known->id;
+  const Key* known = find(key);
+  if (known != nullptr && !known->script) operator_id_ = known->id;
   save();
 }
 

@@ -6,6 +6,7 @@
 #include <deque>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <mutex>
 #include <optional>
 #include <string>
@@ -29,7 +30,8 @@ struct SessionKey {
 
 /// The launch tokens and session keys of the operator's app. A token stands in a link and is
 /// exchanged once for a key; a key authorizes every request. One session operates, the others watch
-/// until they take over; scripts of the same user may always act. Safe to call from several
+/// until they take over; the role ends with the last page of its session, and who acts next has it.
+/// Scripts of the same user may always act. Safe to call from several
 /// threads.
 class SessionKeys {
  public:
@@ -60,8 +62,14 @@ class SessionKeys {
   [[nodiscard]] SessionKey admit();
   /// Makes a key for scripts of the same user.
   [[nodiscard]] std::string issue_key();
-  /// Whether a valid key may change something: that of the operator or of a script.
+  /// Whether a valid key may change something: that of the operator or of a script, and any where
+  /// nobody operates.
   [[nodiscard]] bool may_act(std::string_view key) const;
+  /// A page of a session is connected from now on. Returns the public name of the session; empty
+  /// for a key that is not valid.
+  [[nodiscard]] std::string arrive(std::string_view key);
+  /// A page of a session is gone. Returns whether nobody operates since.
+  bool leave(std::string_view id);
   /// Makes the session of a valid key the operator.
   void take_over(std::string_view key);
   /// Public name of the session that operates; empty before the first one.
@@ -89,8 +97,9 @@ class SessionKeys {
   std::deque<Token> tokens_;
   std::deque<Key> keys_;
   std::string operator_id_;
-  std::filesystem::path file_;  ///< empty: none
-  std::string password_;        ///< SHA-256 of the password's hash
+  std::map<std::string, int, std::less<>> pages_;  ///< that are connected, by session
+  std::filesystem::path file_;                     ///< empty: none
+  std::string password_;                           ///< SHA-256 of the password's hash
   std::function<void(const std::string&)> warn_;
   bool said_ = false;  ///< that the file cannot be written
 };

@@ -3,6 +3,18 @@ import type { Rows } from './rows';
 /** Texts of the step Rig and the status of pixels. */
 export const RIG = {
   'rig.devices': ['Devices', 'Geräte', 'Dispositivi'],
+  'display.findings': ['to look at: {count}', 'zu beachten: {count}', 'da guardare: {count}'],
+  'rig.noAnswer': ['One does not answer.', 'Eines antwortet nicht.', 'Uno non risponde.'],
+  'rig.isUnknown': ['not yet', 'noch nicht', 'non ancora'],
+  'rig.exact': ['simulated: exact', 'simuliert: genau', 'simulato: esatto'],
+  'rig.given': ['as given', 'wie angegeben', 'come indicato'],
+  'axis.isKnown': ['known', 'bekannt', 'noto'],
+  'axis.isUnknown': ['unknown', 'unbekannt', 'ignoto'],
+  'axis.later': [
+    'The axis is found with the board on the turntable, after the calibration.',
+    'Die Achse wird nach der Kalibrierung mit dem Brett auf dem Drehtisch gefunden.',
+    "L'asse si trova dopo la calibrazione, con la scacchiera sulla tavola.",
+  ],
   'rig.test': ['Test the devices', 'Geräte prüfen', 'Prova i dispositivi'],
   'rig.choose': ['Choose devices', 'Geräte wählen', 'Scegli i dispositivi'],
   'rig.chooseHint': [
@@ -33,11 +45,6 @@ export const RIG = {
     'This project has no rig yet. Choose its devices, then calibrate.',
     'Dieses Projekt hat noch keinen Aufbau. Geräte wählen, dann kalibrieren.',
     'Questo progetto non ha ancora un apparato. Scegliere i dispositivi, poi calibrare.',
-  ],
-  'rig.uncalibrated': [
-    'This rig is not calibrated yet. Sizes are known; the calibration finds lenses, baseline and angles.',
-    'Dieser Aufbau ist noch nicht kalibriert. Größen sind bekannt; die Kalibrierung findet Objektive, Basis und Winkel.',
-    'Questo apparato non è ancora calibrato. Le misure sono note; la calibrazione trova ottiche, base e angoli.',
   ],
   'rig.findings': ['Findings', 'Befunde', 'Riscontri'],
   'rig.sound': [
@@ -279,6 +286,11 @@ export const RIG = {
   ],
   'rigs.before.geometry': ['Before it was moved', 'Vor dem Verschieben', 'Prima dello spostamento'],
   'rigs.before.devices': ['Before other devices', 'Vor anderen Geräten', 'Prima di altri dispositivi'],
+  'rigs.before.display': [
+    'Before its display was measured',
+    'Vor der Messung der Anzeige',
+    'Prima della misura dello schermo',
+  ],
   'rigs.before.calibration': ['Before a calibration', 'Vor einer Kalibrierung', 'Prima di una calibrazione'],
   'rigs.before.axis': ['Before the axis was found', 'Vor der Suche der Achse', "Prima della ricerca dell'asse"],
   'rigs.before.restored': ['Before a return', 'Vor einem Zurückholen', 'Prima di un ritorno'],

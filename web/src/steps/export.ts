@@ -2,6 +2,7 @@ import { html, type TemplateResult } from 'lit';
 import type { App } from '../app';
 import { icon } from '../icons';
 import { number, t } from '../messages';
+import type { ExportedFile } from '../types';
 import { bytes, choice } from '../ui';
 
 const FORMATS = ['dxf', 'stl', 'ply', 'obj', 'glb', '3mf'] as const;
@@ -27,12 +28,29 @@ export const exportArguments = (exporting: ExportChoice): object => ({
   ...(exporting.limit === '0' ? {} : { triangles: Number(exporting.limit) }),
 });
 
+/** A file that was exported, with the button that brings it to this machine. */
+const written = (app: App, file: ExportedFile): TemplateResult =>
+  html`<div class="file">
+    <b>${file.name}</b
+    ><span class="num quiet"
+      >${bytes(file.bytes, number)}${file.revision === null ? '' : html`<br />${t('export.of', { version: file.version ?? 0, revision: number(file.revision) })}`}</span
+    >
+    <button
+      class="btn small"
+      @click=${() => app.exporting.download(file.name)}
+      aria-label="${t('export.download')} ${file.name}"
+    >
+      ${icon('download')}
+    </button>
+  </div>`;
+
 export function exportStep(app: App): TemplateResult {
   const { project } = app;
   const { choice: exporting, estimate } = app.exporting;
   if (!project.surface) return html`<section class="group"><p class="quiet">${t('surface.none')}</p></section>`;
   const format = exporting.format;
   const start = () => app.command('export', exportArguments(exporting));
+  const newest = project.exports.find(({ name }) => name === `${project.name}.${format}`);
   return html`<section class="group">
       <h2>${t('export.format')}</h2>
       <div class="formats" role="radiogroup" aria-label=${t('export.format')}>
@@ -87,12 +105,6 @@ export function exportStep(app: App): TemplateResult {
         ),
         (limit) => app.exporting.choose({ limit }),
       )}
-      <p class="quiet num" id="estimate">
-        ${estimate ? t('export.about', { size: bytes(estimate.bytes, number), triangles: number(estimate.triangles) }) : html`&nbsp;`}
-      </p>
-      <button class="btn primary wide" id="export" ?disabled=${app.busy} @click=${start}>
-        ${t('export.write', { format: format.toUpperCase() })}
-      </button>
     </section>
     <section class="group">
       <h2>${t('export.more')}</h2>
@@ -100,7 +112,7 @@ export function exportStep(app: App): TemplateResult {
         <button
           class="btn"
           id="zip"
-          ?disabled=${app.occupied || !project.scan_complete}
+          ?disabled=${app.occupied || app.session.watches || !project.scan_complete}
           @click=${() => app.command('export', { format: 'zip' })}
         >
           ${t('export.zip')}
@@ -111,23 +123,15 @@ export function exportStep(app: App): TemplateResult {
     <section class="group">
       <h2>${t('export.files')}</h2>
       ${project.exports.length === 0 ? html`<p class="quiet">${t('export.none')}</p>` : ''}
-      <div>
-        ${project.exports.map(
-          (file) =>
-            html`<div class="file">
-              <b>${file.name}</b
-              ><span class="num quiet"
-                >${bytes(file.bytes, number)}${file.revision === null ? '' : html`<br />${t('export.of', { version: file.version ?? 0, revision: number(file.revision) })}`}</span
-              >
-              <button
-                class="btn small"
-                @click=${() => app.exporting.download(file.name)}
-                aria-label="${t('export.download')} ${file.name}"
-              >
-                ${icon('download')}
-              </button>
-            </div>`,
-        )}
-      </div>
+      <div>${project.exports.map((file) => written(app, file))}</div>
+    </section>
+    <section class="group next-step">
+      <p class="quiet num" id="estimate">
+        ${estimate ? t('export.about', { size: bytes(estimate.bytes, number), triangles: number(estimate.triangles) }) : html`&nbsp;`}
+      </p>
+      <button class="btn primary wide" id="export" ?disabled=${app.busy || app.session.watches} @click=${start}>
+        ${t('export.write', { format: format.toUpperCase() })}
+      </button>
+      ${newest ? written(app, newest) : ''}
     </section>`;
 }

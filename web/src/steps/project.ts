@@ -4,6 +4,7 @@ import { fringePaths } from '../fringes';
 import { icon } from '../icons';
 import { type MessageKey, moment, number, t } from '../messages';
 import { freeName } from '../projects';
+import { acts } from '../shell';
 import type { ProjectEntry } from '../types';
 import { choice } from '../ui';
 import { rigWords } from './rig_history';
@@ -214,8 +215,7 @@ function projectList(app: App): TemplateResult {
 export function projectStep(app: App): TemplateResult {
   const state = app.state;
   const taken = state.projects.map((one) => one.name);
-  return html`<main class="home ${state.projects.length > 0 || state.rigs.length > 0 ? 'used' : ''}">
-    <section class="hero">
+  const content = html`<section class="hero">
       <svg class="fringes" viewBox="0 0 760 420" preserveAspectRatio="xMidYMid slice" aria-hidden="true">
         ${FRINGES.map(({ d, strength }) => svg`<path d=${d} opacity=${strength.toFixed(2)} />`)}
       </svg>
@@ -238,6 +238,8 @@ export function projectStep(app: App): TemplateResult {
         <h2>${t('home.new')}</h2>
         ${newProject(app)}
       </section>
-    </div>
+    </div>`;
+  return html`<main class="home ${state.projects.length > 0 || state.rigs.length > 0 ? 'used' : ''}">
+    ${acts(app, content)}
   </main>`;
 }

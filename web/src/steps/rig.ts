@@ -6,11 +6,12 @@ import { number, t, type MessageKey } from '../messages';
 import { poseTable } from '../residuals';
 import type { Calibration, RigGeometry } from '../types';
 import { nextStep, plain } from '../ui';
-import { axisCard, axisIsKnown, hasTable } from './rig_axis';
+import { axisStage } from './rig_axis';
 import { boardField, boardFields, boardOf, boardPrints } from './rig_board';
 import { devices } from './rig_devices';
-import { displayCard } from './rig_display';
+import { displayStage } from './rig_display';
 import { keepRig, rigHistory } from './rig_history';
+import { type RigStage, rigStages } from './rig_stages';
 
 /** The report of `frangia calibrate rig`, which the calibration writes to the exports. */
 const REPORT = 'calibration.html';
@@ -139,7 +140,7 @@ function nextPose({ next }: Calibration): string {
   return t(`pose.${next.kind}` as MessageKey, { tilt, place });
 }
 
-function calibration(app: App): TemplateResult {
+function calibration(app: App): RigStage {
   const { project } = app;
   const state = project.calibration;
   const known = project.rig?.calibration;
@@ -152,63 +153,86 @@ function calibration(app: App): TemplateResult {
         await app.command('start-calibration', wanted);
     })();
   };
-  return html`<section class="group">
-    <h2>
-      ${t('rig.calibration')}${known && !state ? html`<small class="num">± ${number(known.point_sigma_mm, 3)} mm</small>` : ''}
-    </h2>
-    ${
-      state?.active
-        ? html`<p class="next">
-              ${state.waiting ? (state.poses.length === 0 ? t('rig.first') : nextPose(state)) : state.poses.length && state.with_board >= state.wanted ? t('rig.solving') : t('rig.capturing')}
-            </p>
-            <div class="pair">
-              <button
-                class="btn primary"
-                id="pose"
-                ?disabled=${!state.waiting}
-                @click=${() => app.command('capture-pose')}
-              >
-                ${icon('check')}${t('rig.pose', { number: state.poses.length + 1, wanted: state.wanted })}
-              </button>
-              <button
-                class="btn"
-                id="end-poses"
-                ?disabled=${!state.waiting || state.with_board < 3}
-                @click=${() => app.command('end-poses')}
-              >
-                ${t('rig.end')}
-              </button>
-            </div>
-            ${coverage(state)}`
-        : html`${state ? verdict(state) : html`<p class="quiet">${t('rig.lead')}</p>`} ${poseTable(app)}`
-    }
-    ${state ? doctor(state) : ''}
-    ${
-      state?.active
-        ? ''
-        : html`${project.exports.some(({ name }) => name === REPORT) ? html`<button class="btn wide" id="report" @click=${() => app.exporting.download(REPORT)}>${icon('download')}${t('rig.report')}</button>` : ''}
-            <form class="form-plain" @submit=${start}>
-              <div class="four">${boardFields(app)}${boardField('poses', t('rig.poses'), 12)}</div>
-              <button
-                class="btn wide"
-                id="calibrate"
-                ?disabled=${app.occupied || !project.can_scan || project.scan_begun}
-              >
-                ${t(state?.verdict || known ? 'rig.again' : 'rig.start')}
-              </button>
-            </form>
-            ${boardPrints(app)}`
-    }
-  </section>`;
+  const sigma = state?.verdict?.point_sigma_mm ?? known?.point_sigma_mm;
+  const doubtful = Boolean(state?.fault) || (state?.findings.length ?? 0) > 0;
+  const due = Boolean(state?.active) || (!project.rig && project.can_scan);
+  const body = html`${
+    state?.active
+      ? html`<p class="next">
+            ${state.waiting ? (state.poses.length === 0 ? t('rig.first') : nextPose(state)) : state.poses.length && state.with_board >= state.wanted ? t('rig.solving') : t('rig.capturing')}
+          </p>
+          <div class="pair">
+            <button
+              class="btn primary"
+              id="pose"
+              ?disabled=${!state.waiting}
+              @click=${() => app.command('capture-pose')}
+            >
+              ${icon('check')}${t('rig.pose', { number: state.poses.length + 1, wanted: state.wanted })}
+            </button>
+            <button
+              class="btn"
+              id="end-poses"
+              ?disabled=${!state.waiting || state.with_board < 3}
+              @click=${() => app.command('end-poses')}
+            >
+              ${t('rig.end')}
+            </button>
+          </div>
+          ${coverage(state)}`
+      : html`${state ? verdict(state) : html`<p class="quiet">${t('rig.lead')}</p>`} ${poseTable(app)}`
+  }
+  ${state ? doctor(state) : ''}
+  ${
+    state?.active
+      ? ''
+      : html`${project.exports.some(({ name }) => name === REPORT) ? html`<button class="btn wide" id="report" @click=${() => app.exporting.download(REPORT)}>${icon('download')}${t('rig.report')}</button>` : ''}
+          <form class="form-plain" @submit=${start}>
+            <div class="four">${boardFields(app)}${boardField('poses', t('rig.poses'), 12)}</div>
+            <button
+              class="btn ${due ? 'primary' : ''} wide"
+              id="calibrate"
+              ?disabled=${app.occupied || app.session.watches || !project.can_scan || project.scan_begun}
+            >
+              ${t(state?.verdict || known ? 'rig.again' : 'rig.start')}
+            </button>
+          </form>
+          ${boardPrints(app)}`
+  }`;
+  return {
+    name: 'calibration',
+    title: t('rig.calibration'),
+    summary: state?.active
+      ? t('rig.pose', { number: state.poses.length, wanted: state.wanted })
+      : sigma !== undefined
+        ? `± ${number(sigma, 3)} mm`
+        : t(project.rig_adjustable ? 'rig.exact' : project.rig ? 'rig.given' : 'rig.isUnknown'),
+    state: !project.rig ? '' : doubtful ? 'poor' : 'done',
+    due,
+    body,
+  };
+}
+
+/** The rigs that were, and the geometry of the present one. */
+function more(app: App): TemplateResult {
+  const rig = app.arranging.drawnRig;
+  const { project } = app;
+  const fault = project.rig_begun
+    ? ''
+    : project.rig_fault || (project.can_scan ? '' : t(project.scan_complete ? 'scan.noRig' : 'rig.none'));
+  if (project.calibration?.active) return html``;
+  return html`${keepRig(app)}${rigHistory(app)}${rig ? geometry(app, rig) : fault ? html`<section class="group"><p class="quiet">${plain(fault)}</p></section>` : ''}`;
 }
 
 export function rigStep(app: App): TemplateResult {
   const { project } = app;
-  const rig = app.arranging.drawnRig;
-  const fault = project.rig_begun
-    ? t('rig.uncalibrated')
-    : project.rig_fault || (project.can_scan ? '' : t(project.scan_complete ? 'scan.noRig' : 'rig.none'));
-  const axisFirst = !axisIsKnown(app) && !project.calibration?.active;
-  return html`${devices(app)}${displayCard(app)}${axisFirst ? axisCard(app) : ''}${project.can_scan || project.calibration ? calibration(app) : ''}${axisFirst ? '' : axisCard(app)}${keepRig(app)}${rigHistory(app)}${rig ? geometry(app, rig) : fault ? html`<section class="group"><p class="quiet">${fault}</p></section>` : ''}
-  ${project.can_scan && !project.calibration?.active ? nextStep(app, 'live', axisIsKnown(app) || !hasTable(app)) : ''}`;
+  const active = Boolean(project.calibration?.active);
+  const stages = [
+    devices(app),
+    active ? null : displayStage(app),
+    project.can_scan || project.calibration ? calibration(app) : null,
+    active ? null : axisStage(app),
+  ].filter((stage) => stage !== null);
+  const ready = !stages.some(({ due }) => due);
+  return html`${rigStages(app, stages)}${more(app)} ${project.can_scan && !active ? nextStep(app, 'live', ready) : ''}`;
 }

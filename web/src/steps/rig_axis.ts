@@ -1,7 +1,8 @@
-import { html, type TemplateResult } from 'lit';
+import { html } from 'lit';
 import type { App } from '../app';
 import { number, t } from '../messages';
 import { boardFields, boardOf } from './rig_board';
+import type { RigStage } from './rig_stages';
 
 /** Whether a scan of several stations can be built: the axis about which they turn is known. */
 export const axisIsKnown = (app: App): boolean => !app.project.rig || app.project.rig.turntable !== null;
@@ -9,11 +10,10 @@ export const axisIsKnown = (app: App): boolean => !app.project.rig || app.projec
 /** Whether the rig turns its part. */
 export const hasTable = (app: App): boolean => app.project.devices.some(({ table }) => table === 'turntable');
 
-/** The card that finds the axis of the turntable with the board of the calibration. */
-export function axisCard(app: App): TemplateResult | string {
+/** Finds the axis of the turntable with the board of the calibration. Null without a turntable or a calibration. */
+export function axisStage(app: App): RigStage | null {
   const { project } = app;
-  if (!project.rig || !project.can_scan || !hasTable(app)) return '';
-  if (project.rig_adjustable && axisIsKnown(app) && !project.axis) return '';
+  if (!project.can_scan || !hasTable(app)) return null;
   const job = app.job('axis');
   const found = project.axis;
   const known = axisIsKnown(app);
@@ -25,26 +25,24 @@ export function axisCard(app: App): TemplateResult | string {
       if (!known || (await app.asking.confirm(t('axis.ask'), t('axis.again')))) await app.command('find-axis', board);
     })();
   };
-  return html`<section class="group" id="axis">
-    <h2>
-      ${t('axis.title')}${known && found ? html`<small class="num">± ${number(found.axis_sigma_deg, 3)}°</small>` : ''}
-    </h2>
-    ${
-      found
-        ? html`<dl class="figures">
-            <dt>${t('axis.place')}</dt>
-            <dd class="num">± ${number(found.point_sigma_mm, 3)}<span>mm</span></dd>
-            <dt>${t('axis.distance')}</dt>
-            <dd class="num">${number(found.distance_mm, 1)}<span>mm</span></dd>
-            <dt>${t('axis.angles')}</dt>
-            <dd class="num">${number(found.angles_rms_deg, 3)}°</dd>
-            <dt>${t('axis.views')}</dt>
-            <dd class="num">${found.views}</dd>
-          </dl>`
-        : html`<p class="quiet">${t(known ? 'axis.known' : 'axis.unknown')}</p>`
-    }
-    ${
-      job
+  const body = html`${
+    found
+      ? html`<dl class="figures">
+          <dt>${t('axis.place')}</dt>
+          <dd class="num">± ${number(found.point_sigma_mm, 3)}<span>mm</span></dd>
+          <dt>${t('axis.distance')}</dt>
+          <dd class="num">${number(found.distance_mm, 1)}<span>mm</span></dd>
+          <dt>${t('axis.angles')}</dt>
+          <dd class="num">${number(found.angles_rms_deg, 3)}°</dd>
+          <dt>${t('axis.views')}</dt>
+          <dd class="num">${found.views}</dd>
+        </dl>`
+      : html`<p class="quiet">${t(!project.rig ? 'axis.later' : known ? 'axis.known' : 'axis.unknown')}</p>`
+  }
+  ${
+    !project.rig
+      ? ''
+      : job
         ? html`<p class="next">${t('axis.turning')}</p>
             <button class="btn wide" @click=${() => app.command('stop-job', { job: job.number })}>
               ${t('axis.stop')}
@@ -54,11 +52,22 @@ export function axisCard(app: App): TemplateResult | string {
             <button
               class="btn ${known ? '' : 'primary'} wide"
               id="find-axis"
-              ?disabled=${app.occupied || project.scan_begun}
+              ?disabled=${app.occupied || app.session.watches || project.scan_begun}
             >
               ${t(known ? 'axis.again' : 'axis.find')}
             </button>
           </form>`
-    }
-  </section>`;
+  }`;
+  return {
+    name: 'axis',
+    title: t('axis.title'),
+    summary: !project.rig
+      ? ''
+      : found
+        ? `± ${number(found.axis_sigma_deg, 3)}°`
+        : t(known ? 'axis.isKnown' : 'axis.isUnknown'),
+    state: !project.rig ? '' : known ? 'done' : 'bad',
+    due: Boolean(project.rig) && !known,
+    body,
+  };
 }

@@ -41,7 +41,7 @@ export function boardOf(form: FormData): Record<string, number> {
 
 /** Boards to print; a printer scales them, so that their squares are measured afterwards. */
 export const boardPrints = (app: App): TemplateResult =>
-  html`<details class="more">
+  html`<details class="more" ?open=${!isSimulated(app) && !app.project.rig}>
     <summary>${t('board.print')}</summary>
     <p class="quiet">${t('board.hint')}</p>
     <div class="row">

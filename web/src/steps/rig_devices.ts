@@ -3,6 +3,7 @@ import type { App } from '../app';
 import { icon } from '../icons';
 import { type MessageKey, t } from '../messages';
 import { type Table, TABLES } from '../types';
+import type { RigStage } from './rig_stages';
 
 /** The settings of each table as they stand in the form: lines of rig.toml, empty for no device. */
 export type DeviceDraft = Record<Table, string>;
@@ -95,46 +96,64 @@ function choosing(app: App, draft: DeviceDraft): TemplateResult {
 }
 
 /** The devices of the rig: listed and tested, or chosen among those that are connected. */
-export function devices(app: App): TemplateResult {
+export function devices(app: App): RigStage {
   const { project } = app;
   const draft =
     app.arranging.deviceDraft ?? (project.devices.length === 0 && !project.scan_begun ? draftOf(app) : null);
-  return html`<section class="group" id="devices">
-    <h2>${t('rig.devices')}${project.scan_begun ? html`<small>${t('live.fixed')}</small>` : ''}</h2>
-    ${
-      draft
-        ? choosing(app, draft)
-        : html`<div class="devices">
-              ${project.devices.map(
-                (device) =>
-                  html`<div class="device">
-                    <span class="dot ${device.fault ? 'poor' : device.answer ? 'done' : ''}"></span>
-                    <div>
-                      <b>${t(`table.${device.table.split('-')[0]}` as MessageKey)}</b
-                      ><span class="quiet">${device.name || device.driver}</span>
-                      ${device.fault || device.answer ? html`<p class=${device.fault ? 'bad' : 'quiet'}>${device.fault || device.answer}</p>` : ''}
-                    </div>
-                  </div>`,
-              )}
-            </div>
-            <div class="pair">
-              <button
-                class="btn"
-                id="choose-devices"
-                ?disabled=${app.occupied || project.scan_begun}
-                @click=${() => app.arranging.draftDevices(draftOf(app))}
-              >
-                ${t('rig.choose')}
-              </button>
-              <button
-                class="btn"
-                id="test-devices"
-                ?disabled=${app.occupied || !project.can_scan}
-                @click=${() => app.command('test-devices')}
-              >
-                ${t('rig.test')}
-              </button>
-            </div>`
-    }
-  </section>`;
+  const faulty = project.devices.some((device) => device.fault);
+  // Whatever was measured with them shows that they answer.
+  const used = Boolean(project.display || project.calibration || project.axis || project.scan_begun);
+  const answer = project.devices.length > 0 && project.devices.every((device) => device.answer);
+  const due = Boolean(draft) || faulty || (!answer && !used && !project.rig_adjustable && project.can_scan);
+  const body = html` ${
+    draft
+      ? choosing(app, draft)
+      : html`<div class="devices">
+            ${project.devices.map(
+              (device) =>
+                html`<div class="device">
+                  <span class="dot ${device.fault ? 'poor' : device.answer ? 'done' : ''}"></span>
+                  <div>
+                    <b>${t(`table.${device.table.split('-')[0]}` as MessageKey)}</b
+                    ><span class="quiet">${device.name || device.driver}</span>
+                    ${device.fault || device.answer ? html`<p class=${device.fault ? 'bad' : 'quiet'}>${device.fault || device.answer}</p>` : ''}
+                  </div>
+                </div>`,
+            )}
+          </div>
+          <div class="pair">
+            <button
+              class="btn"
+              id="choose-devices"
+              ?disabled=${app.occupied || project.scan_begun}
+              @click=${() => app.arranging.draftDevices(draftOf(app))}
+            >
+              ${t('rig.choose')}
+            </button>
+            <button
+              class="btn ${due ? 'primary' : ''}"
+              id="test-devices"
+              ?disabled=${app.occupied || !project.can_scan}
+              @click=${() => app.command('test-devices')}
+            >
+              ${t('rig.test')}
+            </button>
+          </div>`
+  }`;
+  return {
+    name: 'devices',
+    title: t('rig.devices'),
+    summary: project.scan_begun
+      ? t('live.fixed')
+      : faulty
+        ? t('rig.noAnswer')
+        : answer || used
+          ? t('check.answer')
+          : project.devices.length
+            ? t('check.untested')
+            : '',
+    state: faulty ? 'bad' : answer || used ? 'done' : '',
+    due,
+    body,
+  };
 }

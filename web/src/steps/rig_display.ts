@@ -3,6 +3,7 @@ import type { App } from '../app';
 import { number, t } from '../messages';
 import type { DisplayFigures } from '../types';
 import { plain } from '../ui';
+import type { RigStage } from './rig_stages';
 
 /** Drivers of pictures, not of a phase. */
 const DISPLAYS: ReadonlySet<string> = new Set(['monitor', 'simulated-display']);
@@ -57,16 +58,23 @@ function figures(found: DisplayFigures): TemplateResult {
     }`;
 }
 
-/** The card that fits display and camera to each other: latency, response, room light, focus, level of white. */
-export function displayCard(app: App): TemplateResult | string {
+/** Fits display and camera to each other: latency, response, room light, focus, level of white. Null without a display. */
+export function displayStage(app: App): RigStage | null {
   const { project } = app;
   const isDisplay = project.devices.some(({ table, driver }) => table === 'fringes' && DISPLAYS.has(driver));
-  if (!project.can_scan || !isDisplay || project.calibration?.active) return '';
+  if (!project.can_scan || !isDisplay) return null;
   const job = app.job('display');
   const found = project.display;
-  return html`<section class="group" id="display">
-    <h2>${t('display.title')}${found ? html`<small class="num">${number(1000 * found.delay_s)} ms</small>` : ''}</h2>
-    ${found ? figures(found) : html`<p class="quiet">${t('display.lead')}</p>`}
+  const due = !project.rig && !project.scan_begun && !found;
+  return {
+    name: 'display',
+    title: t('display.title'),
+    summary: !found
+      ? ''
+      : `${number(1000 * found.delay_s)} ms${found.findings.length ? ` · ${t('display.findings', { count: found.findings.length })}` : ''}`,
+    state: !found ? '' : found.findings.length === 0 ? 'done' : 'poor',
+    due,
+    body: html`${found ? figures(found) : html`<p class="quiet">${t('display.lead')}</p>`}
     ${
       job
         ? html`<p class="next">${t('display.flashing')}</p>
@@ -74,13 +82,13 @@ export function displayCard(app: App): TemplateResult | string {
               ${t('job.stop')}
             </button>`
         : html`<button
-            class="btn wide"
+            class="btn ${due ? 'primary' : ''} wide"
             id="measure-display"
             ?disabled=${app.occupied || app.session.watches || project.scan_begun}
             @click=${() => app.command('measure-display')}
           >
             ${t(found ? 'display.again' : 'display.measure')}
           </button>`
-    }
-  </section>`;
+    }`,
+  };
 }

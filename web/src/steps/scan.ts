@@ -4,7 +4,7 @@ import { dial } from '../dial';
 import { icon } from '../icons';
 import { number, t } from '../messages';
 import type { Station } from '../types';
-import { numberForm, span } from '../ui';
+import { numberForm, plain, span } from '../ui';
 import { axisIsKnown } from './rig_axis';
 import { scanCheck } from './scan_check';
 import { joins, nextSetup, presentSetup, setupChoice } from './scan_setups';
@@ -140,10 +140,24 @@ export function scanStep(app: App): TemplateResult {
           )}
         </tbody>
       </table>
-      ${stations
-        .filter((station) => station.verdict && !station.good)
+      ${all
+        .filter(({ station }) => station.verdict && !station.good)
         .map(
-          (station) => html`<p><span class="dot poor"></span>${number(station.angle_deg, 1)}°: ${station.verdict}</p>`,
+          ({ station, place }) =>
+            html`<div class="faulty" data-station=${place}>
+              <p><span class="dot poor"></span>${number(station.angle_deg, 1)}°: ${plain(station.verdict)}</p>
+              ${
+                shown === present && (station.state === 'done' || station.state === 'skipped')
+                  ? html`<button
+                      class="btn small"
+                      ?disabled=${app.occupied || !project.can_scan}
+                      @click=${() => app.command('rescan-station', { station: place })}
+                    >
+                      ${icon('again')}${t('scan.rescan')}
+                    </button>`
+                  : ''
+              }
+            </div>`,
         )}
     </section>`;
 }

@@ -4,7 +4,7 @@ import { icon } from '../icons';
 import { joinedSetups } from '../legend';
 import type { Coloring } from '../mesh_colors';
 import { number, t } from '../messages';
-import { choice, plain } from '../ui';
+import { choice, nextStep, plain } from '../ui';
 import { comparing } from './compare';
 import { findings } from './surface_findings';
 import { joins } from './scan_setups';
@@ -117,7 +117,7 @@ function absent(app: App): TemplateResult {
       <button
         class="btn wide"
         id="read"
-        ?disabled=${app.busy}
+        ?disabled=${app.busy || app.session.watches}
         @click=${() => app.command('open-version', { version: current })}
       >
         ${t('surface.read')}
@@ -188,11 +188,11 @@ export function surfaceStep(app: App): TemplateResult {
       ${summary?.registration ? html`<p class="quiet">${registrationWords(summary)}</p>` : ''}
       ${
         app.project.scan_complete
-          ? html`<button class="btn wide" ?disabled=${app.busy} @click=${() => app.build()}>
+          ? html`<button class="btn wide" ?disabled=${app.busy || app.session.watches} @click=${() => app.build()}>
               ${t('surface.build')}
             </button>`
           : ''
       }
     </section>
-    ${versions(app)}`;
+    ${versions(app)} ${nextStep(app, 'edit')}`;
 }

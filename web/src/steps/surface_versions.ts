@@ -12,7 +12,7 @@ function replaying(app: App): TemplateResult | string {
   return html`<button
     class="btn wide"
     id="replay"
-    ?disabled=${app.busy}
+    ?disabled=${app.busy || app.session.watches}
     @click=${() => app.command('replay-edits', { version: before.number })}
   >
     ${count('surface.replay', before.steps_done, { version: before.number })}
@@ -32,7 +32,7 @@ export function versions(app: App): TemplateResult | string {
       <button
         class="btn small"
         aria-label=${`${act}: ${name}`}
-        ?disabled=${app.busy || version.number === current}
+        ?disabled=${app.busy || app.session.watches || version.number === current}
         @click=${() => app.command('open-version', { version: version.number })}
       >
         ${act}

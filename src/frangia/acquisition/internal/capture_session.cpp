@@ -30,7 +30,7 @@ CaptureSession::CaptureSession(Scan plan,
           plan_, devices_, exposure_range(devices, options), table_, manifest_, options_, run_)),
       files_(plan_, manifest_),
       store_(manifest_),
-      assessor_(plan_, options_.on_view, run),
+      assessor_(plan_, options_, run),
       sets_({plan_, options_, run_, devices_, table_, manifest_, files_, store_},
             exposures_.single_ms,
             [this](std::ptrdiff_t frames) {
@@ -171,6 +171,7 @@ void CaptureSession::skip(std::size_t view, const std::string& why) {
 void CaptureSession::finish() {
   store_.drain();
   assessor_.report(true);
+  if (options_.decoded) options_.decoded->seal();
   const bool none =
       std::none_of(captured_.views.begin(), captured_.views.end(), [&](const ScanView& view) {
         return view.setup == options_.setup;

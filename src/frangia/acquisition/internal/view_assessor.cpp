@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 
 #include "frangia/core/angles.h"
-#include "frangia/decode/decode_view.h"
+#include "frangia/decode/plan_decoding.h"
 #include "frangia/rig/has_geometry.h"
 
 namespace frangia {
@@ -32,15 +32,18 @@ std::string word_for(const FrameAssessment& frames, std::size_t points) {
 
 }  // namespace
 
-ViewAssessor::ViewAssessor(const Scan& plan,
-                           const std::function<void(const ViewAssessment&)>& on_view,
-                           const Run& run)
-    : plan_(plan), on_view_(on_view), run_(run) {
-  if (has_geometry(plan.rig)) rays_ = rays_of(plan.rig.reference().model);
+ViewAssessor::ViewAssessor(const Scan& plan, const CaptureOptions& options, const Run& run)
+    : plan_(plan),
+      on_view_(options.on_view),
+      keep_(options.decoded),
+      scan_(keep_ ? keep_->scan() : plan),
+      run_(run) {
+  if (has_geometry(scan_.rig)) rays_ = rays_of(scan_.rig.reference().model);
 }
 
 void ViewAssessor::begin(std::size_t view, std::vector<std::shared_ptr<const Frame>> frames) {
   report(true);
+  if (keep_) keep_->forget(view);
   view_ = view;
   decoding_ = std::async(std::launch::async,
                          [this, view, all = std::move(frames)] { return decode(view, all); });
@@ -56,13 +59,20 @@ void ViewAssessor::report(bool wait) {
                         decoding_.get()));
 }
 
+ToldView ViewAssessor::decode_stacks(std::size_t view,
+                                     const std::vector<FrameStack>& stacks) const {
+  const DecodeOptions options = keep_ ? keep_->options() : DecodeOptions{};
+  const DecodePlan plan = plan_decoding(scan_.patterns, scan_.rig, options);
+  return decode_told(scan_, view, stacks, plan, rays_, options, run_.stop);
+}
+
 std::string ViewAssessor::decode(std::size_t view,
                                  const std::vector<std::shared_ptr<const Frame>>& frames) const {
   std::vector<FrameStack> stacks;
   std::size_t next = 0;
-  for (const Pattern& pattern : plan_.patterns) {
+  for (const Pattern& pattern : scan_.patterns) {
     for (int exposure = 0; exposure < pattern.exposure_count(); ++exposure) {
-      FrameStack stack{pattern, {}, plan_.rig.reference().white_level, exposure};
+      FrameStack stack{pattern, {}, scan_.rig.reference().white_level, exposure};
       for (int frame = 0; frame < pattern.frame_count(); ++frame)
         stack.frames.push_back(*frames.at(next++));
       stacks.push_back(std::move(stack));
@@ -71,7 +81,8 @@ std::string ViewAssessor::decode(std::size_t view,
   ViewAssessment found;
   found.view = view;
   try {
-    const DecodedView decoded = decode_view(stacks, plan_.rig, rays_);
+    ToldView told = decode_stacks(view, stacks);
+    const DecodedView& decoded = told.view;
     const DecodedDirection& leading = decoded.directions.front();
     const auto phase = leading.phase.phase_rad.pixels();
     found.points = static_cast<std::size_t>(
@@ -84,6 +95,7 @@ std::string ViewAssessor::decode(std::size_t view,
       found.verdict = found.points == 0 ? kNothingMeasured : kGood;
       found.good = found.points != 0;
       if (on_view_) on_view_(found);
+      if (keep_) keep_->put(view, std::move(told));
       return fmt::format("{}: {} points", found.verdict, found.points);
     }
     const FrameAssessment& finest = assessments.back();
@@ -96,6 +108,7 @@ std::string ViewAssessor::decode(std::size_t view,
     found.contrast = finest.contrast;
     found.saturated_fraction = finest.saturated_fraction;
     if (on_view_) on_view_(found);
+    if (keep_) keep_->put(view, std::move(told));
     return fmt::format("{}: contrast {:.2f}, {:.1f} % saturated, {} points",
                        found.verdict,
                        found.contrast,

@@ -13,6 +13,7 @@
 #include "frangia/core/image.h"
 #include "frangia/core/run.h"
 #include "frangia/dataset/scan_folder.h"
+#include "frangia/decode/decoded_views.h"
 #include "frangia/frames/frame.h"
 
 namespace frangia {
@@ -21,10 +22,9 @@ namespace frangia {
 /// of points of each.
 class ViewAssessor {
  public:
-  /// Passes each assessment to `on_view`, where it is set. The references must outlive this object.
-  ViewAssessor(const Scan& plan,
-               const std::function<void(const ViewAssessment&)>& on_view,
-               const Run& run);
+  /// Passes each assessment to `options.on_view`, where it is set, and each view to
+  /// `options.decoded`. The references must outlive this object.
+  ViewAssessor(const Scan& plan, const CaptureOptions& options, const Run& run);
   ViewAssessor(const ViewAssessor&) = delete;
   ViewAssessor& operator=(const ViewAssessor&) = delete;
   ViewAssessor(ViewAssessor&&) = delete;
@@ -40,9 +40,13 @@ class ViewAssessor {
  private:
   [[nodiscard]] std::string decode(std::size_t view,
                                    const std::vector<std::shared_ptr<const Frame>>& frames) const;
+  [[nodiscard]] ToldView decode_stacks(std::size_t view,
+                                       const std::vector<FrameStack>& stacks) const;
 
   const Scan& plan_;
   const std::function<void(const ViewAssessment&)>& on_view_;
+  const std::shared_ptr<DecodedViews> keep_;  ///< null: nothing is kept
+  const Scan& scan_;                          ///< whose rig and patterns decode
   const Run& run_;
   Image<Eigen::Vector2f> rays_;
   std::size_t view_ = 0;

@@ -191,13 +191,14 @@ MeasuredViews measure_views(const Scan& scan,
                             const Image<Eigen::Vector2f>& rays,
                             const DecodeOptions& decode,
                             const MixedPixelOptions& mixed_pixels,
-                            const Run& run) {
+                            const Run& run,
+                            const std::shared_ptr<const DecodedViews>& known) {
   run.stage("survey");
   const auto cameras = survey_cameras(scan, rays, decode, run);
   run.stage("range");
   for (const auto& camera : cameras) {
     camera->decoder =
-        std::make_unique<ViewDecoder>(camera->scan, camera->rays, camera->options, run);
+        std::make_unique<ViewDecoder>(camera->scan, camera->rays, camera->options, run, known);
   }
   const std::vector<double> times_s = read_capture_times(scan);
   std::map<std::size_t, std::string> names;  // of the views, by the fingerprint of their phase

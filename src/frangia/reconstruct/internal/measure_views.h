@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,7 @@
 #include "frangia/core/run.h"
 #include "frangia/dataset/scan_folder.h"
 #include "frangia/decode/decode_view.h"
+#include "frangia/decode/decoded_views.h"
 #include "frangia/decode/view_summary.h"
 #include "frangia/fringe_order/resolve_by_views.h"
 #include "frangia/pattern/pattern.h"
@@ -46,6 +48,8 @@ struct MeasuredViews {
 /// is triangulated, within the memory of two views. The cameras of a view are fused by
 /// `fuse_cameras`; with a projector that is a label, `match_by_phase` finds their common points.
 ///
+/// `known` holds views that were decoded before.
+///
 /// @shape    `rays` of the reference camera
 /// @missing  a view without a lit pixel is left out with a warning, and so is a view whose frames
 ///           do not fit scan.toml or the rig, unless `accept_inconsistent` is set
@@ -54,6 +58,7 @@ struct MeasuredViews {
                                           const Image<Eigen::Vector2f>& rays,
                                           const DecodeOptions& decode,
                                           const MixedPixelOptions& mixed_pixels,
-                                          const Run& run = {});
+                                          const Run& run = {},
+                                          const std::shared_ptr<const DecodedViews>& known = {});
 
 }  // namespace frangia

@@ -55,6 +55,7 @@ class CommandArguments {
   [[nodiscard]] bool flag(const char* key);  ///< true or false; false without the key
   /// Texts by name: an object of at most `most` texts; required.
   [[nodiscard]] std::map<std::string, std::string> texts(const char* key, std::size_t most);
+  [[nodiscard]] const nlohmann::json& value(const char* key);  ///< of any kind; required
   /// Fails when a key is left that no function has read.
   void check_all_read() const;
 

@@ -66,6 +66,7 @@ class Service::Implementation {
   Json take_back_project(CommandArguments& arguments);
   Json set_notes(CommandArguments& arguments);
   Json set_thumbnail(CommandArguments& arguments);
+  Json set_measurements(CommandArguments& arguments);
   Json open_file(CommandArguments& arguments);
   /// Leaves the open project when it has this name, and says whether it had.
   bool leave(const std::string& name);
@@ -129,7 +130,8 @@ class Service::Implementation {
   void run_device_test(const ProjectFolder& folder, const Run& run);
   /// @errors   Error(Input) when the folder of the open project was deleted
   void require_folder() const;
-  void require_idle() const;
+  /// @errors   Error(Input) while a job runs, other than a live preview and the job `except`
+  void require_idle(int except = 0) const;
   /// Whether a job that sets the reference has not finished.
   [[nodiscard]] bool awaits_reference() const;
   // The following are of the queue's thread.

@@ -193,6 +193,14 @@ nlohmann::ordered_json Service::Implementation::set_thumbnail(CommandArguments& 
   return Json::object();
 }
 
+nlohmann::ordered_json Service::Implementation::set_measurements(CommandArguments& arguments) {
+  std::vector<HandMeasurement> wanted = hand_measurements_of(arguments.value("measurements"));
+  arguments.check_all_read();
+  write_hand_measurements(folder(), wanted);
+  change([&](OpenProject& project) { project.measurements.swap(wanted); });
+  return Json::object();
+}
+
 std::string Service::Implementation::thumbnail(const std::string& name) const {
   const ProjectFolder project = library_.find(name);
   std::error_code ignored;
@@ -217,7 +225,7 @@ nlohmann::ordered_json Service::Implementation::open_file(CommandArguments& argu
   require(project.folder.scan != project.folder.folder && !project.scan_begun &&
               !project.scan_complete && project.versions && project.versions->current == 0,
           "this project has a scan or a surface; open the file in a project of its own");
-  require_idle();
+  require_idle(project.open_job);  // which reads nothing of an empty project
   stop_live();
   std::error_code error;
   const auto present = std::filesystem::file_size(project.folder.reference_part(), error);

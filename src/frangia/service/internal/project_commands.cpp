@@ -148,6 +148,7 @@ void Service::Implementation::open(const ProjectFolder& folder) {
   project.stations = read_stations(folder);
   project.exports = exports_of(folder);
   project.reference = reference_of(folder);
+  project.measurements = read_hand_measurements(folder);
   bool loads = true;
   try {
     const auto versions = std::make_shared<const SurfaceVersions>(read_surface_versions(folder));
@@ -229,10 +230,10 @@ nlohmann::ordered_json Service::Implementation::close_project(CommandArguments& 
   refresh_projects();
   return Json::object();
 }
-void Service::Implementation::require_idle() const {
+void Service::Implementation::require_idle(int except) const {
   for (const Job& job : queue_.jobs()) {
     const bool unfinished = job.state == JobState::Waiting || job.state == JobState::Running;
-    require(!unfinished || job.kind == "live",
+    require(!unfinished || job.kind == "live" || job.number == except,
             "a task is running; stop it, or let it finish, first");
   }
 }

@@ -77,12 +77,15 @@ nlohmann::ordered_json Service::Implementation::start_scan(CommandArguments& arg
   });
   return started("scan", [this, project, stations, settings, setup](const Run& run) {
     CaptureReport report;
+    const auto decoded = views_to_keep(project, stations, settings, opened().decoded, run);
+    change([&](OpenProject& opened) { opened.decoded = decoded; });
     try {
       report = capture_project(
           project,
           stations,
           settings,
           setup,
+          decoded,
           [this](const std::vector<ProjectStation>& all) {
             change([&](OpenProject& opened) { opened.stations = all; });
           },

@@ -114,6 +114,7 @@ Json json_of_project(const OpenProject& project, const CommandLines& commands) {
                                {"version", file.origin ? Json(file.origin->version) : Json()},
                                {"revision", file.origin ? Json(file.origin->revision) : Json()}});
   }
+  json["measurements"] = json_of(project.measurements);
   json["reference"] = project.reference.name.empty() ? Json()
                                                      : Json{{"name", project.reference.name},
                                                             {"format", project.reference.format}};

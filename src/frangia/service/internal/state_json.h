@@ -17,6 +17,7 @@
 #include "frangia/service/calibration_wizard.h"
 #include "frangia/service/capture_settings.h"
 #include "frangia/service/check_scan.h"
+#include "frangia/service/hand_measurements.h"
 #include "frangia/service/internal/exported_files.h"
 #include "frangia/service/internal/surface_model.h"
 #include "frangia/service/internal/surface_versions.h"
@@ -74,6 +75,7 @@ struct OpenProject {
   std::optional<DisplayMeasurement> display;  ///< since it was measured
   std::vector<KeptRig> kept_rigs;             ///< that the project had, the newest first
   std::vector<ProjectStation> stations;
+  std::shared_ptr<DecodedViews> decoded;  ///< of the scan that was captured here; null before
   /// Why the scan did not go on: the angle of its turntable is unknown.
   std::optional<UnknownTableAngle> unknown_angle;
   /// Null when versions.json cannot be read, until it can.
@@ -83,6 +85,7 @@ struct OpenProject {
   int open_job = 0;              ///< number of the job; 0: it begins in a moment
   std::vector<ExportEntry> exports;
   ProjectReference reference;
+  std::vector<HandMeasurement> measurements;
 };
 
 /// Whether the parts of its rig can be moved by hand: they are simulated, and nothing was measured

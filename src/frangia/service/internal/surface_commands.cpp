@@ -61,12 +61,14 @@ nlohmann::ordered_json Service::Implementation::start_reconstruct(CommandArgumen
   ReconstructOptions options;
   options.fusion.voxel_mm = arguments.positive("voxel_mm").value_or(options.fusion.voxel_mm);
   arguments.check_all_read();
-  options.decode.algorithm = opened().capture.algorithm;
+  options.decode = decode_options_of(opened().capture);
   options.keep_points_of_setups = kPointsOfSetup;
-  return started("reconstruct",
-                 [this, project = folder(), options, key = arguments.key()](const Run& run) {
-                   rebuild_surface(project, key, options, run);
-                 });
+  return started(
+      "reconstruct",
+      [this, project = folder(), options, key = arguments.key()](const Run& run) mutable {
+        options.decoded = opened().decoded;
+        rebuild_surface(project, key, options, run);
+      });
 }
 
 /// Shows an earlier surface with its edits, or reads the present one where that was stopped.

@@ -1,0 +1,92 @@
+// The story that decides: a maker's rig comes out of its box and gives a finished part without a command line. It is
+// simulated: its projector is two frames late and has a gamma of 2.2, lamps on 50 Hz light the room, and neither geometry nor
+// axis is known.
+//
+//   node maker.mjs PROGRAM FOLDER      FOLDER receives the screenshots
+import fs from 'node:fs';
+import path from 'node:path';
+import { coarsenCamera, expect, idle, launch, look as lookAt, newHome, openPage, passed, reopen, requireChromium, startServer, stateOf, tell, waitForProject } from './harness.mjs';
+
+const [program, shots] = process.argv.slice(2).map((name) => path.resolve(name));
+requireChromium();
+fs.mkdirSync(shots, { recursive: true });
+const home = newHome();
+const POSES = 4;
+const STATIONS = 6;
+
+await tell(home, async () => {
+  const server = await startServer(program, home);
+  const browser = await launch();
+  const page = await openPage(browser, server.url, { width: 1366, height: 768 });
+  const look = (name) => lookAt(page, shots, `maker-${name}`);
+  await page.waitForSelector('input[name=name]');
+  await look('home');
+  await page.fill('input[name=name]', 'Maker');
+  await page.fill('input[name=stations]', String(STATIONS));
+  await page.locator('.form').getByText('Example', { exact: true }).click();
+  await page.selectOption('select[name=example]', 'simulated-maker-unpacked');
+  await look('new');
+  await page.getByText('Create', { exact: true }).click();
+  await page.waitForSelector('#test-devices');
+  coarsenCamera(path.join(home, 'projects', 'Maker'));
+  await reopen(page, 'Maker');
+  await look('rig');
+
+  await page.click('#test-devices.primary:not([disabled])');
+  await page.waitForFunction(() => document.querySelectorAll('.device .dot.done').length === 3);
+  await idle(page);
+  await look('tested');
+  await page.click('#measure-display.primary:not([disabled])');
+  const { display } = await waitForProject(page, 'the display', (project) => project.display !== null);
+  await idle(page);
+  await look('display');
+  expect(Math.abs(display.latency_s - 2 / 60) < 0.001, `the latency is ${display.latency_s} s, not two frames`);
+  expect(Math.abs(display.half_light - 0.5 ** 2.2) < 0.01, `half drive gives ${display.half_light} of the light, not that of gamma 2.2`);
+  expect(display.mains_hz === 50 && display.exposure_step_ms === 10, `the lamps are taken for ${display.mains_hz} Hz, in steps of ${display.exposure_step_ms} ms`);
+  const rig = fs.readFileSync(path.join(home, 'projects', 'Maker', 'rig.toml'), 'utf8');
+  expect(rig.includes(`delay_s = ${display.delay_s}`) && rig.includes('[projector.response]'), 'the rig does not keep what was measured');
+
+  await page.fill('input[name=poses]', String(POSES));
+  await page.click('#calibrate.primary:not([disabled])');
+  for (let pose = 0; pose < POSES; pose++) {
+    await waitForProject(page, `pose ${pose}`, ({ calibration }) => calibration?.waiting && calibration.found === 70 && calibration.poses.length === pose);
+    if (pose === 1) await look('pose');
+    await page.keyboard.press('Enter');
+  }
+  await page.waitForSelector('#find-axis.primary');
+  await idle(page);
+  await look('calibrated');
+
+  await page.click('#find-axis:not([disabled])');
+  await waitForProject(page, 'the axis', (project) => project.axis !== null);
+  await idle(page);
+  await look('axis');
+
+  await page.keyboard.press('4');
+  await page.waitForSelector('#scan:not([disabled])');
+  await look('scan-before');
+  await page.click('#scan');
+  await page.waitForSelector('#build:not([disabled])');
+  await idle(page);
+  await look('scanned');
+  await page.click('#build');
+  await page.waitForSelector('.figures');
+  await idle(page);
+  await look('surface');
+  await page.keyboard.press('7');
+  await page.waitForSelector('#export');
+  await look('export');
+  await page.click('#export');
+  await page.waitForSelector('.file');
+  await idle(page);
+  await look('exported');
+  const saving = page.waitForEvent('download');
+  await page.locator('.next-step .file .btn').click();
+  const dxf = path.join(home, 'part.dxf');
+  await (await saving).saveAs(dxf);
+  const { summary, triangles } = (await stateOf(page)).project.surface;
+  expect(summary.untrusted_reason === '' && summary.views === STATIONS && summary.rms_after_mm < 0.05, `the surface is not sound: ${JSON.stringify(summary)}`);
+  const text = fs.readFileSync(dxf, 'latin1');
+  const faces = text.split('3DFACE').length - 1;
+  expect(faces === triangles && text.trimEnd().endsWith('EOF'), `the DXF holds ${faces} of ${triangles} faces`);
+}, 'the maker has a part');
