@@ -309,12 +309,14 @@ std::string Service::preview() const {
 
 std::string Service::deviations(std::size_t level) const {
   const SurfacePtr surface = implementation_->surface();
-  if (!surface || !surface->comparison || level >= surface->picture->levels().size()) return {};
-  const auto values =
-      values_of_level(surface->comparison->found.deviation_mm, *surface->picture->levels()[level]);
+  if (!surface || !surface->inspection || !surface->inspection->found.surface ||
+      level >= surface->picture->levels().size())
+    return {};
+  const auto values = values_of_level(surface->inspection->found.surface->deviations.deviation_mm,
+                                      *surface->picture->levels()[level]);
   ArrayPacker packer;
   packer.add("deviation_mm", "float32", values.data(), values.size());
-  packer.set_values({{"revision", surface->comparison->revision}});
+  packer.set_values({{"revision", surface->inspection->revision}});
   return packer.pack();
 }
 

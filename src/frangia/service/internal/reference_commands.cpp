@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <filesystem>
 #include <string_view>
@@ -14,7 +15,6 @@
 #include "frangia/core/make_folder.h"
 #include "frangia/core/open_below.h"
 #include "frangia/core/sync_to_disk.h"
-#include "frangia/service/compare_surface.h"
 #include "frangia/service/internal/implementation.h"
 
 namespace frangia {
@@ -26,8 +26,12 @@ constexpr const char* kReferenceName = "reference.json";
 constexpr const char* kReferencePart = "reference.part";
 constexpr const char* kReferenceJob = "reference";
 
+/// Extensions of the files that may be references, without their dot.
+constexpr std::array<std::string_view, 6> kReferenceFormats{
+    "stl", "ply", "obj", "3mf", "step", "stp"};
+
 void require_reference_format(const std::string& format) {
-  const auto& known = reference_formats();
+  const auto& known = kReferenceFormats;
   require(std::find(known.begin(), known.end(), format) != known.end(),
           "a reference is an STL, PLY, OBJ, 3MF or STEP file; choose another file");
 }
@@ -147,29 +151,27 @@ bool Service::Implementation::awaits_reference() const {
 
 nlohmann::ordered_json Service::Implementation::start_compare(CommandArguments& arguments) {
   const ProjectFolder project = folder();
-  CompareOptions options;
-  const std::string align = arguments.text_or("align", "best-fit");
+  InspectionPlan plan;
+  plan.align = arguments.text_or("align", "best-fit");
   const auto lower = arguments.number("lower_mm");
   const auto upper = arguments.number("upper_mm");
   constexpr std::size_t kMostPoses = 1000;
-  options.start = arguments.whole_or("start", 1, 1, kMostPoses) - 1;
+  const std::size_t start = arguments.whole_or("start", 1, 1, kMostPoses);
   arguments.check_all_read();
-  require(align == "best-fit" || align == "none", "align: is best-fit or none");
-  options.best_fit = align == "best-fit";
-  options.tolerance = {lower.value_or(options.tolerance.lower),
-                       upper.value_or(options.tolerance.upper)};
-  options.tolerance.check();
+  require(plan.align == "best-fit" || plan.align == "none", "align: is best-fit or none");
+  if (plan.align == "best-fit") plan.start = start;
+  const ToleranceLimits usual = plan.tolerance();
+  plan.tolerance_mm = {lower.value_or(usual.lower), upper.value_or(usual.upper)};
+  plan.tolerance_mm->check();
   constexpr const char* kNone = "there is no reference; choose a file to compare with first";
   require(!opened().reference.name.empty() || awaits_reference(), kNone);
   return started_view(
-      "compare", [this, project, options](const SurfaceModel& model, int count, const Run& run) {
+      "compare", [this, project, plan](const SurfaceModel& model, int count, const Run& run) {
         const ProjectReference reference = opened().reference;  // a job before may have set it
         require(!reference.name.empty(), kNone);
-        return model.compared(project.reference(reference.format, reference.number),
-                              reference.name,
-                              options,
-                              count,
-                              run);
+        InspectionPlan with_reference = plan;
+        with_reference.reference = project.reference(reference.format, reference.number);
+        return model.inspected(with_reference, reference.name, count, run);
       });
 }
 

@@ -150,13 +150,14 @@ ProjectProgress progress_of(const OpenProject& project) {
     const auto& steps = project.surface->steps;
     const auto done = static_cast<std::ptrdiff_t>(project.surface->done);
     progress.steps.assign(steps.begin(), steps.begin() + done);
-    if (const auto& shown = project.surface->comparison) {
-      const ToleranceLimits& limits = shown->found.verdict.rule.limits;
+    if (const auto& shown = project.surface->inspection) {
+      const ToleranceLimits limits = shown->plan.tolerance();
+      const auto& alignment = shown->found.alignment;
       progress.comparison = {
           project.folder.reference(project.reference.format, project.reference.number),
-          shown->best_fit,
-          shown->start + 1,
-          shown->found.poses.size(),
+          shown->plan.align == "best-fit",
+          std::max<std::size_t>(shown->plan.start, 1),
+          alignment ? alignment->alternatives.size() : 0,
           limits.lower,
           limits.upper};
     }

@@ -45,7 +45,7 @@ struct DeviceSearch {
 /// A file that the surface is compared with.
 struct ProjectReference {
   std::string name;    ///< for people, as the file was called; empty: there is none
-  std::string format;  ///< one of reference_formats
+  std::string format;  ///< of a format that set-reference takes
   int number = 0;      ///< of its file, see ProjectFolder::reference
 
   bool operator==(const ProjectReference&) const = default;
