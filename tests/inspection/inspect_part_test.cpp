@@ -6,6 +6,7 @@
 #include <fstream>
 #include <set>
 #include <stop_token>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -135,6 +136,28 @@ TEST(InspectPart, MeasuresWithoutAReference) {
   ASSERT_EQ(found.sections.size(), 1U);
   ASSERT_EQ(found.sections[0].measured.size(), 1U);
   EXPECT_NEAR(length_mm(found.sections[0].measured[0]), 2.0 * M_PI * 20.01, 0.5);
+}
+
+TEST(InspectPart, MeasuresThePlannedFeaturesOfAMeshOfFewTriangles) {
+  InspectionPlan plan;
+  for (const auto& [name, z] : {std::pair("top", 7.0), std::pair("bottom", 0.0)}) {
+    PlannedFeature plane;
+    plane.name = name;
+    plane.near_mm = {10, 6, z};
+    plane.forms_mm = {{Characteristic::Flatness, 0.01}};
+    plan.features.push_back(plane);
+  }
+  plan.characteristics = {{.name = "height",
+                           .kind = Characteristic::Distance,
+                           .feature = "top",
+                           .datum = "bottom",
+                           .nominal = 7.0,
+                           .tolerance = ToleranceLimits{-0.01, 0.01}}};
+  const Inspection found = inspect_part(brick(), nullptr, plan);
+  ASSERT_EQ(found.characteristics.size(), 3U);
+  EXPECT_NEAR(found.characteristics[0].value, 0.0, 1e-5);
+  EXPECT_NEAR(found.characteristics[2].value, 7.0, 1e-5);
+  EXPECT_EQ(found.verdict, Conformity::In);
 }
 
 TEST(InspectPart, MovesWhatItMeasuresOntoTheReference) {
