@@ -8,9 +8,11 @@
 
 #include "frangia/core/error.h"
 #include "frangia/inspection/measured_characteristics.h"
+#include "frangia/inspection/write_inspection_plan.h"
 
 #include "support/error_of.h"
 #include "support/temporary_folder.h"
+#include "support/text_of.h"
 
 namespace frangia {
 namespace {
@@ -171,6 +173,92 @@ TEST(InspectionPlan, RefusesAnUnknownKeyAndNamesTheNearest) {
   expect(ball + "colour = \"red\"\n", "features[0].colour is unknown here; leave it out. The keys");
   // A key that is stated is not what another one was meant to be.
   expect("part = \"shaft\"\nparts = \"shaft\"\n", "parts is unknown here; leave it out");
+}
+
+/// Every key, each with a value that is not its default.
+constexpr const char* kEverything = R"(part = "a \"part\", ä"
+reference = "nominal.step"
+units = "25.4mm"
+align = "datum"
+datums = ["A", "B"]
+start = 2
+tolerance_mm = [-0.05, 0.08]
+min_feature_mm = 1.5
+edge_mm = 0
+max_uncertainty_share = 0.2
+min_coverage = 0.8
+max_gap_mm = 12
+thickness = true
+expansion_ppm_per_k = 11.5
+temperature_u_k = 0.5
+
+[[features]]
+name = "A"
+kind = "cylinder"
+near_mm = [1, -2.5, 1e-05]
+diameter_mm = 36
+tolerance_mm = [-0.02, 0.02]
+roundness_mm = 0.01
+fit = "minimum-zone"
+
+[[features]]
+name = "B"
+face = 3
+
+[[characteristics]]
+name = "place"
+kind = "position"
+feature = "A"
+position_mm = [1, 2, 3]
+limit = 0.2
+
+[[characteristics]]
+name = "far"
+kind = "distance"
+feature = "A"
+datum = "B"
+nominal = 70
+tolerance = [-0.01, 0.01]
+
+[[excluded]]
+name = "base"
+min_mm = [-1, -1, -1]
+max_mm = [1, 1, 0.5]
+
+[[sections]]
+name = "middle"
+point_mm = [0, 0, 60]
+normal = [0, 0, 1]
+blade = true
+
+[report]
+drawing = "D-1"
+order = "4711"
+serial = "17"
+customer = "Example"
+operator = "A. Smith"
+date = "2026-01-02"
+paper = "Letter"
+logo = "logo.png"
+)";
+
+TEST(InspectionPlan, IsWrittenAsItWasRead) {
+  const testing::TemporaryFolder folder;
+  const auto path = folder.path() / "inspection.toml";
+  std::ofstream(path) << kHead << kEverything;
+  const InspectionPlan plan = read_inspection_plan(path);
+  write_inspection_plan(path, plan);
+  EXPECT_EQ(testing::text_of(path), std::string(kHead) + kEverything);
+  EXPECT_EQ(inspection_plan_text({}, "/"), kHead);
+}
+
+TEST(InspectionPlan, NamesAReferenceElsewhereByItsWholePath) {
+  InspectionPlan plan;
+  plan.reference = "/parts/nominal.step";
+  EXPECT_NE(inspection_plan_text(plan, "/plans").find("reference = \"/parts/nominal.step\"\n"),
+            std::string::npos);
+  EXPECT_NE(inspection_plan_text(plan, "/parts").find("reference = \"nominal.step\"\n"),
+            std::string::npos);
 }
 
 }  // namespace

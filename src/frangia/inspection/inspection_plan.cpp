@@ -215,7 +215,11 @@ std::filesystem::path InspectionPlan::name() const {
 }
 
 InspectionPlan read_inspection_plan(const std::filesystem::path& path) {
-  const toml::table table = parse_toml(path, "frangia-inspection");
+  return parse_inspection_plan(read_text_file(path), path);
+}
+
+InspectionPlan parse_inspection_plan(const std::string& text, const std::filesystem::path& path) {
+  const toml::table table = parse_toml_text_as(text, path, "frangia-inspection");
   TomlReader top(path, "", table);
   top.ignore("format");
   top.ignore("version");

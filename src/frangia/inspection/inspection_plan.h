@@ -92,4 +92,10 @@ struct InspectionPlan {
 /// @errors   Error(Input) that names the file and the key, also one that is unknown
 [[nodiscard]] InspectionPlan read_inspection_plan(const std::filesystem::path& path);
 
+/// Reads the text of an inspection.toml; `path` is for messages and for what is relative to it.
+///
+/// @errors   as read_inspection_plan
+[[nodiscard]] InspectionPlan parse_inspection_plan(const std::string& text,
+                                                   const std::filesystem::path& path);
+
 }  // namespace frangia
