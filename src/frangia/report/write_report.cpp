@@ -71,7 +71,9 @@ NamedTexts conditions_of(const InspectionPlan& plan, const ReportSources& source
   if (!sources.mesh.empty())
     conditions.emplace_back("SHA-256 of the mesh", sha256_of_file(sources.mesh));
   if (!sources.reference.empty()) {
-    conditions.emplace_back("reference", sources.reference.filename().string());
+    conditions.emplace_back("reference",
+                            sources.reference_name.empty() ? sources.reference.filename().string()
+                                                           : sources.reference_name);
     conditions.emplace_back("SHA-256 of the reference", sha256_of_file(sources.reference));
   }
   if (!plan.file.empty()) {

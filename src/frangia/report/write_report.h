@@ -15,6 +15,7 @@ namespace frangia {
 struct ReportSources {
   std::filesystem::path mesh;         ///< its file
   std::filesystem::path reference;    ///< its file
+  std::string reference_name;         ///< for people; empty: that of its file
   const Scan* scan = nullptr;         ///< of the mesh; null: not known
   std::string version;                ///< of the software
   std::vector<std::string> warnings;  ///< of the inspection

@@ -58,6 +58,8 @@ struct ProjectFolder {
   [[nodiscard]] std::filesystem::path reference_name() const {
     return in_derived("reference.json");
   }
+  /// How the surface is inspected: the plan that the page edits.
+  [[nodiscard]] std::filesystem::path plan() const { return in_derived("inspection.toml"); }
   /// Poses of a board, see CalibrationWizard.
   [[nodiscard]] std::filesystem::path calibration() const { return in_derived("calibration"); }
   /// Views of a board that the turntable turns, see calibrate_axis.

@@ -138,6 +138,12 @@ std::map<std::string, std::string> CommandArguments::texts(const char* key, std:
   return value->get<std::map<std::string, std::string>>();
 }
 
+nlohmann::json CommandArguments::object(const char* key) {
+  const nlohmann::json* value = find(key);
+  if (value == nullptr || !value->is_object()) fail_argument(key, "an object is missing here");
+  return *value;
+}
+
 void CommandArguments::check_all_read() const {
   for (const auto& [key, value] : json_.items())
     if (!read_.contains(key)) fail_argument(key.c_str(), "the command has no such argument");

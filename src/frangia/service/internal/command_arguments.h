@@ -55,6 +55,8 @@ class CommandArguments {
   [[nodiscard]] bool flag(const char* key);  ///< true or false; false without the key
   /// Texts by name: an object of at most `most` texts; required.
   [[nodiscard]] std::map<std::string, std::string> texts(const char* key, std::size_t most);
+  /// An object, whose keys the caller reads; required.
+  [[nodiscard]] nlohmann::json object(const char* key);
   /// Fails when a key is left that no function has read.
   void check_all_read() const;
 

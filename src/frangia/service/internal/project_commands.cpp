@@ -148,6 +148,7 @@ void Service::Implementation::open(const ProjectFolder& folder) {
   project.stations = read_stations(folder);
   project.exports = exports_of(folder);
   project.reference = reference_of(folder);
+  read_plan_of(folder, project);
   bool loads = true;
   try {
     const auto versions = std::make_shared<const SurfaceVersions>(read_surface_versions(folder));

@@ -149,30 +149,4 @@ bool Service::Implementation::awaits_reference() const {
   });
 }
 
-nlohmann::ordered_json Service::Implementation::start_compare(CommandArguments& arguments) {
-  const ProjectFolder project = folder();
-  InspectionPlan plan;
-  plan.align = arguments.text_or("align", "best-fit");
-  const auto lower = arguments.number("lower_mm");
-  const auto upper = arguments.number("upper_mm");
-  constexpr std::size_t kMostPoses = 1000;
-  const std::size_t start = arguments.whole_or("start", 1, 1, kMostPoses);
-  arguments.check_all_read();
-  require(plan.align == "best-fit" || plan.align == "none", "align: is best-fit or none");
-  if (plan.align == "best-fit") plan.start = start;
-  const ToleranceLimits usual = plan.tolerance();
-  plan.tolerance_mm = {lower.value_or(usual.lower), upper.value_or(usual.upper)};
-  plan.tolerance_mm->check();
-  constexpr const char* kNone = "there is no reference; choose a file to compare with first";
-  require(!opened().reference.name.empty() || awaits_reference(), kNone);
-  return started_view(
-      "compare", [this, project, plan](const SurfaceModel& model, int count, const Run& run) {
-        const ProjectReference reference = opened().reference;  // a job before may have set it
-        require(!reference.name.empty(), kNone);
-        InspectionPlan with_reference = plan;
-        with_reference.reference = project.reference(reference.format, reference.number);
-        return model.inspected(with_reference, reference.name, count, run);
-      });
-}
-
 }  // namespace frangia

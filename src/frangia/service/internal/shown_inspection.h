@@ -8,16 +8,22 @@
 namespace frangia {
 
 /// Inspects a mesh by a plan, against the file that the plan names; its name for people is
-/// `reference`. Nothing is measured against where the plan names none.
+/// `reference`. `features`: looks for all of them. Nothing is measured against where the plan names
+/// none.
 ///
 /// @errors   as read_inspection_reference and inspect_part
 [[nodiscard]] std::shared_ptr<const ShownInspection> shown_inspection(const Mesh& mesh,
                                                                       const InspectionPlan& plan,
                                                                       const std::string& reference,
+                                                                      bool features,
                                                                       int count,
                                                                       const Run& run);
 
-/// The inspection for the state.
+/// The deviations from the reference for the state; null without one.
+[[nodiscard]] nlohmann::ordered_json json_of_comparison(const ShownInspection& shown);
+
+/// The verdict, characteristics, features and places for the state. Places are in the frame of the
+/// surface as it is drawn, those of features also in that of the reference.
 [[nodiscard]] nlohmann::ordered_json json_of_inspection(const ShownInspection& shown);
 
 }  // namespace frangia

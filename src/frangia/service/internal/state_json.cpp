@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "frangia/core/angles.h"
+#include "frangia/inspection/write_inspection_plan.h"
 #include "frangia/phase/algorithm/published_algorithms.h"
 #include "frangia/service/example_rigs.h"
 #include "frangia/service/internal/rig_json.h"
@@ -117,6 +118,8 @@ Json json_of_project(const OpenProject& project, const CommandLines& commands) {
   json["reference"] = project.reference.name.empty() ? Json()
                                                      : Json{{"name", project.reference.name},
                                                             {"format", project.reference.format}};
+  json["plan"] = project.plan ? Json::parse(inspection_plan_json(*project.plan, {})) : Json();
+  json["plan_fault"] = project.plan_fault;
   json["commands"] = Json::object();
   for (const auto& [step, words] : commands)
     json["commands"][step] = words;
@@ -153,13 +156,14 @@ ProjectProgress progress_of(const OpenProject& project) {
     if (const auto& shown = project.surface->inspection) {
       const ToleranceLimits limits = shown->plan.tolerance();
       const auto& alignment = shown->found.alignment;
-      progress.comparison = {
-          project.folder.reference(project.reference.format, project.reference.number),
-          shown->plan.align == "best-fit",
-          std::max<std::size_t>(shown->plan.start, 1),
-          alignment ? alignment->alternatives.size() : 0,
-          limits.lower,
-          limits.upper};
+      progress.inspection = {project.plan ? project.folder.plan() : std::filesystem::path(),
+                             shown->plan.reference,
+                             shown->plan.align == "best-fit",
+                             project.plan && project.plan->start > 0,
+                             std::max<std::size_t>(shown->plan.start, 1),
+                             alignment ? alignment->alternatives.size() : 0,
+                             limits.lower,
+                             limits.upper};
     }
   }
   return progress;

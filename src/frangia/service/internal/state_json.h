@@ -12,6 +12,7 @@
 #include "frangia/core/folder_lock.h"
 #include "frangia/devices/find_devices.h"
 #include "frangia/devices/test_devices.h"
+#include "frangia/inspection/inspection_plan.h"
 #include "frangia/rig/rig.h"
 #include "frangia/service/calibrate_axis.h"
 #include "frangia/service/calibration_wizard.h"
@@ -83,7 +84,12 @@ struct OpenProject {
   int open_job = 0;              ///< number of the job; 0: it begins in a moment
   std::vector<ExportEntry> exports;
   ProjectReference reference;
+  std::optional<InspectionPlan> plan;  ///< without its reference; none: none was made
+  std::string plan_fault;              ///< why the plan in the folder cannot be read
 };
+
+/// Reads the plan of a project into it.
+void read_plan_of(const ProjectFolder& folder, OpenProject& project);
 
 /// Whether the parts of its rig can be moved by hand: they are simulated, and nothing was measured
 /// of them.

@@ -78,7 +78,8 @@ nlohmann::ordered_json json_of_surface(const SurfaceSnapshot& surface) {
                        {"change", json_of_change(preview.change)},
                        {"revision", preview.revision}};
   }
-  json["comparison"] = surface.inspection ? json_of_inspection(*surface.inspection) : Json();
+  json["comparison"] = surface.inspection ? json_of_comparison(*surface.inspection) : Json();
+  json["inspection"] = surface.inspection ? json_of_inspection(*surface.inspection) : Json();
   json["steps_done"] = surface.done;
   json["fits"] = Json::array();
   for (const SurfaceFit& fit : surface.fits)

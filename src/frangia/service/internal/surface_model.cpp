@@ -305,10 +305,11 @@ SurfaceModel SurfaceModel::without_preview() const {
 
 SurfaceModel SurfaceModel::inspected(const InspectionPlan& plan,
                                      const std::string& reference,
+                                     bool features,
                                      int count,
                                      const Run& run) const {
   auto next = std::make_shared<SurfaceSnapshot>(*snapshot_);
-  next->inspection = shown_inspection(mesh(), plan, reference, count, run);
+  next->inspection = shown_inspection(mesh(), plan, reference, features, count, run);
   SurfaceModel model = *this;
   model.show(std::move(next));
   return model;

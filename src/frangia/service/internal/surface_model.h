@@ -134,11 +134,12 @@ class SurfaceModel {
   [[nodiscard]] SurfaceModel with_preview(const EditStep& step, int count, const Run& run) const;
   [[nodiscard]] SurfaceModel without_preview() const;
   /// Inspects the surface by a plan, against the reference whose file and name the plan and
-  /// `reference` state.
+  /// `reference` state. `features`: looks for all of them, not only for those of the plan.
   ///
   /// @errors   as read_inspection_reference and inspect_part
   [[nodiscard]] SurfaceModel inspected(const InspectionPlan& plan,
                                        const std::string& reference,
+                                       bool features,
                                        int count,
                                        const Run& run) const;
   /// Whether the level that is drawn at rest is missing.
