@@ -8,24 +8,13 @@
 #include <Eigen/Geometry>
 
 #include "frangia/core/interruptible_chunks.h"
+#include "frangia/inspection/internal/view_poses.h"
 #include "frangia/range/rig_change_field.h"
 
 namespace frangia {
 namespace {
 
 constexpr double kGrazing = 0.2;  // cosine below which a view measures nothing
-
-/// The pose of the object in each view of a scan.
-std::vector<Eigen::Isometry3d> poses_of(const Scan& scan) {
-  std::vector<Eigen::Isometry3d> poses;
-  for (const ScanView& view : scan.views) {
-    Eigen::Isometry3d pose = scan.rig.rig_from_object(view.angle_rad);
-    if (const auto placed = scan.part_poses.find(view.setup); placed != scan.part_poses.end())
-      pose = pose * placed->second;
-    poses.push_back(pose);
-  }
-  return poses;
-}
 
 /// The cosine between a normal and the direction to the camera.
 double cosine_to_camera(const Eigen::Vector3d& point, const Eigen::Vector3d& normal) {
@@ -70,7 +59,7 @@ Eigen::MatrixXf calibration_displacements(const Mesh& mesh, const Scan& scan, co
       });
   if (fringes == scan.patterns.end() || scan.views.empty()) return {};
   const std::vector<Eigen::Vector3f> normals = vertex_normals(mesh);
-  const std::vector<Eigen::Isometry3d> poses = poses_of(scan);
+  const std::vector<Eigen::Isometry3d> poses = inspection::view_poses(scan);
   const RigChangeField field(scan.rig, *fringes, facing_points(mesh, normals, poses));
   constexpr std::size_t kChunk = 1024;
   const auto count = mesh.vertices_mm.size();

@@ -11,6 +11,7 @@
 #include "frangia/geometry/transform_mesh.h"
 #include "frangia/inspection/align_part.h"
 #include "frangia/inspection/calibration_displacements.h"
+#include "frangia/inspection/internal/view_poses.h"
 
 namespace frangia {
 namespace {
@@ -65,6 +66,7 @@ void measure_features(Inspection& found,
 }
 
 SurfaceStatistics statistics_of(const Mesh& mesh,
+                                const Eigen::Isometry3d& mesh_from_reference,
                                 const InspectionReference& reference,
                                 const InspectOptions& options,
                                 const Run& run) {
@@ -79,9 +81,9 @@ SurfaceStatistics statistics_of(const Mesh& mesh,
   if (options.scan == nullptr) {
     found.completeness = surface_completeness(reference.scene, scene, completeness, run);
   } else {
-    std::vector<Eigen::Isometry3d> poses;
-    for (const ScanView& view : options.scan->views)
-      poses.push_back(options.scan->rig.rig_from_object(view.angle_rad));
+    std::vector<Eigen::Isometry3d> poses = inspection::view_poses(*options.scan);
+    for (Eigen::Isometry3d& pose : poses)  // the reference may lie elsewhere than the scan
+      pose = pose * mesh_from_reference;
     found.completeness = surface_completeness(
         reference.scene, scene, MeasurementViews{options.scan->rig, poses}, completeness, run);
   }
@@ -182,7 +184,12 @@ Inspection inspect_part(Mesh mesh,
   if (reference != nullptr) {
     found.tolerance_is_default = !plan.tolerance_mm.has_value();
     found.surface = judged_surface(found, *reference, plan, run);
-    if (options.statistics) found.statistics = statistics_of(found.mesh, *reference, options, run);
+    if (options.statistics) {
+      Eigen::Isometry3d mesh_from_reference = Eigen::Isometry3d::Identity();
+      if (found.alignment)
+        mesh_from_reference = found.alignment->pose.reference_from_mesh.inverse();
+      found.statistics = statistics_of(found.mesh, mesh_from_reference, *reference, options, run);
+    }
   }
   if (plan.thickness) found.walls = measure_walls(found.mesh, run);
   found.sections =

@@ -107,7 +107,7 @@ export const INSPECT = {
   'inspect.hole': ['hole', 'Bohrung', 'foro'],
   'inspect.add': ['Add', 'Hinzufügen', 'Aggiungi'],
   'inspect.remove': ['Remove', 'Entfernen', 'Rimuovi'],
-  'inspect.nominal': ['Nominal ⌀, mm', 'Nenn-⌀, mm', '⌀ nominale, mm'],
+  'inspect.nominal': ['Nominal ⌀', 'Nenn-⌀', '⌀ nominale'],
   'inspect.set': ['Set', 'Setzen', 'Imposta'],
   'inspect.addCharacteristic': ['Add a characteristic', 'Merkmal hinzufügen', 'Aggiungi una caratteristica'],
   'inspect.feature': ['Feature', 'Element', 'Elemento'],
