@@ -41,6 +41,7 @@ std::vector<std::string> inspect_line(const ProgressOfInspection& inspection,
   } else {
     words.emplace_back("--features");
   }
+  if (!inspection.scan.empty()) words.insert(words.end(), {"--scan", inspection.scan.string()});
   if (inspection.best_fit && !inspection.chosen && inspection.poses > 1)
     words.insert(words.end(), {"--start", std::to_string(inspection.start)});
   return words;

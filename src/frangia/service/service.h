@@ -24,6 +24,7 @@ namespace frangia {
 struct ProgressOfInspection {
   std::filesystem::path plan;       ///< its file; empty: none was made
   std::filesystem::path reference;  ///< its file; empty: none
+  std::filesystem::path scan;       ///< whose rig the features hold; empty: none
   bool best_fit = true;             ///< otherwise as it stands
   bool chosen = false;              ///< the plan states which of the poses
   std::size_t start = 1;            ///< of the poses that fit alike, from 1

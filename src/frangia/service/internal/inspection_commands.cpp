@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -81,6 +82,16 @@ bool measures_alone(const InspectionPlan& plan) {
   return !plan.features.empty() || !plan.sections.empty() || plan.thickness;
 }
 
+/// Whether a surface was made of the scan of its project, and no step has moved it since: its
+/// features then hold what the calibration of the rig does to all of them.
+bool lies_as_scanned(const SurfaceSnapshot& surface) {
+  const auto done = surface.steps.begin() + static_cast<std::ptrdiff_t>(surface.done);
+  return !surface.summary->empty() &&
+         std::none_of(surface.steps.begin(), done, [](const EditStep& step) {
+           return step.operation == "align" || step.operation == "mirror";
+         });
+}
+
 void write_text(const std::filesystem::path& path, const std::string& text) {
   AtomicFile file(path);
   file.stream() << text;
@@ -153,7 +164,11 @@ nlohmann::ordered_json Service::Implementation::start_inspect(CommandArguments& 
           wanted.start = std::max<std::size_t>(wanted.start, 1);
         if (opened().plan)
           write_inspection_plan(project.plan(), with_reference(plan, project, reference));
-        return model.inspected(wanted, reference.name, features, count, run);
+        const bool measures = features || !wanted.features.empty();
+        InspectionRequest asked{std::move(wanted), reference.name, features, nullptr};
+        if (measures && lies_as_scanned(*model.snapshot()) && opened().scan_complete)
+          asked.scan = std::make_shared<const Scan>(read_scan(project.scan, run));
+        return model.inspected(asked, count, run);
       });
 }
 
@@ -190,14 +205,15 @@ nlohmann::ordered_json Service::Implementation::start_report(CommandArguments& a
       if (format == "csv") return write_text(file, csv_of(part.characteristics));
       if (format == "qif")
         return write_text(file, qif_of({part.named_features, part.characteristics, part.verdict}));
-      InspectionPlan plan = inspection->plan;
+      InspectionPlan plan = inspection->asked.plan;
       plan.file.clear();
       if (now.plan) {  // the head of the report changes nothing that was measured
         plan.part = now.plan->part;
         plan.report = now.plan->report;
       }
       const ReportSources sources{.reference = plan.reference,
-                                  .reference_name = inspection->reference,
+                                  .reference_name = inspection->asked.reference,
+                                  .scan = inspection->asked.scan.get(),
                                   .version = "Frangia " + options_.version};
       InspectionReport report = report_of(part, plan, sources, run);
       report.mesh = project.name;

@@ -85,24 +85,24 @@ Json json_of_feature(const Inspection& found,
 }  // namespace
 
 std::shared_ptr<const ShownInspection> shown_inspection(const Mesh& mesh,
-                                                        const InspectionPlan& plan,
-                                                        const std::string& reference,
-                                                        bool features,
+                                                        const InspectionRequest& asked,
                                                         int count,
                                                         const Run& run) {
   constexpr std::size_t kHistogramBins = 48;
   constexpr double kScaleOverTolerance = 2.0;
+  const InspectionPlan& plan = asked.plan;
   auto shown = std::make_shared<ShownInspection>();
   shown->revision = count;
-  shown->reference = reference;
-  shown->plan = plan;
+  shown->asked = asked;
   std::optional<InspectionReference> nominal;
   if (!plan.reference.empty()) {
     run.stage("reference");
     nominal = read_inspection_reference(plan.reference, {.unit_mm = plan.unit_mm}, run);
   }
-  const InspectOptions options{
-      .features = features, .statistics = false, .mesh_name = "the surface"};
+  const InspectOptions options{.features = asked.features,
+                               .statistics = false,
+                               .scan = asked.scan.get(),
+                               .mesh_name = "the surface"};
   shown->found = inspect_part(mesh, nominal ? &*nominal : nullptr, plan, options, run);
   const ToleranceLimits limits = plan.tolerance();
   shown->high_mm = kScaleOverTolerance * std::max(std::abs(limits.lower), std::abs(limits.upper));
@@ -130,10 +130,10 @@ nlohmann::ordered_json json_of_comparison(const ShownInspection& shown) {
   const auto& status = surface.deviations.status;
   const Json pose = json_of_pose(alignment.pose);
   return {{"revision", shown.revision},
-          {"reference", shown.reference},
+          {"reference", shown.asked.reference},
           {"reference_triangles", shown.found.reference->triangles},
-          {"best_fit", shown.plan.align == "best-fit"},
-          {"start", std::max<std::size_t>(shown.plan.start, 1)},
+          {"best_fit", shown.asked.plan.align == "best-fit"},
+          {"start", std::max<std::size_t>(shown.asked.plan.start, 1)},
           {"poses", poses},
           {"tolerance_mm", {verdict.rule.limits.lower, verdict.rule.limits.upper}},
           {"scale_mm", {shown.low_mm, shown.high_mm}},

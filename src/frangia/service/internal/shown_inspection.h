@@ -1,23 +1,17 @@
 #pragma once
 
 #include <memory>
-#include <string>
 
 #include "frangia/service/internal/surface_model.h"
 
 namespace frangia {
 
-/// Inspects a mesh by a plan, against the file that the plan names; its name for people is
-/// `reference`. `features`: looks for all of them. Nothing is measured against where the plan names
-/// none.
+/// Inspects a mesh against the file that its plan names; nothing is measured against where the plan
+/// names none.
 ///
 /// @errors   as read_inspection_reference and inspect_part
-[[nodiscard]] std::shared_ptr<const ShownInspection> shown_inspection(const Mesh& mesh,
-                                                                      const InspectionPlan& plan,
-                                                                      const std::string& reference,
-                                                                      bool features,
-                                                                      int count,
-                                                                      const Run& run);
+[[nodiscard]] std::shared_ptr<const ShownInspection> shown_inspection(
+    const Mesh& mesh, const InspectionRequest& asked, int count, const Run& run);
 
 /// The deviations from the reference for the state; null without one.
 [[nodiscard]] nlohmann::ordered_json json_of_comparison(const ShownInspection& shown);

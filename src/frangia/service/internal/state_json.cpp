@@ -154,13 +154,14 @@ ProjectProgress progress_of(const OpenProject& project) {
     const auto done = static_cast<std::ptrdiff_t>(project.surface->done);
     progress.steps.assign(steps.begin(), steps.begin() + done);
     if (const auto& shown = project.surface->inspection) {
-      const ToleranceLimits limits = shown->plan.tolerance();
+      const ToleranceLimits limits = shown->asked.plan.tolerance();
       const auto& alignment = shown->found.alignment;
       progress.inspection = {project.plan ? project.folder.plan() : std::filesystem::path(),
-                             shown->plan.reference,
-                             shown->plan.align == "best-fit",
+                             shown->asked.plan.reference,
+                             shown->asked.scan ? project.folder.scan : std::filesystem::path(),
+                             shown->asked.plan.align == "best-fit",
                              project.plan && project.plan->start > 0,
-                             std::max<std::size_t>(shown->plan.start, 1),
+                             std::max<std::size_t>(shown->asked.plan.start, 1),
                              alignment ? alignment->alternatives.size() : 0,
                              limits.lower,
                              limits.upper};

@@ -303,13 +303,11 @@ SurfaceModel SurfaceModel::without_preview() const {
   return model;
 }
 
-SurfaceModel SurfaceModel::inspected(const InspectionPlan& plan,
-                                     const std::string& reference,
-                                     bool features,
+SurfaceModel SurfaceModel::inspected(const InspectionRequest& asked,
                                      int count,
                                      const Run& run) const {
   auto next = std::make_shared<SurfaceSnapshot>(*snapshot_);
-  next->inspection = shown_inspection(mesh(), plan, reference, features, count, run);
+  next->inspection = shown_inspection(mesh(), asked, count, run);
   SurfaceModel model = *this;
   model.show(std::move(next));
   return model;

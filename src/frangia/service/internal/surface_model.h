@@ -58,11 +58,19 @@ struct SurfacePreview {
   std::shared_ptr<const std::string> arrays;
 };
 
+/// How a surface is inspected.
+struct InspectionRequest {
+  InspectionPlan plan;    ///< with the file of its reference
+  std::string reference;  ///< name of that file, for people; empty: none
+  bool features = false;  ///< looks for all of them, not only for those of the plan
+  /// Of the surface, which still lies as it was scanned; null otherwise.
+  std::shared_ptr<const Scan> scan;
+};
+
 /// An inspection of the surface by a plan, and what the page draws of it.
 struct ShownInspection {
   int revision = 0;
-  std::string reference;         ///< name of its file, for people; empty: none
-  InspectionPlan plan;           ///< that was inspected by
+  InspectionRequest asked;
   Inspection found;              ///< without its mesh: the surface, moved by the alignment
   std::vector<float> histogram;  ///< shares of the area, from `low_mm` to `high_mm`
   double low_mm = 0.0;           ///< of the color scale: twice the tolerance
@@ -133,13 +141,10 @@ class SurfaceModel {
   /// Tries a step and shows what it would change; the next edit drops the preview.
   [[nodiscard]] SurfaceModel with_preview(const EditStep& step, int count, const Run& run) const;
   [[nodiscard]] SurfaceModel without_preview() const;
-  /// Inspects the surface by a plan, against the reference whose file and name the plan and
-  /// `reference` state. `features`: looks for all of them, not only for those of the plan.
+  /// Inspects the surface.
   ///
   /// @errors   as read_inspection_reference and inspect_part
-  [[nodiscard]] SurfaceModel inspected(const InspectionPlan& plan,
-                                       const std::string& reference,
-                                       bool features,
+  [[nodiscard]] SurfaceModel inspected(const InspectionRequest& asked,
                                        int count,
                                        const Run& run) const;
   /// Whether the level that is drawn at rest is missing.
