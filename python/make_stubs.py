@@ -44,6 +44,7 @@ ARGUMENTS = {
     "unwrap_spatially": "Callable[[WrappedPhase], Any] | None",
     "unwrap": "Callable[[list[WrappedPhase]], Any] | None",
     "part": "str | Mesh",
+    "reference": "Mesh | str | os.PathLike[str] | None",
     "rig": "str | Rig",
     "exposure_ms": "float | str",
     "algorithm": "str | LinearAlgorithm",

@@ -1,38 +1,36 @@
 #include "inspect_batch.h"
 
-#include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include <nlohmann/json.hpp>
 
 #include "frangia/core/lowercase_extension.h"
 #include "frangia/report/batch.h"
+#include "frangia/report/inspection_report.h"
 
 #include "exit_codes.h"
-#include "inspect_mesh.h"
-#include "inspect_reference.h"
 #include "json_number.h"
 #include "option_values.h"
+#include "part_inspector.h"
 #include "print_text.h"
 #include "usage.h"
 
 namespace frangia {
 
-void inspect_batch(InspectArguments arguments, const InspectionPlan& plan, Terminal& terminal) {
+void inspect_batch(const InspectArguments& arguments,
+                   const InspectionPlan& plan,
+                   Terminal& terminal) {
   const Run run = terminal.run();
   require_usage(arguments.qif.empty(), "--qif states one part, not a batch; leave out --batch");
   require_usage(!plan.features.empty(),
                 "--batch compares the characteristics of a --plan; give one with [[features]]");
-  const std::optional<Reference> reference = read_reference(arguments, run);
+  const PartInspector inspector(arguments, plan, run);
   std::vector<BatchPart> parts;
   bool out = false;
   for (const auto& mesh : arguments.meshes) {
-    arguments.mesh = mesh;
-    InspectAnswer answer;
-    const InspectedPart part = inspect_mesh(arguments, plan, reference, answer, run);
-    out = out || answer.verdict == Conformity::Out;
+    const Inspection part = inspector.inspect(mesh, run);
+    out = out || part.verdict == Conformity::Out;
     parts.push_back({mesh.filename().string(), part.characteristics});
   }
   const auto characteristics = batch_characteristics(parts);

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "frangia/report/inspection_plan.h"
+#include "frangia/inspection/inspection_plan.h"
 
 #include "inspect_arguments.h"
 #include "terminal.h"
@@ -8,6 +8,8 @@
 namespace frangia {
 
 /// Inspects each mesh by the plan and writes the table of `--batch`.
-void inspect_batch(InspectArguments arguments, const InspectionPlan& plan, Terminal& terminal);
+void inspect_batch(const InspectArguments& arguments,
+                   const InspectionPlan& plan,
+                   Terminal& terminal);
 
 }  // namespace frangia

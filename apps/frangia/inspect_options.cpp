@@ -2,13 +2,13 @@
 
 #include <fmt/format.h>
 
+#include "frangia/core/error.h"
 #include "frangia/core/lowercase_extension.h"
 #include "frangia/report/report_logo.h"
 
 #include "allow_memory.h"
 #include "check_can_write.h"
-#include "inspect_alignment.h"
-#include "inspect_comparison.h"
+#include "inspect_outputs.h"
 #include "inspect_plan.h"
 #include "option_values.h"
 #include "picture_file.h"
@@ -17,23 +17,21 @@
 namespace frangia {
 namespace {
 
-/// Checks before the work that the options of the alignment go together.
-void check_alignment(const InspectArguments& arguments) {
-  const AlignmentArguments& alignment = arguments.alignment;
-  require_usage(alignment.align.empty() || !arguments.reference.empty(),
+/// Checks before the work that the options of the alignment and the outputs go together.
+void check_alignment(const InspectArguments& arguments, const InspectionPlan& plan) {
+  require_usage(plan.align.empty() || !plan.reference.empty(),
                 "--align needs a --reference to align the mesh to; give one");
   require_usage(
-      arguments.outputs.empty() || !arguments.reference.empty() || arguments.thickness,
+      arguments.outputs.empty() || !plan.reference.empty() || plan.thickness,
       "-o writes the mesh with its deviations or its thickness; give a --reference to measure "
       "against, or --thickness");
-  require_usage(!arguments.fail_out_of_tolerance || !arguments.reference.empty(),
+  require_usage(!arguments.fail_out_of_tolerance || !plan.reference.empty(),
                 "--fail-out-of-tolerance needs a --reference to measure against; give one");
-  static_cast<void>(alignment.band());
-  require_usage(alignment.start == 0 || alignment.align == "best-fit" || alignment.align == "datum",
+  require_usage(plan.start == 0 || plan.align == "best-fit" || plan.align == "datum",
                 "--start chooses a pose of --align best-fit; add it");
   for (const auto& path : arguments.outputs) {
     check_deviation_output(path);
-    if (arguments.reference.empty() && lowercase_extension(path) != ".ply") {
+    if (plan.reference.empty() && lowercase_extension(path) != ".ply") {
       throw Error(ErrorKind::Input,
                   fmt::format("{}: the thickness alone is written as .ply", path.string()));
     }
@@ -48,7 +46,7 @@ void check_inspect_arguments(const InspectArguments& arguments, const Inspection
   const bool drawn = !arguments.picture.empty();
   const bool planned = !plan.features.empty() || !plan.sections.empty();
   require_usage(
-      !arguments.reference.empty() || drawn || arguments.features || arguments.thickness || planned,
+      !plan.reference.empty() || drawn || arguments.features || plan.thickness || planned,
       "nothing to do: give a --reference to measure against, --features, --thickness, --plan, "
       "--section, or a --picture to draw");
   if (drawn) check_picture_output(arguments.picture);
@@ -61,13 +59,33 @@ void check_inspect_arguments(const InspectArguments& arguments, const Inspection
                 fmt::format("{}: reports are pages of HTML; use a name that ends in .html",
                             arguments.report.string()));
   }
-  check_alignment(arguments);
+  check_alignment(arguments, plan);
   require_usage(
-      arguments.alignment.align != "datum" || !plan.datums.empty(),
+      plan.align != "datum" || !plan.datums.empty(),
       "--align datum needs a --plan whose `datums` name one to three of its [[features]]");
 }
 
 namespace {
+
+void add_alignment_options(CLI::App& verb, InspectArguments& arguments) {
+  verb.add_option("--align",
+                  arguments.align,
+                  "move the mesh onto the reference first: best-fit, from any start; datum, by the "
+                  "datums of the --plan; none, as it stands, with its overlap")
+      ->check(one_of({"best-fit", "datum", "none"}));
+  verb.add_option(
+          "--start",
+          arguments.start,
+          "of the poses that --align best-fit lists because they fit alike, the one to take")
+      ->check(from_to(1, 1000));
+  verb.add_option("--tolerance",
+                  arguments.tolerance_mm,
+                  "tolerance of the deviations, mm: T for plus and minus T, or LOWER,UPPER; 0.1 "
+                  "by default")
+      ->transform(a_length())
+      ->delimiter(',')
+      ->expected(1, 2);
+}
 
 /// How the deviations are measured and judged.
 void add_measure_options(CLI::App& verb, InspectArguments& arguments) {
@@ -174,11 +192,11 @@ void add_inspect_options(CLI::App& verb, InspectArguments& arguments) {
       "CAD model (.step, .iges), to whose faces deviations are measured");
   verb.add_option(
           "--units",
-          arguments.alignment.unit_mm,
+          arguments.unit_mm,
           "unit of the reference: um, mm (default), cm, m, in, ft, or its length; CAD files "
           "state theirs")
       ->transform(unit_length());
-  add_alignment_options(verb, arguments.alignment);
+  add_alignment_options(verb, arguments);
   add_measure_options(verb, arguments);
   add_picture_options(verb, arguments);
   add_allow_memory(verb, arguments.read);

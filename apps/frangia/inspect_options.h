@@ -2,7 +2,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "frangia/report/inspection_plan.h"
+#include "frangia/inspection/inspection_plan.h"
 
 #include "inspect_arguments.h"
 

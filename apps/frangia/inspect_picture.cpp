@@ -6,6 +6,7 @@
 
 #include "frangia/core/angles.h"
 #include "frangia/frames/png.h"
+#include "frangia/report/inspection_picture.h"
 
 #include "usage.h"
 
@@ -20,48 +21,34 @@ std::vector<float> shown_values(const InspectArguments& arguments, const Mesh& m
 
 }  // namespace
 
-void check_shown(const InspectArguments& arguments, const Mesh& mesh) {
+void check_shown(const InspectArguments& arguments,
+                 const InspectionPlan& plan,
+                 const std::filesystem::path& path,
+                 const Mesh& mesh) {
   const std::string& show = arguments.show;
   if (show == "deviation") {
-    require_usage(!arguments.reference.empty(),
+    require_usage(!plan.reference.empty(),
                   "--show deviation needs a --reference; give one, or choose another --show");
   }
   if (show == "thickness")
-    require_usage(arguments.thickness, "--show thickness needs --thickness; add it");
+    require_usage(plan.thickness, "--show thickness needs --thickness; add it");
   const bool missing =
       (show == "sigma" && mesh.sigma_mm.empty()) || (show == "views" && mesh.views.empty()) ||
       (show == "marks" && mesh.vertex_marks.empty() && mesh.triangle_marks.empty());
   if (!missing) return;
-  throw Error(ErrorKind::Input,
-              fmt::format("{}: the file has no {}; choose another --show, such as shape",
-                          arguments.mesh.string(),
-                          show));
+  throw Error(
+      ErrorKind::Input,
+      fmt::format(
+          "{}: the file has no {}; choose another --show, such as shape", path.string(), show));
 }
 
-RenderOptions deviation_picture(const InspectArguments& arguments,
-                                const Mesh& mesh,
-                                const SurfaceInspection& comparison) {
-  constexpr std::size_t kBins = 60;
-  RenderOptions options;
-  const ToleranceLimits& limits = comparison.verdict.rule.limits;
-  const double scale = scale_mm(arguments, limits);
-  options.values = comparison.deviations.deviation_mm;
-  options.value_max = static_cast<float>(scale);
-  options.value_min = -options.value_max;
-  options.color_map = ColorMap::Diverging;
-  options.value_label = "deviation, mm";
-  options.histogram = deviation_histogram(mesh, options.values, -scale, scale, kBins);
-  options.value_limits = {limits.lower, limits.upper};
-  return options;
-}
-
-void draw_picture(const InspectArguments& arguments, const InspectedPart& part, const Run& run) {
+void draw_picture(const InspectArguments& arguments, const Inspection& part, const Run& run) {
   const Mesh& mesh = part.mesh;
   RenderOptions options;
   if (arguments.show == "deviation") {
-    options = deviation_picture(arguments, mesh, part.comparison.value());
+    options = deviation_picture(mesh, part.surface.value(), arguments.scale_mm);
   } else if (arguments.show == "thickness") {
-    options = thickness_picture(arguments, mesh, part.walls.value());
+    options = thickness_picture(mesh, part.walls.value(), arguments.scale_mm);
   } else if (arguments.show == "marks") {
     options.show_marks = true;
   } else {

@@ -1,22 +1,20 @@
 #pragma once
 
-#include <optional>
+#include <filesystem>
+
+#include "frangia/inspection/inspect_part.h"
 
 #include "inspect_arguments.h"
-#include "inspect_comparison.h"
-#include "inspect_report.h"
 
 namespace frangia {
 
-/// Checks before the work that the mesh has what --show names.
-void check_shown(const InspectArguments& arguments, const Mesh& mesh);
-
-/// Options of a picture of the deviations, with the tolerance band and the histogram.
-[[nodiscard]] RenderOptions deviation_picture(const InspectArguments& arguments,
-                                              const Mesh& mesh,
-                                              const SurfaceInspection& comparison);
+/// Checks before the work that the mesh of a file has what --show names.
+void check_shown(const InspectArguments& arguments,
+                 const InspectionPlan& plan,
+                 const std::filesystem::path& path,
+                 const Mesh& mesh);
 
 /// Draws the picture that the arguments ask for.
-void draw_picture(const InspectArguments& arguments, const InspectedPart& part, const Run& run);
+void draw_picture(const InspectArguments& arguments, const Inspection& part, const Run& run);
 
 }  // namespace frangia

@@ -2,9 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "frangia/core/error.h"
 #include "frangia/core/parse_length.h"
-
-#include "option_values.h"
 
 namespace frangia {
 namespace {
@@ -33,32 +32,25 @@ InspectionPlan plan_of(const InspectArguments& arguments) {
   if (!arguments.plan.empty()) plan = read_inspection_plan(arguments.plan);
   for (const std::string& text : arguments.sections)
     plan.sections.push_back(section_named(text, arguments.blade));
-  return plan;
-}
-
-void apply_plan(const InspectionPlan& plan, InspectArguments& arguments) {
-  AlignmentArguments& alignment = arguments.alignment;
-  if (arguments.reference.empty()) {
-    arguments.reference = plan.reference;
-    if (!plan.units.empty()) {
-      std::string unit = plan.units;
-      const std::string wrong = unit_length()(unit);
-      if (!wrong.empty()) {
-        throw Error(ErrorKind::Input, fmt::format("{}: units {}", arguments.plan.string(), wrong));
-      }
-      arguments.alignment.unit_mm = std::stod(unit);
-    }
+  if (!arguments.reference.empty()) {
+    plan.reference = arguments.reference;
+    plan.unit_mm = arguments.unit_mm;
+  } else if (!plan.unit_mm) {
+    plan.unit_mm = arguments.unit_mm;
   }
-  if (alignment.align.empty() && !arguments.reference.empty()) alignment.align = plan.align;
-  if (alignment.start == 0 && (alignment.align == "best-fit" || alignment.align == "datum"))
-    alignment.start = plan.start;
-  if (alignment.tolerance_mm.empty() && plan.tolerance_mm)
-    alignment.tolerance_mm = {plan.tolerance_mm->lower, plan.tolerance_mm->upper};
-  if (arguments.expansion_ppm_per_k == 0.0)
-    arguments.expansion_ppm_per_k = plan.expansion_ppm_per_k;
-  arguments.surface = plan.surface;
-  arguments.thickness = arguments.thickness || plan.thickness;
-  if (arguments.temperature_u_k == 0.0) arguments.temperature_u_k = plan.temperature_u_k;
+  if (plan.reference.empty()) plan.align.clear();
+  if (!arguments.align.empty()) plan.align = arguments.align;
+  if (plan.align != "best-fit" && plan.align != "datum") plan.start = 0;
+  if (arguments.start > 0) plan.start = arguments.start;
+  const std::vector<double>& tolerance = arguments.tolerance_mm;
+  if (tolerance.size() == 1) plan.tolerance_mm = {-tolerance[0], tolerance[0]};
+  if (tolerance.size() == 2) plan.tolerance_mm = {tolerance[0], tolerance[1]};
+  plan.tolerance().check();
+  if (arguments.expansion_ppm_per_k != 0.0)
+    plan.expansion_ppm_per_k = arguments.expansion_ppm_per_k;
+  if (arguments.temperature_u_k != 0.0) plan.temperature_u_k = arguments.temperature_u_k;
+  plan.thickness = plan.thickness || arguments.thickness;
+  return plan;
 }
 
 CLI::Validator a_section() {

@@ -1,20 +1,18 @@
 #pragma once
 
-#include "frangia/report/inspection_plan.h"
+#include <CLI/CLI.hpp>
+
+#include "frangia/inspection/inspection_plan.h"
 
 #include "inspect_arguments.h"
 
 namespace frangia {
 
-/// Reads the plan that the arguments name, and adds the sections that they name.
+/// The plan by which the part is inspected: the one that the arguments name, and what the command
+/// line states instead of it or adds to it.
 ///
-/// @errors   Error(Input) as read_inspection_plan
+/// @errors   Error(Input) as read_inspection_plan, and for a tolerance whose limits are exchanged
 [[nodiscard]] InspectionPlan plan_of(const InspectArguments& arguments);
-
-/// Takes over from a plan what the arguments do not state.
-///
-/// @errors   Error(Input) for an unknown unit
-void apply_plan(const InspectionPlan& plan, InspectArguments& arguments);
 
 /// A section such as "z=60", for CLI::Option::check.
 [[nodiscard]] CLI::Validator a_section();

@@ -1,20 +1,23 @@
 #include <memory>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include <nlohmann/json.hpp>
+
+#include "frangia/report/inspection_json.h"
 #include "frangia/report/qif_results.h"
+#include "frangia/report/write_report.h"
 
 #include "exit_codes.h"
 #include "inspect_batch.h"
-#include "inspect_comparison.h"
-#include "inspect_mesh.h"
 #include "inspect_options.h"
+#include "inspect_outputs.h"
 #include "inspect_picture.h"
 #include "inspect_plan.h"
-#include "inspect_reference.h"
+#include "inspect_text.h"
 #include "option_values.h"
+#include "part_inspector.h"
 #include "print_text.h"
 #include "usage.h"
 #include "verbs.h"
@@ -22,20 +25,13 @@
 namespace frangia {
 namespace {
 
-/// The decision about the part, by its deviations and its characteristics.
-Conformity verdict_of_part(const InspectedPart& part) {
-  InspectionReport report;
-  if (part.comparison) report.surface = part.comparison->verdict;
-  report.characteristics = part.characteristics;
-  return verdict_of(report);
-}
-
-/// Writes what the arguments ask for and names it in the answer. The names of the files, in the
-/// order in which they are told.
+/// Writes what the arguments ask for and names it in the JSON. The names of the files, in the order
+/// in which they are told.
 std::vector<std::string> write_files(const InspectArguments& arguments,
                                      const InspectionPlan& plan,
-                                     const InspectedPart& part,
-                                     InspectAnswer& answer,
+                                     const Inspection& part,
+                                     const Scan* scan,
+                                     nlohmann::ordered_json& json,
                                      Terminal& terminal) {
   const Run run = terminal.run();
   std::vector<std::string> written;
@@ -44,51 +40,56 @@ std::vector<std::string> write_files(const InspectArguments& arguments,
     written.push_back(arguments.picture.string());
   }
   for (const auto& path : arguments.outputs) {
-    write_deviations(path, arguments, part, run);
+    write_deviations(path, part, arguments.scale_mm, run);
     written.push_back(path.string());
   }
   if (!arguments.report.empty()) {
-    for (std::string& path : write_report(arguments, plan, part, answer, terminal.warnings(), run))
+    const ReportSources sources{.mesh = arguments.meshes.front(),
+                                .reference = plan.reference,
+                                .scan = scan,
+                                .version = "Frangia " FRANGIA_VERSION,
+                                .warnings = terminal.warnings(),
+                                .scale_mm = arguments.scale_mm};
+    for (std::string& path : write_report(arguments.report, part, plan, sources, run))
       written.push_back(std::move(path));
   }
   if (!arguments.qif.empty()) {
     write_report_text(arguments.qif,
-                      qif_of({part.named_features, part.characteristics, verdict_of_part(part)}));
+                      qif_of({part.named_features, part.characteristics, part.verdict}));
     written.push_back(arguments.qif.string());
-    answer.json["qif"] = arguments.qif.string();
+    json["qif"] = arguments.qif.string();
   }
-  if (!arguments.picture.empty()) answer.json["picture"] = arguments.picture.string();
-  if (!arguments.report.empty()) answer.json["report"] = arguments.report.string();
+  if (!arguments.picture.empty()) json["picture"] = arguments.picture.string();
+  if (!arguments.report.empty()) json["report"] = arguments.report.string();
   return written;
 }
 
 void inspect(InspectArguments arguments, Terminal& terminal) {
   const Run run = terminal.run();
   const InspectionPlan plan = plan_of(arguments);
-  apply_plan(plan, arguments);
-  if (arguments.show == "deviation" && arguments.reference.empty() && arguments.thickness)
+  if (arguments.show == "deviation" && plan.reference.empty() && plan.thickness)
     arguments.show = "thickness";
-  arguments.mesh = arguments.meshes.front();
   check_inspect_arguments(arguments, plan);
   if (!arguments.batch.empty()) {
-    inspect_batch(std::move(arguments), plan, terminal);
+    inspect_batch(arguments, plan, terminal);
     return;
   }
   require_usage(arguments.meshes.size() == 1,
                 "several meshes are inspected by --plan and --batch; name one mesh, or add these");
-  InspectAnswer answer;
-  const std::optional<Reference> reference = read_reference(arguments, run);
-  const InspectedPart part = inspect_mesh(arguments, plan, reference, answer, run);
-  const std::vector<std::string> written = write_files(arguments, plan, part, answer, terminal);
+  const PartInspector inspector(arguments, plan, run);
+  const Inspection part = inspector.inspect(arguments.meshes.front(), run);
+  auto json = nlohmann::ordered_json::parse(inspection_json(part));
+  const std::vector<std::string> written =
+      write_files(arguments, plan, part, inspector.scan(), json, terminal);
   terminal.finish();
   for (const auto& [stage, seconds] : terminal.stage_seconds())
-    answer.json["seconds"][stage] = seconds;
-  if (arguments.fail_out_of_tolerance && answer.verdict == Conformity::Out)
+    json["seconds"][stage] = seconds;
+  if (arguments.fail_out_of_tolerance && part.verdict == Conformity::Out)
     terminal.exit_code = OutOfTolerance;
   if (terminal.json) {
-    print_json(answer.json);
+    print_json(json);
   } else {
-    write_output(answer.text);
+    write_output(inspection_text(part, arguments.features));
   }
   for (const std::string& path : written)
     terminal.print_written(path);

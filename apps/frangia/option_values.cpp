@@ -123,24 +123,9 @@ CLI::Validator one_of(const std::vector<std::string>& words) {
 
 CLI::Validator unit_length() {
   return {[](std::string& input) -> std::string {
-            if (input == "ft") {
-              input = "304.8";
-              return {};
-            }
-            const bool is_name = !input.empty() && input.find_first_of("0123456789") == input.npos;
-            double unit_mm = 0.0;
-            try {
-              unit_mm = parse_length_mm(is_name ? "1" + input : input);
-            } catch (const Error&) {
-              unit_mm = 0.0;
-            }
-            if (!(unit_mm > 0.0)) {
-              return fmt::format(
-                  "is \"{}\"; it must be um, mm, cm, m, in, ft or a length such as "
-                  "25.4mm",
-                  input);
-            }
-            input = fmt::format("{}", unit_mm);
+            const auto unit_mm = parse_unit_mm(input);
+            if (!unit_mm) return fmt::format("is \"{}\"; it must be {}", input, kUnitsKnown);
+            input = fmt::format("{}", *unit_mm);
             return {};
           },
           ""};

@@ -11,6 +11,7 @@
 #include "frangia/core/angles.h"
 #include "frangia/core/error.h"
 #include "frangia/files/mesh_formats.h"
+#include "frangia/files/read_surface.h"
 #include "frangia/frames/png.h"
 #include "frangia/geometry/transform_mesh.h"
 #include "frangia/inspect/contact_sheet.h"
@@ -20,7 +21,6 @@
 #include "option_values.h"
 #include "picture_file.h"
 #include "print_text.h"
-#include "read_surface.h"
 #include "verbs.h"
 
 namespace frangia {

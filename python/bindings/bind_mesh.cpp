@@ -1,5 +1,4 @@
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -15,7 +14,6 @@
 #include "frangia/files/write_mesh.h"
 #include "frangia/geometry/mesh.h"
 #include "frangia/geometry/ray_scene.h"
-#include "frangia/inspect/inspect_surface.h"
 #include "frangia/inspect/render_mesh.h"
 #include "frangia/inspect/surface_error.h"
 #include "frangia/simulate/parts.h"
@@ -106,54 +104,6 @@ py::array_t<float> deviations(const Mesh& mesh, const Mesh& reference, const py:
   const py::capsule owner(values,
                           [](void* held) { delete static_cast<std::vector<float>*>(held); });
   return view_of<float>(*values, owner);
-}
-
-py::dict inspect(const Mesh& mesh,
-                 const Mesh& reference,
-                 double lower_mm,
-                 double upper_mm,
-                 double min_feature_mm,
-                 double min_coverage,
-                 double max_gap_mm,
-                 const std::optional<double>& edge_mm,
-                 const py::object& progress) {
-  SurfaceRule rule;
-  rule.limits = {lower_mm, upper_mm};
-  rule.min_feature_mm = min_feature_mm;
-  rule.min_coverage = min_coverage;
-  rule.max_gap_mm = max_gap_mm;
-  rule.edge_mm = edge_mm;
-  const SurfaceInspection found = result_of(progress, [&](const Run& run) {
-    return inspect_surface(mesh, RayScene(reference, run), rule, {}, run);
-  });
-  const SurfaceVerdict& verdict = found.verdict;
-  py::dict out;
-  out["verdict"] = std::string(name_of(verdict.conformity));
-  out["sentence"] = sentence_of(verdict);
-  for (std::size_t i = 0; i < kPatchDecisions; ++i) {
-    if (static_cast<PatchDecision>(i) == PatchDecision::AtEdge) continue;
-    const std::string name(name_of(static_cast<PatchDecision>(i)));
-    out[py::str(name + "_share")] = verdict.share.at(i);
-  }
-  out["coverage"] = verdict.coverage;
-  out["edge_mm"] = verdict.rule.edge_mm.value_or(0.0);
-  out["edge_share"] = verdict.edge_share;
-  out["gap_mm"] = verdict.gap_mm;
-  out["patch_mm"] = verdict.rule.min_feature_mm;
-  out["min_mm"] = found.summary.min_mm;
-  out["max_mm"] = found.summary.max_mm;
-  py::list places;
-  for (const SurfacePlace& place : verdict.places) {
-    py::dict one;
-    one["decision"] = std::string(name_of(place.decision));
-    one["at_mm"] = std::vector<double>{place.at_mm.x(), place.at_mm.y(), place.at_mm.z()};
-    one["deviation_mm"] = place.deviation_mm;
-    one["u95_mm"] = place.u95_mm;
-    one["area_mm2"] = place.area_mm2;
-    places.append(one);
-  }
-  out["places"] = places;
-  return out;
 }
 
 py::array_t<std::uint8_t> render(const Mesh& mesh,
@@ -252,22 +202,6 @@ void bind_mesh(py::module_& module) {
              py::kw_only(),
              py::arg("progress") = py::none(),
              "Statistics of the distances of the vertices from a reference in the same frame, mm.");
-  module.def("inspect_surface",
-             &inspect,
-             py::arg("mesh"),
-             py::arg("reference"),
-             py::kw_only(),
-             py::arg("lower_mm") = -0.1,
-             py::arg("upper_mm") = 0.1,
-             py::arg("min_feature_mm") = 0.0,
-             py::arg("min_coverage") = 0.9,
-             py::arg("max_gap_mm") = 0.0,
-             py::arg("edge_mm") = py::none(),
-             py::arg("progress") = py::none(),
-             "The verdict about a surface against a reference in the same frame, by ISO 14253-1, "
-             "with its sentence, shares of the nominal area and places; 0: the default. edge_mm: "
-             "width of the strips along edges that are not judged, by default the mean distance of "
-             "the vertices.");
   module.def("deviations",
              &deviations,
              py::arg("mesh"),

@@ -11,6 +11,7 @@ void bind_phase(pybind11::module_& module);
 void bind_rig(pybind11::module_& module);
 void bind_scan(pybind11::module_& module);
 void bind_mesh(pybind11::module_& module);
+void bind_inspection(pybind11::module_& module);
 void bind_reconstruct(pybind11::module_& module);
 
 }  // namespace frangia::python

@@ -29,6 +29,7 @@ class ArgumentError(_frangia.InputError, TypeError):
 MAKERS = {
     "AbsolutePhase": "frangia.unwrap_temporal(maps, projector_px) or frangia.AbsolutePhase(phase)",
     "FrameStack": "frangia.FrameStack(frames, frangia.Pattern.fringes(shifts_rad, period_px=20))",
+    "InspectionPlan": 'frangia.read_inspection_plan("inspection.toml") or frangia.InspectionPlan(align="best-fit")',
     "FringeDirection": "frangia.FringeDirection.VERTICAL",
     "LinearAlgorithm": 'frangia.read_algorithm("my-algorithm.toml")',
     "Mesh": 'frangia.read_mesh("part.ply") or frangia.Mesh(vertices, triangles)',
@@ -50,6 +51,7 @@ OBJECTS = {
     "part": "str | Mesh",
     "phase": "ArrayLike",
     "progress": "Optional[Callable]",
+    "reference": "Optional[os.PathLike] | Mesh",
     "rig": "str | Rig",
     "sigma": "Optional[ArrayLike]",
     "steps": "Iterable[Step]",

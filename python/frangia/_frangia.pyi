@@ -163,6 +163,88 @@ class FringeDirection:
     @property
     def value(self) -> int: ...
 
+class Inspection:
+    """What an inspection found. Missing values are NaN, empty or None."""
+    def _repr_html_(self: Inspection) -> str:
+        """The verdict and the characteristics as a table of HTML."""
+        ...
+    @property
+    def characteristics(self) -> list[MeasuredCharacteristic]:
+        """Rows of the table of results, in the order of the plan."""
+        ...
+    @property
+    def deviation_mm(self) -> NDArray[np.float32]:
+        """Of each vertex, positive outside; NaN: not compared; empty without a reference."""
+        ...
+    @property
+    def mesh(self) -> Mesh:
+        """As it lies on the reference."""
+        ...
+    @property
+    def places(self) -> list[SurfacePlace]:
+        """Of the surface that are out or undecided, the worst first."""
+        ...
+    @property
+    def reference_from_mesh(self) -> NDArray[np.float64] | None:
+        """4 x 4; None: the plan says nothing about an alignment."""
+        ...
+    @property
+    def sentence(self) -> str:
+        """The verdict about the surface in words; empty without a reference."""
+        ...
+    @property
+    def thickness_mm(self) -> NDArray[np.float32]:
+        """Of the wall at each vertex; empty: not asked for."""
+        ...
+    def to_dict(self) -> dict[Any, Any]:
+        """Everything, as `frangia inspect --json` prints it; missing values are None."""
+        ...
+    @property
+    def u_mm(self) -> NDArray[np.float32]:
+        """Standard uncertainty of each deviation; empty: not known."""
+        ...
+    @property
+    def verdict(self) -> str:
+        """in, out or undecided: the surface and the characteristics together."""
+        ...
+    def write_report(self, path: str | os.PathLike[str], *, progress: Callable[[float, str], object] | None = None) -> list[str]:
+        """Writes the report as one page of HTML, and JSON, CSV and sections beside it; the paths."""
+        ...
+
+class InspectionPlan:
+    """How the parts of one kind are inspected."""
+    def __init__(self, *, align: str = '', tolerance_mm: tuple[float, float] | None = None, start: int = 0, min_feature_mm: float = 0.0, edge_mm: float | None = None, min_coverage: float = 0.9, max_gap_mm: float = 0.0, thickness: bool = False) -> None:
+        """As the keys of inspection.toml. align: best-fit, datum, none, or empty; tolerance_mm: lower and upper; 0: the default. Features and characteristics are read from a file by read_inspection_plan."""
+        ...
+    @property
+    def align(self) -> str:
+        """best-fit, datum, none, or empty."""
+        ...
+    @property
+    def features(self) -> list[str]:
+        """Names of the features."""
+        ...
+    @property
+    def part(self) -> str:
+        """Name of the part; may be empty."""
+        ...
+    @property
+    def reference(self) -> Path:
+        """Path; empty: none is stated."""
+        ...
+    @property
+    def start(self) -> int:
+        """Of poses that fit alike, from 1; 0: none."""
+        ...
+    @property
+    def thickness(self) -> bool:
+        """Measure the walls."""
+        ...
+    @property
+    def tolerance_mm(self) -> tuple[float, float] | None:
+        """Lower and upper limit of the deviations; None: plus and minus 0.1."""
+        ...
+
 class LinearAlgorithm:
     """An algorithm of yours and its frames."""
     def __init__(self, name: str, shifts_rad: Iterable[float], numerator: Iterable[float], denominator: Iterable[float]) -> None:
@@ -175,6 +257,41 @@ class LinearAlgorithm:
     @property
     def shifts_rad(self) -> list[float]:
         """Shifts of its frames, radians."""
+        ...
+
+class MeasuredCharacteristic:
+    """A row of the table of results."""
+    @property
+    def feature(self) -> str:
+        """Name of the feature."""
+        ...
+    @property
+    def limits(self) -> tuple[float, float] | None:
+        """Lower and upper limit of the value; an absent one is infinite. None: no limits."""
+        ...
+    @property
+    def name(self) -> str:
+        """Of the plan, with the quantity."""
+        ...
+    @property
+    def nominal(self) -> float | None:
+        """None: not stated."""
+        ...
+    @property
+    def u95(self) -> float:
+        """Half the width of the 95 % interval."""
+        ...
+    @property
+    def unit(self) -> str:
+        """mm or degrees."""
+        ...
+    @property
+    def value(self) -> float:
+        """NaN: the feature was not found."""
+        ...
+    @property
+    def verdict(self) -> str | None:
+        """in, out or undecided by ISO 14253-1; None without limits."""
         ...
 
 class Mesh:
@@ -477,6 +594,29 @@ class ScanView:
         """Views of one setup share a pose of the part."""
         ...
 
+class SurfacePlace:
+    """A place of the surface that is out or undecided."""
+    @property
+    def area_mm2(self) -> float:
+        """Of the nominal surface."""
+        ...
+    @property
+    def at_mm(self) -> NDArray[np.float64]:
+        """Where, frame of the reference."""
+        ...
+    @property
+    def decision(self) -> str:
+        """out, near_limit, not_well_measured or not_measured."""
+        ...
+    @property
+    def deviation_mm(self) -> float:
+        """Mean over a patch; or NaN."""
+        ...
+    @property
+    def u95_mm(self) -> float:
+        """Of the deviation."""
+        ...
+
 class ViewSummary:
     """A view after reconstruction."""
 
@@ -542,8 +682,8 @@ def edit(mesh: Mesh, steps: Iterable[Any], *, progress: Callable[[float, str], o
     """Applies steps of `frangia edit`: names, or pairs of a name and a value, such as [('fill-holes', '10mm'), 'remove-spikes']."""
     ...
 
-def inspect_surface(mesh: Mesh, reference: Mesh, *, lower_mm: float = -0.1, upper_mm: float = 0.1, min_feature_mm: float = 0.0, min_coverage: float = 0.9, max_gap_mm: float = 0.0, edge_mm: float | None = None, progress: Callable[[float, str], object] | None = None) -> dict[Any, Any]:
-    """The verdict about a surface against a reference in the same frame, by ISO 14253-1, with its sentence, shares of the nominal area and places; 0: the default. edge_mm: width of the strips along edges that are not judged, by default the mean distance of the vertices."""
+def inspect_part(mesh: Mesh, reference: Mesh | str | os.PathLike[str] | None = None, plan: InspectionPlan = ..., *, features: bool = False, scan: Scan | None = None, progress: Callable[[float, str], object] | None = None) -> Inspection:
+    """Inspects a part as `frangia inspect` does. reference: a mesh, or the path of a mesh or a CAD file; None: that of the plan, if it states one. features: find all, not only those of the plan. scan: of the mesh, so that features hold the covariance of its rig."""
     ...
 
 def least_squares(shifts_rad: Iterable[float]) -> PhaseAlgorithm:
@@ -568,6 +708,10 @@ def plan_decoding(scan: Scan, *, directions: str = 'fused', max_sigma_rad: float
 
 def read_algorithm(path: str | os.PathLike[str]) -> LinearAlgorithm:
     """Reads an algorithm of yours, as examples/algorithms/my-algorithm.toml."""
+    ...
+
+def read_inspection_plan(path: str | os.PathLike[str]) -> InspectionPlan:
+    """Reads inspection.toml; its reference is relative to it."""
     ...
 
 def read_mesh(path: str | os.PathLike[str]) -> Mesh:

@@ -1,14 +1,16 @@
-"""Pictures of meshes in notebooks."""
+"""Pictures of meshes and tables of inspections in notebooks."""
 
 from __future__ import annotations
 
+import html
+import math
 import os
 import struct
 import zlib
 from typing import TYPE_CHECKING, Any
 
 from ._arguments import ArgumentError
-from ._frangia import Mesh
+from ._frangia import Inspection, Mesh
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -58,3 +60,31 @@ def show(self: Mesh, **options: Any) -> Picture:
 
 
 setattr(Mesh, "show", show)
+
+
+def table(self: Inspection) -> str:
+    """The verdict and the characteristics as a table of HTML."""
+
+    def number(value: float | None, digits: int = 4) -> str:
+        return "" if value is None or not math.isfinite(value) else f"{value:.{digits}f}"
+
+    heads = ("characteristic", "nominal", "limits", "measured", "U95", "unit", "verdict")
+    rows = [
+        (
+            row.name,
+            number(row.nominal),
+            " … ".join(number(limit) for limit in row.limits) if row.limits else "",
+            number(row.value) or "not found",
+            number(row.u95),
+            row.unit,
+            row.verdict or "",
+        )
+        for row in self.characteristics
+    ]
+    cells = "".join("<tr>" + "".join(f"<td>{html.escape(cell)}</td>" for cell in row) + "</tr>" for row in rows)
+    head = "<tr>" + "".join(f"<th>{name}</th>" for name in heads) + "</tr>"
+    sentence = f": {html.escape(self.sentence)}" if self.sentence else ""
+    return f"<p><b>{self.verdict}</b>{sentence}</p>" + (f"<table>{head}{cells}</table>" if rows else "")
+
+
+setattr(Inspection, "_repr_html_", table)

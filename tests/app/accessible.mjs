@@ -58,7 +58,7 @@ await tell(home, async () => {
   await command(page, 'export', { format: 'stl' });
   await page.setViewportSize({ width: 1024, height: 700 });
   await inEachLook(async (which) => {
-    for (const key of ['1', '2', '4', '5', '6', '7', '3']) {
+    for (const key of ['1', '2', '4', '5', '6', '7', '8', '3']) {
       await page.keyboard.press(key);
       if (key === '3') await page.waitForSelector('#live-points');
       await settled(page);

@@ -228,8 +228,8 @@ class Hostile(HostileServer):
                     "NaN",
                     "Infinity",
                 ):
-                    if (field, number) in (("exposures_ms", "[]"), ("devices", "{}")):
-                        continue  # no merging of exposures, no devices
+                    if (field, number) in (("exposures_ms", "[]"), ("devices", "{}"), ("plan", "{}")):
+                        continue  # no merging of exposures, no devices, a plan of defaults
                     body = '{"%s": %s}' % (field, number)
                     status = self.server.ask("POST", f"/api/commands/{command}", body.encode())[0]
                     self.assertEqual(status, 400, (command, body))

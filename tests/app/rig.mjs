@@ -190,7 +190,7 @@ await tell(home, async () => {
   await look(plain, shots, 'no-webgl');
   await plain.keyboard.press('6');
   await plain.waitForSelector('#undo');
-  await plain.keyboard.press('7');
+  await plain.keyboard.press('8');
   await plain.click('#export');
   await plain.waitForSelector('.file');
   passed('a browser without WebGL scans and exports');

@@ -172,7 +172,7 @@ await tell(home, async () => {
   expect(/\d°/.test(await text('.chip .big')), 'no angle was measured');
   await page.keyboard.press('Escape');
 
-  await page.keyboard.press('7');
+  await page.keyboard.press('8');
   await page.waitForSelector('#export');
   await page.getByText('50,000', { exact: true }).click();
   await page.click('#export');

@@ -1,4 +1,4 @@
-// The steps Surface, Edit and Export of the operator's app in Debian's Chromium, on a part of which everything is known: a
+// The steps Surface, Edit, Inspect and Export of the operator's app in Debian's Chromium, on a part of which everything is known: a
 // slab with two holes below a separate tower, compared with the slab as it should be.
 //
 //   node surface.mjs PROGRAM FOLDER      FOLDER receives the screenshots
@@ -100,6 +100,7 @@ await tell(home, async () => {
   await idle();
 
   // A file that is no reference is refused in words; one that is cut short, too.
+  await page.keyboard.press('7');
   await page.setInputFiles('#reference', { name: 'notes.txt', mimeType: 'text/plain', buffer: Buffer.from('x') });
   await page.waitForSelector('text=no STL, PLY, OBJ');
   await page.setInputFiles('#reference', { name: 'broken.stl', mimeType: 'model/stl', buffer: fs.readFileSync(reference).subarray(0, 5000) });
@@ -114,10 +115,15 @@ await tell(home, async () => {
   expect(compared.reference.name === 'slab as designed.stl', 'the reference has another name');
   expect(found.overlap > 0.9 && Math.abs(found.max_mm - 0.3) < 0.03, `the bump of 0.3 mm was found as ${found.max_mm} mm`);
   await page.waitForSelector('.legend');
-  await page.locator('#compare-group .verdict-line').scrollIntoViewIfNeeded();
+  await page.locator('#verdict .verdict-line').scrollIntoViewIfNeeded();
   await look('deviation');
   await page.locator('.panel').evaluate((panel) => (panel.scrollTop = 0));
   await look('deviation-legend');
+  await page.click('#places');
+  await page.waitForFunction(() => document.querySelector('frangia-app').viewer.holes.group.children.length > 0);
+  await page.waitForSelector('.places tr');
+  await look('places');
+  await page.click('#places');
   passed(`the largest deviation is ${found.max_mm.toFixed(3)} mm`);
 
   // The command line below the picture finds the same.
@@ -228,7 +234,7 @@ await tell(home, async () => {
   expect(filled.surface.comparison === null, 'a comparison of another mesh stays');
 
   // The command line that is shown makes the same bytes.
-  await page.keyboard.press('7');
+  await page.keyboard.press('8');
   await page.waitForSelector('#estimate');
   await page.waitForFunction(() => /about/.test(document.querySelector('#estimate').textContent));
   const about = await page.evaluate(() => document.querySelector('frangia-app').exporting.estimate);
@@ -249,6 +255,8 @@ await tell(home, async () => {
   await page.keyboard.press('1');
   await page.locator('.card', { hasText: 'box' }).click();
   await page.waitForFunction(() => document.querySelector('frangia-app').state.project?.name === 'box');
+  await page.waitForSelector('[data-step=inspect]:not([disabled])');
+  await page.keyboard.press('7');
   await page.waitForSelector('#reference:not([disabled])', { state: 'attached' });
   await page.setInputFiles('#reference', plain);
   await page.waitForSelector('#start:not([disabled])');
@@ -258,7 +266,8 @@ await tell(home, async () => {
   const chosen = (await until('the third pose', (project) => project.surface.comparison?.start === 3)).surface.comparison;
   await idle();
   expect(Math.abs(chosen.turned_deg - several.poses[2].turned_deg) < 0.5 && chosen.in_share > 0.999, `the third pose turns by ${chosen.turned_deg}`);
-  expect((await page.locator('.command code').innerText()).includes('--start 3'), 'the command line takes another pose');
+  expect((await page.locator('.command code').innerText()).includes('--plan'), 'the command line takes no plan');
+  expect(/^start = 3$/m.test(fs.readFileSync(path.join(box, 'inspection.toml'), 'utf8')), 'the plan states another pose');
   await page.locator('#start').scrollIntoViewIfNeeded();
   await look('poses');
   await page.keyboard.press('1');
@@ -326,7 +335,7 @@ await tell(home, async () => {
 
   await page.setViewportSize({ width: 1024, height: 700 });
   await page.keyboard.press('d');
-  for (const [key, name] of [['5', 'surface-small'], ['6', 'edit-small'], ['7', 'export-small']]) {
+  for (const [key, name] of [['5', 'surface-small'], ['6', 'edit-small'], ['7', 'inspect-small'], ['8', 'export-small']]) {
     await page.keyboard.press(key);
     await look(name);
   }

@@ -222,12 +222,6 @@ class Meshes(unittest.TestCase):
         smaller = frangia.edit(part, [("offset", "-0.5mm")])
         self.assertAlmostEqual(frangia.deviations(smaller, part).mean(), -0.5, delta=0.1)
         self.assertGreater(frangia.surface_error(smaller, part)["rms_mm"], 0.3)
-        itself = frangia.inspect_surface(part, part, min_feature_mm=2)
-        self.assertEqual(itself["verdict"], "in")
-        self.assertRegex(itself["sentence"], "^in, over .* of the nominal area")
-        found = frangia.inspect_surface(smaller, part, min_feature_mm=2)
-        self.assertEqual(found["verdict"], "out")
-        self.assertAlmostEqual(found["places"][0]["deviation_mm"], -0.5, delta=0.1)
         picture = part.show(width_px=200, height_px=150)
         self.assertTrue(picture._repr_png_().startswith(b"\x89PNG"))
         with self.assertRaises(frangia.InputError):
@@ -236,6 +230,57 @@ class Meshes(unittest.TestCase):
     def test_a_view_keeps_its_mesh(self):
         vertices = frangia.make_part("plate").vertices
         self.assertTrue(np.isfinite(vertices).all())
+
+
+class Inspections(unittest.TestCase):
+    def test_by_a_plan_of_python(self):
+        part = frangia.make_part("plate")
+        plan = frangia.InspectionPlan(align="none", tolerance_mm=(-0.1, 0.1), min_feature_mm=2)
+        itself = frangia.inspect_part(part, part, plan)
+        self.assertEqual(itself.verdict, "in")
+        self.assertRegex(itself.sentence, "^in, over .* of the nominal area")
+        self.assertEqual(itself.reference_from_mesh.tolist(), np.eye(4).tolist())
+        self.assertEqual(itself.to_dict()["deviation"]["verdict"], "in")
+        smaller = frangia.edit(part, [("offset", "-0.5mm")])
+        found = frangia.inspect_part(smaller, part, plan)
+        self.assertEqual(found.verdict, "out")
+        self.assertAlmostEqual(found.places[0].deviation_mm, -0.5, delta=0.1)
+        self.assertEqual(len(found.deviation_mm), len(smaller.vertices))
+        self.assertAlmostEqual(float(np.nanmean(found.deviation_mm)), -0.5, delta=0.1)
+        plan.tolerance_mm = (-1, 1)
+        self.assertEqual(frangia.inspect_part(smaller, part, plan).verdict, "in")
+
+    def test_by_a_file(self):
+        with tempfile.TemporaryDirectory() as folder:
+            folder = pathlib.Path(folder)
+            part = frangia.make_part("ball-bar")
+            frangia.write_mesh(folder / "nominal.ply", part)
+            (folder / "inspection.toml").write_text(
+                'format = "frangia-inspection"\nversion = 1\nreference = "nominal.ply"\n[[features]]\n'
+                'name = "ball <A>"\nkind = "sphere"\nnear_mm = [0, 35, 60]\ndiameter_mm = 40\n'
+                "tolerance_mm = [-0.02, 0.02]\n"
+            )
+            plan = frangia.read_inspection_plan(folder / "inspection.toml")
+            self.assertEqual(plan.features, ["ball <A>"])
+            found = frangia.inspect_part(part, plan=plan)
+            (row,) = found.characteristics
+            self.assertAlmostEqual(row.value, 40, delta=0.01)
+            self.assertEqual((row.nominal, row.limits, row.verdict), (40, (39.98, 40.02), "in"))
+            shown = found._repr_html_()
+            self.assertIn("<td>ball &lt;A&gt; diameter</td>", shown)
+            written = found.write_report(folder / "report.html")
+            self.assertIn("ball &lt;A&gt;", (folder / "report.html").read_text())
+            self.assertEqual(pathlib.Path(written[-1]).name, "report.html")
+            self.assertIsNone(found.reference_from_mesh)
+
+    def test_refuses_in_one_sentence(self):
+        part = frangia.make_part("plate")
+        with self.assertRaisesRegex(frangia.InputError, "there is no reference to align"):
+            frangia.inspect_part(part, plan=frangia.InspectionPlan(align="best-fit"))
+        with self.assertRaisesRegex(frangia.InputError, 'align = "roughly" is not known'):
+            frangia.InspectionPlan(align="roughly")
+        with self.assertRaisesRegex(frangia.ArgumentError, "reference is the number 3; give a path"):
+            frangia.inspect_part(part, 3)
 
 
 if __name__ == "__main__":

@@ -78,7 +78,8 @@ TEST_F(ReferenceTransaction, IsThereForAComparisonThatFollowsAtOnce) {
   service_->add_to_reference(0, bytes);
   static_cast<void>(
       command("set-reference", {{"name", "box"}, {"format", "stl"}, {"bytes", bytes.size()}}));
-  static_cast<void>(command("compare", {{"align", "none"}}));
+  static_cast<void>(command("set-plan", {{"plan", {{"align", "none"}}}}));
+  static_cast<void>(command("inspect"));
   EXPECT_EQ(finish().at("state"), "done");
   EXPECT_EQ(state().at("project").at("surface").at("comparison").at("reference"), "box");
 }

@@ -177,43 +177,6 @@ TEST_F(ServiceTest, PreviewsAnEditWithoutApplyingIt) {
   EXPECT_NE(refusal("preview", R"({"operation": "no-such"})"), "");
 }
 
-TEST_F(ServiceTest, ComparesTheSurfaceWithAReferenceThatArrivesInPieces) {
-  open_box();
-  EXPECT_NE(refusal("compare", "{}"), "") << "there is no reference";
-  const auto file = folder_.path() / "nominal.stl";
-  Mesh nominal = testing::sphere({20, 0, 0}, 3.0, 12);
-  append_mesh(nominal, testing::box({-5, -5, -5}, {5, 5, 4.75}));  // 0.25 mm lower than measured
-  write_mesh(file, nominal);
-  std::ifstream stream(file, std::ios::binary);
-  const std::string bytes{std::istreambuf_iterator<char>(stream), {}};
-  const std::size_t half = bytes.size() / 2;
-  service_->add_to_reference(0, bytes.substr(0, half));
-  EXPECT_NE(error_of([&] { service_->add_to_reference(half + 1, "x"); }), "") << "a gap";
-  EXPECT_NE(error_of([&] { service_->add_to_reference(600'000'000, "x"); }), "") << "too large";
-  Json asked = {{"name", "nominal.stl"}, {"format", "stl"}, {"bytes", bytes.size()}};
-  EXPECT_NE(refusal("set-reference", asked.dump()), "") << "it is incomplete";
-  service_->add_to_reference(half, bytes.substr(half));
-  asked["format"] = "../stl";
-  EXPECT_NE(refusal("set-reference", asked.dump()), "");
-  asked["format"] = "stl";
-  static_cast<void>(command("set-reference", asked));
-  EXPECT_EQ(finish().at("state"), "done");
-  EXPECT_NE(refusal("compare", R"({"lower_mm": 1, "upper_mm": 0})"), "");
-  static_cast<void>(command("compare", {{"align", "none"}, {"lower_mm", -0.1}, {"upper_mm", 0.2}}));
-  ASSERT_EQ(finish().at("state"), "done");
-  const Json found = state().at("project").at("surface").at("comparison");
-  EXPECT_EQ(found.at("reference"), "nominal.stl");
-  EXPECT_EQ(found.at("tolerance_mm"), Json::array({-0.1, 0.2}));
-  EXPECT_NEAR(found.at("max_mm").get<double>(), 0.25, 1e-6);
-  EXPECT_EQ(found.at("verdict"), "out");
-  EXPECT_FALSE(service_->deviations(0).empty());
-  EXPECT_TRUE(service_->deviations(1).empty());
-  restart();
-  static_cast<void>(command("open-project", {{"name", "box"}}));
-  static_cast<void>(finish());
-  EXPECT_EQ(state().at("project").at("reference").at("name"), "nominal.stl");
-}
-
 TEST_F(ServiceTest, EstimatesTheSizeOfAFileBeforeItIsWritten) {
   open_box(60);
   for (const char* format : {"dxf", "stl", "ply", "obj", "glb"}) {

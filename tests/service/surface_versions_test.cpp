@@ -43,6 +43,19 @@ class VersionsOfASurface : public ServiceTest {
   [[nodiscard]] Json now() const { return state().at("project"); }
 };
 
+TEST_F(VersionsOfASurface, AreInspectedWithTheScanThatTheyWereMadeOfUntilAStepMovesThem) {
+  open_scanned();
+  ASSERT_EQ(run("reconstruct", {{"voxel_mm", 2.0}}).at("state"), "done");
+  const auto report = [&] {
+    EXPECT_EQ(run("inspect", {{"features", true}}).at("state"), "done");
+    EXPECT_EQ(run("report").at("state"), "done");
+    return text_of(service_->exported("box report.html").path);
+  };
+  EXPECT_NE(report().find("SHA-256 of scan.toml"), std::string::npos);
+  ASSERT_EQ(run("edit", {{"operation", "mirror"}, {"value", "1,0,0,0"}}).at("state"), "done");
+  EXPECT_EQ(report().find("SHA-256 of scan.toml"), std::string::npos);
+}
+
 TEST_F(VersionsOfASurface, StayWithTheirEditsWhenTheSurfaceIsBuiltAgain) {
   open_scanned();
   ASSERT_EQ(run("reconstruct", {{"voxel_mm", 2.0}}).at("state"), "done");

@@ -1,13 +1,13 @@
 import { html, LitElement, type TemplateResult } from 'lit';
 import { customElement } from 'lit/decorators.js';
 
-import type { StepName } from './app_steps';
+import { ON_SURFACE, type StepName } from './app_steps';
 import { Arranging } from './arranging';
 import { Asking } from './ask';
-import { Comparing } from './comparing';
 import { Editing } from './editing';
 import { Exporting } from './exporting';
 import { dialogs, footer, header, picture } from './frame_parts';
+import { Inspecting } from './inspecting';
 import { onKey } from './keyboard';
 import type { Sharing } from './link_dialog';
 import { LiveStage } from './live_stage';
@@ -24,6 +24,7 @@ import { acts, blankPage, notices } from './shell';
 import { StationClouds } from './station_clouds';
 import { editStep } from './steps/edit';
 import { exportStep } from './steps/export';
+import { inspectStep } from './steps/inspect';
 import { liveStep } from './steps/live';
 import { projectStep } from './steps/project';
 import { rigStep } from './steps/rig';
@@ -46,6 +47,7 @@ const PANELS: Record<Exclude<StepName, 'project'>, (app: App) => TemplateResult>
   scan: scanStep,
   surface: surfaceStep,
   edit: editStep,
+  inspect: inspectStep,
   export: exportStep,
 };
 
@@ -67,7 +69,7 @@ export class App extends LitElement {
   readonly arranging = new Arranging(this);
   readonly live = new LiveStage(this);
   readonly setups = new Setups(this);
-  readonly comparing = new Comparing(this);
+  readonly inspecting = new Inspecting(this);
   readonly editing = new Editing(this);
   readonly exporting = new Exporting(this);
   readonly measuring = new Measuring(this);
@@ -100,7 +102,11 @@ export class App extends LitElement {
       outlined: (outline, through, keys) =>
         void this.editing.selectBy(through ? 'select-outline-through' : 'select-outline', outline, keys),
       partPicked: (triangle, keys) => void this.editing.selectPart(triangle, keys),
-      picked: (tool, points, keys) => void this.editing.picked(tool, points, keys),
+      picked: (tool, points, keys) => {
+        const [at] = points;
+        if (tool === 'feature' && at) this.inspecting.picked(at);
+        else void this.editing.picked(tool, points, keys);
+      },
     });
     this.clouds = new StationClouds(
       this.session,
@@ -160,7 +166,7 @@ export class App extends LitElement {
         this.refused = false;
       }
       this.showWantedSurface();
-      this.comparing.follow();
+      this.inspecting.follow();
       this.opening.follow();
       this.live.follow();
       if (this.step === 'rig') this.viewer.setRig(this.arranging.drawnRig);
@@ -217,7 +223,7 @@ export class App extends LitElement {
     this.step = step;
     this.setTool('orbit');
     this.chooseClouds();
-    this.viewer.showSurface(step === 'surface' || step === 'edit' || step === 'export');
+    this.viewer.showSurface(ON_SURFACE.has(step));
     this.viewer.setRig(step === 'rig' ? (this.session.state?.project?.rig ?? null) : null);
     if (step === 'rig') this.viewer.frame([0.55, -0.9, 0.5]);
     else if (before === 'rig') this.viewer.frame([0.9, -1.1, 0.6]);

@@ -44,12 +44,13 @@ export class Editing {
     if (this.app.viewer.tool === 'align') this.app.setTool('orbit');
     this.run(preview.operation, preview.value);
   }
-  /** Brings the marks of the chosen holes into the picture, and the focus to a new preview. */
+  /** Brings the marks of the chosen holes, or of what was inspected, into the picture, and the focus to a new preview. */
   follow(): void {
     const { app } = this;
     const surface = app.session.state?.project?.surface;
     const chosen = app.step === 'edit' && surface ? this.chosenHoles : new Set<number>();
-    app.viewer.markHoles((surface?.holes ?? []).filter((hole) => chosen.has(hole.number)));
+    if (app.step === 'inspect' && surface) app.viewer.mark(app.inspecting.marks);
+    else app.viewer.mark((surface?.holes ?? []).filter((hole) => chosen.has(hole.number)));
     this.focusPreview();
   }
   /** Puts the focus on what applies a new preview, so that Enter does; the button that asked for it was disabled. */

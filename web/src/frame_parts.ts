@@ -92,10 +92,12 @@ export function footer(app: App): TemplateResult {
       : app.step === 'rig'
         ? commands.rig
         : app.step === 'surface'
-          ? (app.look.coloring === 'deviation' && commands.inspect) || commands.reconstruct
-          : app.step === 'project'
-            ? undefined
-            : commands.edit;
+          ? commands.reconstruct
+          : app.step === 'inspect'
+            ? commands.inspect
+            : app.step === 'project'
+              ? undefined
+              : commands.edit;
   const line = words?.map(quoted).join(' ') ?? '';
   const last = app.state.jobs.at(-1);
   // What the library says is English: in another language only what a person must know.

@@ -1,6 +1,10 @@
 import * as THREE from 'three';
 
-import type { Hole } from './types';
+/** A place that is ringed. */
+export interface Marked {
+  center_mm: [number, number, number];
+  size_mm: number;
+}
 
 /** How much larger than its hole a ring is. */
 const AROUND = 1.25;
@@ -23,14 +27,14 @@ function ring(): THREE.Texture {
   return new THREE.CanvasTexture(canvas);
 }
 
-/** Rings around the holes that were chosen in the list, so that one sees which they are. */
+/** Rings around holes and places that were chosen, so that one sees which they are. */
 export class HoleMarks {
   readonly group = new THREE.Group();
   private material: THREE.SpriteMaterial | null = null;
   private shown = '';
 
   /** Returns whether the picture changes. */
-  set(holes: readonly Hole[], least_mm: number): boolean {
+  set(holes: readonly Marked[], least_mm: number): boolean {
     const key = JSON.stringify([holes, least_mm]);
     if (key === this.shown) return false;
     this.shown = key;

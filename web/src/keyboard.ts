@@ -7,7 +7,7 @@ import { reachable } from './step_state';
 import { VIEWS } from './view_tools';
 
 export const KEYS: readonly (readonly [MessageKey | IconName, string])[] = [
-  ['keys.steps', '1 – 7'],
+  ['keys.steps', '1 – 8'],
   ['app.frame', 'F'],
   ['app.views', 'Shift 1 – 7'],
   ['rig.poseKey', 'Enter'],
@@ -44,7 +44,7 @@ export function onKey(app: App, event: KeyboardEvent): void {
     const [x, y, z] = view[1];
     return app.viewer.frame([x, y, z]);
   }
-  if (/^[1-7]$/.test(key)) {
+  if (/^[1-8]$/.test(key)) {
     const step = STEPS[Number(key) - 1] as StepName;
     if (reachable(app.state.project, step)) app.go(step);
   } else if (key === '?') app.dialog('keys').showModal();

@@ -1,9 +1,9 @@
 import { CHECK } from './messages/check';
-import { COMPARE } from './messages/compare';
 import { EDIT } from './messages/edit';
 import { EXPORT } from './messages/export';
 import { FRAME } from './messages/frame';
 import { HOME } from './messages/home';
+import { INSPECT } from './messages/inspect';
 import { LIVE } from './messages/live';
 import { RIG } from './messages/rig';
 import { SCAN } from './messages/scan';
@@ -18,8 +18,8 @@ const CATALOGUE = {
   ...SCAN,
   ...CHECK,
   ...SURFACE,
-  ...COMPARE,
   ...EDIT,
+  ...INSPECT,
   ...EXPORT,
 } as const;
 

@@ -114,8 +114,8 @@ export class Opening {
       const answer = await app.asking.choose(t('open.which', { name: file.name }), answers);
       if (answer === null) return;
       if (answer === 0) {
-        app.go('surface');
-        return app.comparing.send(file);
+        app.go('inspect');
+        return app.inspecting.send(file);
       }
     }
     await this.own(file, format, stem(file.name), 'surface');

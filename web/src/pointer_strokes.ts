@@ -1,9 +1,10 @@
 import { brushOutline, type Point } from './strokes';
 
-export type Tool = 'orbit' | 'measure' | 'angle' | 'brush' | 'lasso' | 'rectangle' | 'part' | 'loop' | 'align';
+export type Tool =
+  'orbit' | 'measure' | 'angle' | 'brush' | 'lasso' | 'rectangle' | 'part' | 'loop' | 'align' | 'feature';
 
 export const DRAWING: ReadonlySet<Tool> = new Set(['lasso', 'rectangle', 'brush']);
-const CLICKING: ReadonlySet<Tool> = new Set(['measure', 'angle', 'part', 'loop', 'align']);
+const CLICKING: ReadonlySet<Tool> = new Set(['measure', 'angle', 'part', 'loop', 'align', 'feature']);
 
 /** The keys that are held while the pointer draws. */
 export interface ModifierKeys {

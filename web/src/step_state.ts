@@ -9,6 +9,9 @@ export function reachable(project: Project | null, step: StepName): boolean {
   return Boolean(project?.surface);
 }
 
+/** Files of other steps: boards, reports and plans. */
+const NO_EXPORTS = /^(calibration\.html|board-.*|inspection\.toml|.* report\.(html|csv|qif))$/;
+
 /** Whether a step has its result. */
 export function finished(project: Project | null, step: StepName): boolean {
   if (step === 'project') return project !== null;
@@ -16,6 +19,7 @@ export function finished(project: Project | null, step: StepName): boolean {
   if (step === 'live') return Boolean(project?.scan_begun);
   if (step === 'scan') return Boolean(project?.scan_complete);
   if (step === 'surface') return Boolean(project?.surface);
+  if (step === 'inspect') return Boolean(project?.surface?.inspection);
   if (step === 'edit') return (project?.surface?.steps_done ?? 0) > 0;
-  return (project?.exports ?? []).some(({ name }) => name !== 'calibration.html' && !name.startsWith('board-'));
+  return (project?.exports ?? []).some(({ name }) => !NO_EXPORTS.test(name));
 }

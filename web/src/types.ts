@@ -1,3 +1,5 @@
+import type { Comparison, Inspection, Plan } from './inspection_types';
+
 /** The state that the server sends; docs/service-schema.json describes it. */
 export type JobState = 'waiting' | 'running' | 'done' | 'failed' | 'stopped';
 export interface LogLine {
@@ -19,7 +21,8 @@ export interface Job {
     | 'edit'
     | 'preview'
     | 'reference'
-    | 'compare'
+    | 'inspect'
+    | 'report'
     | 'export'
     | 'copy'
     | 'rig'
@@ -208,42 +211,6 @@ export interface Calibration {
   poses: { points: number; expected: number }[];
   verdict: Verdict | null;
 }
-/** Deviations of the surface from a reference; shares are of the compared area. */
-export interface Comparison {
-  revision: number;
-  reference: string;
-  reference_triangles: number;
-  best_fit: boolean;
-  /** Of `poses`, from 1. */
-  start: number;
-  /** Poses that fit alike, the best first. */
-  poses: { turned_deg: number; moved_mm: number; overlap: number; rms_mm: number | null }[];
-  tolerance_mm: [number, number];
-  scale_mm: [number, number];
-  histogram: number[];
-  verdict: 'in' | 'out' | 'undecided';
-  /** The verdict in words, with the reason and what to do. */
-  sentence: string;
-  /** Shares of the nominal area; they sum to 1. */
-  in_share: number;
-  out_share: number;
-  undecided_share: number;
-  not_measured_share: number;
-  /** Diameter of the patches over which deviations are averaged. */
-  patch_mm: number;
-  rms_mm: number | null;
-  mean_mm: number | null;
-  min_mm: number | null;
-  max_mm: number | null;
-  median_u_mm: number | null;
-  area_mm2: number;
-  overlap: number;
-  fit_rms_mm: number | null;
-  turned_deg: number;
-  moved_mm: number;
-  left_out: number;
-  free_directions: string[];
-}
 export interface Preview extends Step {
   revision: number;
 }
@@ -261,6 +228,7 @@ export interface Surface {
   /** Levels of detail, the coarsest first. */
   levels: { triangles: number; error_mm: number }[];
   comparison: Comparison | null;
+  inspection: Inspection | null;
   preview: Preview | null;
   mesh_revision: number;
   selection_revision: number;
@@ -363,6 +331,9 @@ export interface Project {
   exports: ExportedFile[];
   reference: { name: string; format: string } | null;
   measurements: HandMeasurement[];
+  /** That the surface is inspected by; null: none was made. */
+  plan: Plan | null;
+  plan_fault: string;
   commands: { rig?: string[]; scan?: string[]; reconstruct?: string[]; edit?: string[]; inspect?: string[] };
 }
 /** Points that were clicked on a mesh: two for a distance, three for an angle. */

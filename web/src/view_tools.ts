@@ -1,5 +1,6 @@
 import { html, type TemplateResult } from 'lit';
 import type { App } from './app';
+import { ON_SURFACE } from './app_steps';
 import { icon } from './icons';
 import { surfaceLegend } from './legend';
 import { type MessageKey, t } from './messages';
@@ -45,11 +46,12 @@ const chip = (text: string): TemplateResult => html`<div class="chip">${text}</d
 export function viewOverlay(app: App): TemplateResult {
   const { viewer } = app;
   const scene = viewer.supported && !app.showsCamera && !app.showsResiduals;
-  const showsSurface = scene && (app.step === 'surface' || app.step === 'edit' || app.step === 'export');
+  const showsSurface = scene && ON_SURFACE.has(app.step);
   return html`<div class="floating">
       ${previewBar(app)} ${viewer.tool === 'measure' && !app.measuring.last ? chip(t('surface.measureHint')) : ''}
       ${viewer.tool === 'angle' && !app.measuring.last ? chip(t('surface.angleHint')) : ''}
       ${viewer.tool === 'align' && !app.project.surface?.preview ? chip(t('edit.alignHint')) : ''}
+      ${viewer.tool === 'feature' ? chip(t('inspect.pickHint')) : ''}
       ${viewer.tool === 'loop' ? chip(t('edit.loopHint')) : ''} ${app.measuring.chip()}
       ${showsSurface ? surfaceLegend(app) : ''}
     </div>

@@ -5,14 +5,14 @@ import type { MeshArrays } from './arrays';
 import { CloudsView } from './clouds_view';
 import type { Coloring, Legend } from './mesh_colors';
 import { EditPreview } from './edit_preview';
-import { HoleMarks } from './hole_marks';
+import { HoleMarks, type Marked } from './hole_marks';
 import { type Measurement, type MeasureKind, Ruler } from './ruler';
 import { RigModel } from './rig_model';
 import { addLights, addTable } from './stage_props';
 import { Smoothing } from './smoothing';
 import { DRAWING, type ModifierKeys, PointerStrokes, type Tool } from './pointer_strokes';
 import { type SectionAxis, type Shading, SurfaceView } from './surface_view';
-import type { Hole, RigGeometry } from './types';
+import type { RigGeometry } from './types';
 import { type Outline, ViewCamera } from './view_camera';
 import { ViewMarks } from './view_marks';
 
@@ -274,7 +274,7 @@ export class Viewer {
     this.draw();
   }
   /** Rings around some holes. */
-  markHoles(holes: readonly Hole[]): void {
+  mark(holes: readonly Marked[]): void {
     if (this.holes.set(holes, this.size.length() / 30)) this.draw();
   }
   setDeviations(values: readonly (Float32Array | null)[], band: [number, number] | null): void {
@@ -340,7 +340,7 @@ export class Viewer {
 
   private onHit(hit: Hit, keys: ModifierKeys): void {
     if (this.tool === 'part') return this.events.partPicked(hit.triangle, keys);
-    if (this.tool === 'loop') return this.events.picked('loop', [hit.point_mm], keys);
+    if (this.tool === 'loop' || this.tool === 'feature') return this.events.picked(this.tool, [hit.point_mm], keys);
     const kind: MeasureKind = this.tool === 'measure' ? 'distance' : this.tool === 'angle' ? 'angle' : 'points';
     const point = new THREE.Vector3(...hit.point_mm);
     const result = this.ruler.add(point, hit.sigma_mm ?? NaN, kind, this.size.length() / 260);

@@ -10,7 +10,7 @@
 #include "frangia/core/read_regular_file.h"
 #include "frangia/dataset/scan_folder.h"
 #include "frangia/dataset/stored_frames.h"
-#include "frangia/report/inspection_plan.h"
+#include "frangia/inspection/inspection_plan.h"
 
 namespace frangia {
 namespace {

@@ -26,19 +26,24 @@ void append_capture(const CaptureSettings& settings, std::vector<std::string>& w
   append("--black-level", settings.camera.black_level_counts, usual.camera.black_level_counts);
 }
 
-std::vector<std::string> inspect_line(const ProgressOfComparison& comparison,
+std::vector<std::string> inspect_line(const ProgressOfInspection& inspection,
                                       const std::filesystem::path& mesh) {
-  std::vector<std::string> words = {
-      "frangia",
-      "inspect",
-      mesh.string(),
-      "--reference",
-      comparison.reference.string(),
-      "--align",
-      comparison.best_fit ? "best-fit" : "none",
-      fmt::format("--tolerance={:g},{:g}", comparison.lower_mm, comparison.upper_mm)};
-  if (comparison.best_fit && comparison.poses > 1)
-    words.insert(words.end(), {"--start", std::to_string(comparison.start)});
+  std::vector<std::string> words = {"frangia", "inspect", mesh.string()};
+  if (!inspection.plan.empty()) {
+    words.insert(words.end(), {"--plan", inspection.plan.string()});
+  } else if (!inspection.reference.empty()) {
+    words.insert(words.end(),
+                 {"--reference",
+                  inspection.reference.string(),
+                  "--align",
+                  inspection.best_fit ? "best-fit" : "none",
+                  fmt::format("--tolerance={:g},{:g}", inspection.lower_mm, inspection.upper_mm)});
+  } else {
+    words.emplace_back("--features");
+  }
+  if (!inspection.scan.empty()) words.insert(words.end(), {"--scan", inspection.scan.string()});
+  if (inspection.best_fit && !inspection.chosen && inspection.poses > 1)
+    words.insert(words.end(), {"--start", std::to_string(inspection.start)});
   return words;
 }
 
@@ -98,12 +103,12 @@ CommandLines command_lines(const ProjectProgress& project) {
       if (!step.value.empty()) edit.push_back(step.value);
     }
     edit.insert(edit.end(), {"-o", (folder.exports() / (folder.name + ".dxf")).string()});
-    if (project.comparison) {
-      // An edited surface is compared as the command line above writes it.
+    if (project.inspection) {
+      // An edited surface is inspected as the command line above writes it.
       const std::filesystem::path edited = folder.exports() / (folder.name + ".ply");
       if (!project.steps.empty()) edit.insert(edit.end(), {"-o", edited.string()});
       lines["inspect"] =
-          inspect_line(*project.comparison, project.steps.empty() ? project.surface : edited);
+          inspect_line(*project.inspection, project.steps.empty() ? project.surface : edited);
     }
     lines["edit"] = edit;
   }

@@ -51,4 +51,18 @@ double parse_length_mm(std::string_view text) {
                   "' is not a length: write a number and um, mm, cm, m or in, such as 1.5mm");
 }
 
+std::optional<double> parse_unit_mm(std::string_view text) {
+  constexpr double kFoot_mm = 304.8;
+  if (text == "ft") return kFoot_mm;
+  std::string length(text);
+  if (!text.empty() && text.find_first_of("0123456789") == std::string_view::npos)
+    length.insert(length.begin(), '1');  // the name of a unit
+  try {
+    const double unit_mm = parse_length_mm(length);
+    if (unit_mm > 0.0) return unit_mm;
+  } catch (const Error&) {  // NOLINT(bugprone-empty-catch): it is no length, so it is no unit
+  }
+  return std::nullopt;
+}
+
 }  // namespace frangia

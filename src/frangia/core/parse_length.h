@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string_view>
 
 namespace frangia {
@@ -11,5 +12,12 @@ namespace frangia {
 /// @errors   Error(Input) that shows the text: no number, an unknown unit, or a length that is not
 ///          finite. A negative length is a length; the caller checks the sign.
 [[nodiscard]] double parse_length_mm(std::string_view text);
+
+/// The length of a unit, in mm: the name of a unit (um, mm, cm, m, in, ft) or a length above 0 such
+/// as "25.4mm"; none for another text.
+[[nodiscard]] std::optional<double> parse_unit_mm(std::string_view text);
+
+/// What a text that `parse_unit_mm` does not know is told to be.
+inline constexpr std::string_view kUnitsKnown = "um, mm, cm, m, in, ft or a length such as 25.4mm";
 
 }  // namespace frangia

@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include <Eigen/Geometry>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "frangia/core/error.h"
 #include "frangia/core/median.h"
@@ -59,6 +61,16 @@ DeviationSummary summarize(const Mesh& mesh, const Deviations& deviations) {
   if (!known_u.empty())
     summary.median_u_mm = static_cast<double>(median_in_place(std::span<float>(known_u)));
   return summary;
+}
+
+std::string left_out_text(const DeviationSummary& summary) {
+  std::vector<std::string> parts;
+  for (std::size_t i = 1; i < kDeviationStatuses; ++i) {
+    std::string name(name_of(static_cast<DeviationStatus>(i)));
+    std::replace(name.begin(), name.end(), '_', ' ');
+    if (summary.count.at(i) > 0) parts.push_back(fmt::format("{} {}", summary.count.at(i), name));
+  }
+  return parts.empty() ? "none" : fmt::format("{}", fmt::join(parts, ", "));
 }
 
 std::vector<float> deviation_histogram(const Mesh& mesh,

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstddef>
+#include <string>
 #include <vector>
 
 #include <Eigen/Core>
@@ -37,6 +38,9 @@ struct DeviationSummary {
 ///
 /// @units    mm
 [[nodiscard]] DeviationSummary summarize(const Mesh& mesh, const Deviations& deviations);
+
+/// How many vertices were not compared, and why: "3 sharp edge, 2 unused", or "none".
+[[nodiscard]] std::string left_out_text(const DeviationSummary& summary);
 
 /// Share of the compared area in each of `bins` equal intervals from `low` to `high`; values beyond
 /// an end count in the last interval on that side.

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "frangia/core/missing.h"
-#include "frangia/report/measured_characteristics.h"
+#include "frangia/inspection/measured_characteristics.h"
 
 namespace frangia {
 

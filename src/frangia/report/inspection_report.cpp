@@ -8,22 +8,14 @@
 #include <fmt/format.h>
 
 #include "frangia/core/atomic_file.h"
+#include "frangia/inspection/inspect_part.h"
 #include "frangia/report/internal/report_sheets.h"
 #include "frangia/report/result_table.h"
 
 namespace frangia {
 
 Conformity verdict_of(const InspectionReport& report) {
-  const Conformity rows = overall(report.characteristics);
-  bool limited = false;
-  for (const auto& row : report.characteristics)
-    limited = limited || row.limits.has_value();
-  if (!report.surface) return rows;
-  const Conformity deviation = report.surface->conformity;
-  if (!limited) return deviation;
-  if (rows == Conformity::Out || deviation == Conformity::Out) return Conformity::Out;
-  const bool both = rows == Conformity::In && deviation == Conformity::In;
-  return both ? Conformity::In : Conformity::Undecided;
+  return verdict_of(report.surface ? &*report.surface : nullptr, report.characteristics);
 }
 
 std::vector<std::string> reasons_of(const InspectionReport& report) {

@@ -11,11 +11,11 @@
 #include "frangia/inspect/deviation_summary.h"
 #include "frangia/inspect/surface_verdict.h"
 #include "frangia/inspect/thickness.h"
-#include "frangia/report/inspection_plan.h"
+#include "frangia/inspection/inspection_plan.h"
+#include "frangia/inspection/measured_characteristics.h"
 #include "frangia/report/labelled_picture.h"
-#include "frangia/report/measured_characteristics.h"
 #include "frangia/report/report_logo.h"
-#include "frangia/report/section_result.h"
+#include "frangia/report/section_drawing.h"
 
 namespace frangia {
 

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "frangia/report/measured_characteristics.h"
+#include "frangia/inspection/measured_characteristics.h"
 
 namespace frangia {
 

@@ -233,14 +233,15 @@ class TomlReader {
   }
 }
 
-/// Parses a file whose `format` key must equal `format` and whose version must be from 1 to
-/// `newest_version`.
+/// Parses the text of a file whose `format` key must equal `format` and whose version must be from
+/// 1 to `newest_version`.
 ///
 /// @errors   Error(Input) that names the file and the line or key
-[[nodiscard]] inline toml::table parse_toml(const std::filesystem::path& file,
-                                            const std::string& format,
-                                            int newest_version = 1) {
-  toml::table table = parse_toml_text(read_text_file(file), file);
+[[nodiscard]] inline toml::table parse_toml_text_as(const std::string& text,
+                                                    const std::filesystem::path& file,
+                                                    const std::string& format,
+                                                    int newest_version = 1) {
+  toml::table table = parse_toml_text(text, file);
   TomlReader reader(file, "", table);
   if (reader.text("format") != format) reader.fail("format", fmt::format("must be \"{}\"", format));
   const int version = reader.integer("version", 1, std::numeric_limits<int>::max());
@@ -251,6 +252,13 @@ class TomlReader {
                             newest_version));
   }
   return table;
+}
+
+/// Reads a file and parses it as `parse_toml_text_as`.
+[[nodiscard]] inline toml::table parse_toml(const std::filesystem::path& file,
+                                            const std::string& format,
+                                            int newest_version = 1) {
+  return parse_toml_text_as(read_text_file(file), file, format, newest_version);
 }
 
 }  // namespace frangia

@@ -47,8 +47,8 @@ struct ProjectFolder {
   [[nodiscard]] std::filesystem::path versions() const { return in_derived("versions.json"); }
   /// Quality of each station, JSON.
   [[nodiscard]] std::filesystem::path stations() const { return in_derived("stations.json"); }
-  /// A reference of the surface, of one of `reference_formats`. Each one has the next number, so
-  /// that it never takes the place of the one before; 0: that of an older program.
+  /// A reference of the surface, of a format that `set-reference` takes. Each one has the next
+  /// number, so that it never takes the place of the one before; 0: that of an older program.
   [[nodiscard]] std::filesystem::path reference(const std::string& format, int number) const;
   /// The file in which a reference arrives.
   [[nodiscard]] std::filesystem::path reference_part() const {
@@ -58,6 +58,8 @@ struct ProjectFolder {
   [[nodiscard]] std::filesystem::path reference_name() const {
     return in_derived("reference.json");
   }
+  /// How the surface is inspected: the plan that the page edits.
+  [[nodiscard]] std::filesystem::path plan() const { return in_derived("inspection.toml"); }
   /// Poses of a board, see CalibrationWizard.
   [[nodiscard]] std::filesystem::path calibration() const { return in_derived("calibration"); }
   /// Views of a board that the turntable turns, see calibrate_axis.

@@ -84,7 +84,10 @@ std::string Service::Implementation::command(const std::string& name, const std:
       {"preview", &Implementation::start_preview},
       {"drop-preview", &Implementation::drop_preview},
       {"set-reference", &Implementation::start_set_reference},
-      {"compare", &Implementation::start_compare},
+      {"set-plan", &Implementation::set_plan},
+      {"open-plan", &Implementation::open_plan},
+      {"inspect", &Implementation::start_inspect},
+      {"report", &Implementation::start_report},
       {"estimate-export", &Implementation::estimate_export},
       {"select-component-of", &Implementation::start_select_component},
       {"undo", &Implementation::start_undo},
@@ -310,12 +313,14 @@ std::string Service::preview() const {
 
 std::string Service::deviations(std::size_t level) const {
   const SurfacePtr surface = implementation_->surface();
-  if (!surface || !surface->comparison || level >= surface->picture->levels().size()) return {};
-  const auto values =
-      values_of_level(surface->comparison->found.deviation_mm, *surface->picture->levels()[level]);
+  if (!surface || !surface->inspection || !surface->inspection->found.surface ||
+      level >= surface->picture->levels().size())
+    return {};
+  const auto values = values_of_level(surface->inspection->found.surface->deviations.deviation_mm,
+                                      *surface->picture->levels()[level]);
   ArrayPacker packer;
   packer.add("deviation_mm", "float32", values.data(), values.size());
-  packer.set_values({{"revision", surface->comparison->revision}});
+  packer.set_values({{"revision", surface->inspection->revision}});
   return packer.pack();
 }
 

@@ -20,10 +20,13 @@
 
 namespace frangia {
 
-/// How the present surface was compared with a reference.
-struct ProgressOfComparison {
-  std::filesystem::path reference;  ///< its file
+/// How the present surface was inspected.
+struct ProgressOfInspection {
+  std::filesystem::path plan;       ///< its file; empty: none was made
+  std::filesystem::path reference;  ///< its file; empty: none
+  std::filesystem::path scan;       ///< whose rig the features hold; empty: none
   bool best_fit = true;             ///< otherwise as it stands
+  bool chosen = false;              ///< the plan states which of the poses
   std::size_t start = 1;            ///< of the poses that fit alike, from 1
   std::size_t poses = 0;            ///< that fit alike
   double lower_mm = 0.0;            ///< tolerance
@@ -49,7 +52,7 @@ struct ProjectProgress {
   std::filesystem::path surface{};                   ///< its file, before edits
   std::vector<EditStep> steps;                       ///< applied edits
   CaptureSettings capture;                           ///< of the scan
-  std::optional<ProgressOfComparison> comparison{};  ///< of the present surface
+  std::optional<ProgressOfInspection> inspection{};  ///< of the present surface
   std::optional<ProgressOfCalibration> calibration{};  ///< since the project was opened
 };
 

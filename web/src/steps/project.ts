@@ -182,7 +182,7 @@ function projectList(app: App): TemplateResult {
       <h2>${t('home.recent')}</h2>
       <div class="row">
         <button class="btn small" id="open-file" @click=${() => app.opening.choose(false)}>
-          ${icon('folder')}${sent === null ? t('open.file') : t('compare.sending', { share: number(100 * sent) })}
+          ${icon('folder')}${sent === null ? t('open.file') : t('inspect.sending', { share: number(100 * sent) })}
         </button>
         <button class="btn small" id="open-folder" @click=${() => app.opening.choose(true)}>${t('open.folder')}</button>
       </div>

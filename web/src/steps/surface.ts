@@ -5,7 +5,6 @@ import { joinedSetups } from '../legend';
 import type { Coloring } from '../mesh_colors';
 import { number, t } from '../messages';
 import { choice, nextStep, plain } from '../ui';
-import { comparing } from './compare';
 import { findings } from './surface_findings';
 import { joins } from './scan_setups';
 import { versions } from './surface_versions';
@@ -152,7 +151,7 @@ export function surfaceStep(app: App): TemplateResult {
       )}
       ${app.measuring.panel()}
     </section>
-    ${joins(app)} ${comparing(app)}
+    ${joins(app)}
     <section class="group">
       <h2>${t('surface.figures')}</h2>
       <dl class="figures">

@@ -139,10 +139,8 @@ std::optional<Feature> refine_feature(const FeaturePoints& points,
   feature.hole = side < 0.0 && best->shape.kind != ShapeKind::Plane;
   if (side < 0.0 && best->shape.kind == ShapeKind::Plane)
     feature.fit.shape.axis = -feature.fit.shape.axis;
-  if (!points.vertices.empty()) {
-    for (const std::uint32_t point : chosen)
-      feature.vertices.push_back(points.vertices[point]);
-  }
+  for (const std::uint32_t point : chosen)  // a sample where the mesh was sampled
+    feature.vertices.push_back(points.vertices.empty() ? point : points.vertices[point]);
   return feature;
 }
 

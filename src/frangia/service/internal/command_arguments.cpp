@@ -144,6 +144,12 @@ const nlohmann::json& CommandArguments::value(const char* key) {
   return *value;
 }
 
+nlohmann::json CommandArguments::object(const char* key) {
+  const nlohmann::json* value = find(key);
+  if (value == nullptr || !value->is_object()) fail_argument(key, "an object is missing here");
+  return *value;
+}
+
 void CommandArguments::check_all_read() const {
   for (const auto& [key, value] : json_.items())
     if (!read_.contains(key)) fail_argument(key.c_str(), "the command has no such argument");

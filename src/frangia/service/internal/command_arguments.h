@@ -56,6 +56,8 @@ class CommandArguments {
   /// Texts by name: an object of at most `most` texts; required.
   [[nodiscard]] std::map<std::string, std::string> texts(const char* key, std::size_t most);
   [[nodiscard]] const nlohmann::json& value(const char* key);  ///< of any kind; required
+  /// An object, whose keys the caller reads; required.
+  [[nodiscard]] nlohmann::json object(const char* key);
   /// Fails when a key is left that no function has read.
   void check_all_read() const;
 

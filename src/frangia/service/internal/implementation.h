@@ -100,7 +100,12 @@ class Service::Implementation {
   Json start_preview(CommandArguments& arguments);
   Json drop_preview(CommandArguments& arguments);
   Json start_set_reference(CommandArguments& arguments);
-  Json start_compare(CommandArguments& arguments);
+  Json set_plan(CommandArguments& arguments);
+  Json open_plan(CommandArguments& arguments);
+  /// Keeps a plan that arrived as text, in the folder and in the state.
+  Json keep_plan(const std::string& text);
+  Json start_inspect(CommandArguments& arguments);
+  Json start_report(CommandArguments& arguments);
   Json estimate_export(CommandArguments& arguments);
   Json start_select_component(CommandArguments& arguments);
   Json start_undo(CommandArguments& arguments);

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <filesystem>
 #include <string_view>
@@ -14,7 +15,6 @@
 #include "frangia/core/make_folder.h"
 #include "frangia/core/open_below.h"
 #include "frangia/core/sync_to_disk.h"
-#include "frangia/service/compare_surface.h"
 #include "frangia/service/internal/implementation.h"
 
 namespace frangia {
@@ -26,8 +26,12 @@ constexpr const char* kReferenceName = "reference.json";
 constexpr const char* kReferencePart = "reference.part";
 constexpr const char* kReferenceJob = "reference";
 
+/// Extensions of the files that may be references, without their dot.
+constexpr std::array<std::string_view, 6> kReferenceFormats{
+    "stl", "ply", "obj", "3mf", "step", "stp"};
+
 void require_reference_format(const std::string& format) {
-  const auto& known = reference_formats();
+  const auto& known = kReferenceFormats;
   require(std::find(known.begin(), known.end(), format) != known.end(),
           "a reference is an STL, PLY, OBJ, 3MF or STEP file; choose another file");
 }
@@ -143,34 +147,6 @@ bool Service::Implementation::awaits_reference() const {
     return job.kind == kReferenceJob &&
            (job.state == JobState::Waiting || job.state == JobState::Running);
   });
-}
-
-nlohmann::ordered_json Service::Implementation::start_compare(CommandArguments& arguments) {
-  const ProjectFolder project = folder();
-  CompareOptions options;
-  const std::string align = arguments.text_or("align", "best-fit");
-  const auto lower = arguments.number("lower_mm");
-  const auto upper = arguments.number("upper_mm");
-  constexpr std::size_t kMostPoses = 1000;
-  options.start = arguments.whole_or("start", 1, 1, kMostPoses) - 1;
-  arguments.check_all_read();
-  require(align == "best-fit" || align == "none", "align: is best-fit or none");
-  options.best_fit = align == "best-fit";
-  options.tolerance = {lower.value_or(options.tolerance.lower),
-                       upper.value_or(options.tolerance.upper)};
-  options.tolerance.check();
-  constexpr const char* kNone = "there is no reference; choose a file to compare with first";
-  require(!opened().reference.name.empty() || awaits_reference(), kNone);
-  return started_view(
-      "compare", [this, project, options](const SurfaceModel& model, int count, const Run& run) {
-        const ProjectReference reference = opened().reference;  // a job before may have set it
-        require(!reference.name.empty(), kNone);
-        return model.compared(project.reference(reference.format, reference.number),
-                              reference.name,
-                              options,
-                              count,
-                              run);
-      });
 }
 
 }  // namespace frangia

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "frangia/core/angles.h"
+#include "frangia/inspection/write_inspection_plan.h"
 #include "frangia/phase/algorithm/published_algorithms.h"
 #include "frangia/service/example_rigs.h"
 #include "frangia/service/internal/rig_json.h"
@@ -118,6 +119,8 @@ Json json_of_project(const OpenProject& project, const CommandLines& commands) {
   json["reference"] = project.reference.name.empty() ? Json()
                                                      : Json{{"name", project.reference.name},
                                                             {"format", project.reference.format}};
+  json["plan"] = project.plan ? Json::parse(inspection_plan_json(*project.plan, {})) : Json();
+  json["plan_fault"] = project.plan_fault;
   json["commands"] = Json::object();
   for (const auto& [step, words] : commands)
     json["commands"][step] = words;
@@ -151,15 +154,18 @@ ProjectProgress progress_of(const OpenProject& project) {
     const auto& steps = project.surface->steps;
     const auto done = static_cast<std::ptrdiff_t>(project.surface->done);
     progress.steps.assign(steps.begin(), steps.begin() + done);
-    if (const auto& shown = project.surface->comparison) {
-      const ToleranceLimits& limits = shown->found.verdict.rule.limits;
-      progress.comparison = {
-          project.folder.reference(project.reference.format, project.reference.number),
-          shown->best_fit,
-          shown->start + 1,
-          shown->found.poses.size(),
-          limits.lower,
-          limits.upper};
+    if (const auto& shown = project.surface->inspection) {
+      const ToleranceLimits limits = shown->asked.plan.tolerance();
+      const auto& alignment = shown->found.alignment;
+      progress.inspection = {project.plan ? project.folder.plan() : std::filesystem::path(),
+                             shown->asked.plan.reference,
+                             shown->asked.scan ? project.folder.scan : std::filesystem::path(),
+                             shown->asked.plan.align == "best-fit",
+                             project.plan && project.plan->start > 0,
+                             std::max<std::size_t>(shown->asked.plan.start, 1),
+                             alignment ? alignment->alternatives.size() : 0,
+                             limits.lower,
+                             limits.upper};
     }
   }
   return progress;

@@ -12,6 +12,7 @@
 #include "frangia/core/folder_lock.h"
 #include "frangia/devices/find_devices.h"
 #include "frangia/devices/test_devices.h"
+#include "frangia/inspection/inspection_plan.h"
 #include "frangia/rig/rig.h"
 #include "frangia/service/calibrate_axis.h"
 #include "frangia/service/calibration_wizard.h"
@@ -46,7 +47,7 @@ struct DeviceSearch {
 /// A file that the surface is compared with.
 struct ProjectReference {
   std::string name;    ///< for people, as the file was called; empty: there is none
-  std::string format;  ///< one of reference_formats
+  std::string format;  ///< of a format that set-reference takes
   int number = 0;      ///< of its file, see ProjectFolder::reference
 
   bool operator==(const ProjectReference&) const = default;
@@ -86,7 +87,12 @@ struct OpenProject {
   std::vector<ExportEntry> exports;
   ProjectReference reference;
   std::vector<HandMeasurement> measurements;
+  std::optional<InspectionPlan> plan;  ///< without its reference; none: none was made
+  std::string plan_fault;              ///< why the plan in the folder cannot be read
 };
+
+/// Reads the plan of a project into it.
+void read_plan_of(const ProjectFolder& folder, OpenProject& project);
 
 /// Whether the parts of its rig can be moved by hand: they are simulated, and nothing was measured
 /// of them.

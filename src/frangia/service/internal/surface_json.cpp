@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "frangia/core/angles.h"
+#include "frangia/service/internal/shown_inspection.h"
 
 namespace frangia {
 namespace {
@@ -31,49 +31,6 @@ Json json_of_change(const StepChange& change) {
           {"components", change.components},
           {"moved", change.moved},
           {"selected", change.selected}};
-}
-
-Json json_of_comparison(const ShownComparison& shown) {
-  const SurfaceComparison& found = shown.found;
-  const DeviationSummary& summary = found.summary;
-  const SurfaceVerdict& verdict = found.verdict;
-  Json poses = Json::array();
-  for (const ComparedPose& pose : found.poses) {
-    poses.push_back({{"turned_deg", deg_from_rad(pose.turned_rad)},
-                     {"moved_mm", pose.moved_mm},
-                     {"overlap", pose.overlap},
-                     {"rms_mm", finite_or_null(pose.rms_mm)}});
-  }
-  return {{"revision", shown.revision},
-          {"reference", shown.reference},
-          {"reference_triangles", found.triangles},
-          {"best_fit", shown.best_fit},
-          {"start", shown.start + 1},
-          {"poses", poses},
-          {"tolerance_mm", {verdict.rule.limits.lower, verdict.rule.limits.upper}},
-          {"scale_mm", {found.low_mm, found.high_mm}},
-          {"histogram", found.histogram},
-          {"verdict", std::string(name_of(verdict.conformity))},
-          {"sentence", sentence_of(verdict)},
-          {"in_share", verdict.share_of(PatchDecision::In)},
-          {"out_share", verdict.share_of(PatchDecision::Out)},
-          {"undecided_share",
-           verdict.share_of(PatchDecision::NearLimit) +
-               verdict.share_of(PatchDecision::NotWellMeasured)},
-          {"not_measured_share", verdict.share_of(PatchDecision::NotMeasured)},
-          {"patch_mm", verdict.rule.min_feature_mm},
-          {"rms_mm", finite_or_null(summary.rms_mm)},
-          {"mean_mm", finite_or_null(summary.mean_mm)},
-          {"min_mm", finite_or_null(summary.min_mm)},
-          {"max_mm", finite_or_null(summary.max_mm)},
-          {"median_u_mm", finite_or_null(summary.median_u_mm)},
-          {"area_mm2", summary.area_mm2},
-          {"overlap", found.overlap},
-          {"fit_rms_mm", finite_or_null(found.fit_rms_mm)},
-          {"turned_deg", deg_from_rad(found.turned_rad)},
-          {"moved_mm", found.moved_mm},
-          {"left_out", found.left_out},
-          {"free_directions", found.free_directions}};
 }
 
 }  // namespace
@@ -121,7 +78,8 @@ nlohmann::ordered_json json_of_surface(const SurfaceSnapshot& surface) {
                        {"change", json_of_change(preview.change)},
                        {"revision", preview.revision}};
   }
-  json["comparison"] = surface.comparison ? json_of_comparison(*surface.comparison) : Json();
+  json["comparison"] = surface.inspection ? json_of_comparison(*surface.inspection) : Json();
+  json["inspection"] = surface.inspection ? json_of_inspection(*surface.inspection) : Json();
   json["steps_done"] = surface.done;
   json["fits"] = Json::array();
   for (const SurfaceFit& fit : surface.fits)

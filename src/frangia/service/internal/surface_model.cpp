@@ -23,6 +23,7 @@
 #include "frangia/geometry/connected_components.h"
 #include "frangia/geometry/vertex_data.h"
 #include "frangia/service/internal/array_packer.h"
+#include "frangia/service/internal/shown_inspection.h"
 
 namespace frangia {
 namespace {
@@ -302,19 +303,11 @@ SurfaceModel SurfaceModel::without_preview() const {
   return model;
 }
 
-SurfaceModel SurfaceModel::compared(const std::filesystem::path& reference,
-                                    const std::string& name,
-                                    const CompareOptions& options,
-                                    int count,
-                                    const Run& run) const {
-  auto shown = std::make_shared<ShownComparison>();
-  shown->found = compare_surface(mesh(), reference, options, run);
-  shown->revision = count;
-  shown->reference = name;
-  shown->best_fit = options.best_fit;
-  shown->start = options.start;
+SurfaceModel SurfaceModel::inspected(const InspectionRequest& asked,
+                                     int count,
+                                     const Run& run) const {
   auto next = std::make_shared<SurfaceSnapshot>(*snapshot_);
-  next->comparison = std::move(shown);
+  next->inspection = shown_inspection(mesh(), asked, count, run);
   SurfaceModel model = *this;
   model.show(std::move(next));
   return model;

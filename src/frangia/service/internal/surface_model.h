@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstddef>
-#include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
@@ -14,7 +13,7 @@
 #include "frangia/editor/edit_script.h"
 #include "frangia/geometry/median_sigma.h"
 #include "frangia/geometry/selection.h"
-#include "frangia/service/compare_surface.h"
+#include "frangia/inspection/inspect_part.h"
 #include "frangia/service/internal/surface_picture.h"
 #include "frangia/service/internal/surface_versions.h"
 
@@ -59,13 +58,23 @@ struct SurfacePreview {
   std::shared_ptr<const std::string> arrays;
 };
 
-/// A comparison with a reference and its revision.
-struct ShownComparison {
+/// How a surface is inspected.
+struct InspectionRequest {
+  InspectionPlan plan;    ///< with the file of its reference
+  std::string reference;  ///< name of that file, for people; empty: none
+  bool features = false;  ///< looks for all of them, not only for those of the plan
+  /// Of the surface, which still lies as it was scanned; null otherwise.
+  std::shared_ptr<const Scan> scan;
+};
+
+/// An inspection of the surface by a plan, and what the page draws of it.
+struct ShownInspection {
   int revision = 0;
-  std::string reference;  ///< name of its file, for people
-  bool best_fit = true;
-  std::size_t start = 0;  ///< index of the pose that was taken
-  SurfaceComparison found;
+  InspectionRequest asked;
+  Inspection found;              ///< without its mesh: the surface, moved by the alignment
+  std::vector<float> histogram;  ///< shares of the area, from `low_mm` to `high_mm`
+  double low_mm = 0.0;           ///< of the color scale: twice the tolerance
+  double high_mm = 0.0;          ///< likewise
 };
 
 /// What clients see of a surface. Immutable, so that a client reads it while an edit runs.
@@ -87,7 +96,7 @@ struct SurfaceSnapshot {
   PicturePtr picture;
   std::shared_ptr<const Selection> selection;         ///< of the exact mesh
   std::shared_ptr<const SurfacePreview> preview;      ///< null without one
-  std::shared_ptr<const ShownComparison> comparison;  ///< of the present mesh; null without one
+  std::shared_ptr<const ShownInspection> inspection;  ///< of the present mesh; null without one
   std::shared_ptr<const std::string> summary;         ///< JSON of the reconstruction; may be empty
 
   static constexpr std::size_t kMostHoles = 100;
@@ -98,7 +107,7 @@ using SurfacePtr = std::shared_ptr<const SurfaceSnapshot>;
 /// A version of the surface under edit, in memory. Every change is worked out completely as another
 /// model, which shares what is the same and takes the place of this one without failing: whoever
 /// writes it to the disk in between may fail or be stopped. Revisions are those of SurfaceVersions;
-/// previews and comparisons count on their own.
+/// previews and inspections count on their own.
 class SurfaceModel {
  public:
   /// Reads the files of a version and applies its saved steps.
@@ -132,14 +141,12 @@ class SurfaceModel {
   /// Tries a step and shows what it would change; the next edit drops the preview.
   [[nodiscard]] SurfaceModel with_preview(const EditStep& step, int count, const Run& run) const;
   [[nodiscard]] SurfaceModel without_preview() const;
-  /// Compares the surface with a reference, whose name is for people.
+  /// Inspects the surface.
   ///
-  /// @errors   as compare_surface
-  [[nodiscard]] SurfaceModel compared(const std::filesystem::path& reference,
-                                      const std::string& name,
-                                      const CompareOptions& options,
-                                      int count,
-                                      const Run& run) const;
+  /// @errors   as read_inspection_reference and inspect_part
+  [[nodiscard]] SurfaceModel inspected(const InspectionRequest& asked,
+                                       int count,
+                                       const Run& run) const;
   /// Whether the level that is drawn at rest is missing.
   [[nodiscard]] bool is_coarse() const { return snapshot_->picture->is_coarse(); }
   /// Adds that level, which a client does not have to wait for.

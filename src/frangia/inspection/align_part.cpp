@@ -1,0 +1,129 @@
+#include "frangia/inspection/align_part.h"
+
+#include <algorithm>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "frangia/core/error.h"
+#include "frangia/features/find_features.h"
+#include "frangia/geometry/transform_mesh.h"
+#include "frangia/inspection/measured_characteristics.h"
+#include "frangia/inspection/planned_nominals.h"
+
+namespace frangia {
+namespace {
+
+BestFitOptions fit_options_of(const InspectionPlan& plan) {
+  BestFitOptions options;
+  options.tolerance_mm = plan.overlap_tolerance_mm();
+  options.reference_unit_mm = plan.unit_mm.value_or(1.0);
+  return options;
+}
+
+Alignment best_fit(const Mesh& mesh,
+                   const InspectionReference& reference,
+                   const InspectionPlan& plan,
+                   const Run& run) {
+  BestFitOptions options = fit_options_of(plan);
+  if (plan.start > 0) options.start = plan.start - 1;
+  return align_best_fit(mesh, reference.scene, options, run);
+}
+
+const Feature& found_datum(const PlannedFeature& planned,
+                           const std::vector<Feature>& features,
+                           const Mesh& mesh,
+                           const std::filesystem::path& on) {
+  Eigen::AlignedBox3f box;
+  for (const Eigen::Vector3f& vertex : mesh.vertices_mm)
+    if (vertex.allFinite()) box.extend(vertex);
+  const double farthest_mm = kFarthestFeature * static_cast<double>(box.diagonal().norm());
+  const Feature* feature = nearest_feature(planned, features, farthest_mm);
+  if (feature == nullptr) {
+    throw Error(ErrorKind::Input,
+                fmt::format("{}: datum \"{}\": there is no {} near ({:g}, {:g}, {:g}); check its "
+                            "near_mm, in the frame of the reference",
+                            on.string(),
+                            planned.name,
+                            name_of(planned.kind),
+                            planned.near_mm.x(),
+                            planned.near_mm.y(),
+                            planned.near_mm.z()));
+  }
+  return *feature;
+}
+
+PartAlignment align_by_datums(const Mesh& mesh,
+                              const InspectionReference& reference,
+                              const InspectionPlan& plan,
+                              const std::filesystem::path& mesh_name,
+                              const Run& run) {
+  require(!plan.datums.empty(),
+          "align = \"datum\" needs `datums`, which name one to three of the plan's features");
+  const std::vector<PlannedFeature> features = stated_features(plan, &reference);
+  const auto reference_name =
+      reference.file.empty() ? std::filesystem::path("the reference") : reference.file;
+  PartAlignment fit{best_fit(mesh, reference, plan, run), {}};
+  const Mesh aligned = transform_mesh(mesh, fit.alignment.pose.reference_from_mesh);
+  run.stage("datums");
+  const std::vector<Feature> measured = find_features(aligned, {.edges = false}, run);
+  std::vector<Feature> nominal;  // searched where a datum names no face
+  std::vector<Datum> datums;
+  for (const std::string& name : plan.datums) {
+    const auto planned = std::find_if(
+        features.begin(), features.end(), [&](const auto& one) { return one.name == name; });
+    require(planned != features.end(), "`datums` name a feature that the plan does not have");
+    const Feature& seen = found_datum(*planned, measured, aligned, mesh_name);
+    Datum datum{name, {}, seen.fit.shape, seen.uncertainty};
+    if (planned->face > 0) {
+      datum.nominal = reference.cad->faces()[planned->face - 1].shape.value();
+    } else {
+      if (nominal.empty()) nominal = find_features(reference.scene.mesh(), {.edges = false}, run);
+      datum.nominal =
+          found_datum(*planned, nominal, reference.scene.mesh(), reference_name).fit.shape;
+    }
+    datums.push_back(std::move(datum));
+  }
+  Eigen::AlignedBox3d box;
+  for (const Eigen::Vector3f& vertex : aligned.vertices_mm)
+    box.extend(vertex.cast<double>());
+  const DatumAlignment found = align_to_datums(datums, box.center(), 0.5 * box.diagonal().norm());
+  const int iterations = fit.alignment.pose.iterations;
+  AlignmentPose& pose = fit.alignment.pose;
+  pose = assess_pose(
+      mesh, reference.scene, found.motion * pose.reference_from_mesh, fit_options_of(plan), run);
+  pose.iterations = iterations;
+  pose.uncertainty = found.uncertainty;
+  fit.alignment.alternatives = {pose};
+  fit.alignment.free_directions = found.free_directions;
+  fit.datums = found.residuals;
+  return fit;
+}
+
+}  // namespace
+
+PartAlignment align_part(const Mesh& mesh,
+                         const InspectionReference& reference,
+                         const InspectionPlan& plan,
+                         const std::filesystem::path& mesh_name,
+                         const Run& run) {
+  if (plan.align == "datum") return align_by_datums(mesh, reference, plan, mesh_name, run);
+  if (plan.align == "best-fit") return {best_fit(mesh, reference, plan, run), {}};
+  PartAlignment as_it_stands;
+  as_it_stands.alignment.pose =
+      assess_pose(mesh, reference.scene, Eigen::Isometry3d::Identity(), fit_options_of(plan), run);
+  return as_it_stands;
+}
+
+std::vector<PlannedFeature> stated_features(const InspectionPlan& plan,
+                                            const InspectionReference* reference) {
+  std::vector<PlannedFeature> features = plan.features;
+  if (reference != nullptr && reference->cad) {
+    state_nominals(features, reference->cad->faces(), plan.name());
+  } else {
+    check_without_cad(features, plan.name());
+  }
+  return features;
+}
+
+}  // namespace frangia

@@ -1,0 +1,191 @@
+#include "frangia/inspection/measured_characteristics.h"
+
+#include <cmath>
+#include <limits>
+#include <map>
+
+#include <Eigen/Geometry>
+#include <fmt/format.h>
+
+#include "frangia/inspection/internal/shape_mismatch.h"
+
+namespace frangia {
+namespace {
+
+constexpr double k95 = 1.959964;
+
+/// What a plan says of a feature, and what was found.
+struct FoundFeature {
+  const MeasuredFeature* measured = nullptr;
+  const PlannedFeature* planned = nullptr;
+};
+using FeatureByName = std::map<std::string, FoundFeature>;
+
+const Shape& shape_of(const Feature& feature) {
+  return feature.fit.shape;
+}
+const Shape& shape_of(const MeasuredFeature& feature) {
+  return feature.feature.fit.shape;
+}
+
+template <typename Item>
+const Item* nearest_of(const PlannedFeature& planned,
+                       const std::vector<Item>& features,
+                       double farthest_mm) {
+  const Item* best = nullptr;
+  double least = farthest_mm;
+  for (const Item& feature : features) {
+    const Shape& shape = shape_of(feature);
+    if (shape.kind != planned.kind) continue;
+    const double mismatch = shape_mismatch_mm(planned, shape);
+    if (mismatch >= least) continue;
+    least = mismatch;
+    best = &feature;
+  }
+  return best;
+}
+
+/// How far from its planned place a feature may be.
+double farthest_mm(const std::vector<MeasuredFeature>& features) {
+  Eigen::AlignedBox3d box;
+  for (const MeasuredFeature& feature : features) {
+    for (const Eigen::Vector3d& point : feature.points_mm)
+      box.extend(point);
+  }
+  return box.isEmpty() ? 0.0 : kFarthestFeature * box.diagonal().norm();
+}
+
+void decide_row(MeasuredCharacteristic& row) {
+  if (row.limits) row.conformity = conformity_of(row.value, row.u95 / k95, *row.limits);
+}
+
+ToleranceLimits at_most(double limit) {
+  return {-std::numeric_limits<double>::infinity(), limit};
+}
+
+void add_feature_rows(const PlannedFeature& planned,
+                      const MeasuredFeature* feature,
+                      std::vector<MeasuredCharacteristic>& rows) {
+  if (planned.diameter_mm) {
+    MeasuredCharacteristic row;
+    row.name = planned.name + " diameter";
+    row.feature = planned.name;
+    row.shape = planned.kind;
+    row.nominal = planned.diameter_mm;
+    if (planned.tolerance_mm) {
+      row.limits = ToleranceLimits{*planned.diameter_mm + planned.tolerance_mm->lower,
+                                   *planned.diameter_mm + planned.tolerance_mm->upper};
+    }
+    if (feature != nullptr) {
+      row.value = 2.0 * feature->feature.fit.shape.radius_mm;
+      row.u95 = feature->feature.uncertainty.u95_mm;
+    }
+    decide_row(row);
+    rows.push_back(row);
+  }
+  for (const auto& [form, limit] : planned.forms_mm) {
+    MeasuredCharacteristic row;
+    row.name = fmt::format("{} {}", planned.name, name_of(form));
+    row.kind = form;
+    row.feature = planned.name;
+    row.shape = planned.kind;
+    row.limits = at_most(limit);
+    row.fit = planned.form;
+    if (feature != nullptr) {
+      const MeasuredValue value =
+          measure(form, *feature, nullptr, Eigen::Vector3d::Zero(), planned.form);
+      row.value = value.value;
+      row.u95 = value.u95;
+    }
+    decide_row(row);
+    rows.push_back(row);
+  }
+}
+
+MeasuredCharacteristic row_of(const PlannedCharacteristic& planned, const FeatureByName& found) {
+  MeasuredCharacteristic row;
+  row.name = planned.name;
+  row.kind = planned.kind;
+  row.feature = planned.feature;
+  row.datum = planned.datum;
+  const auto& [feature, of] = found.at(planned.feature);
+  row.shape = of->kind;
+  row.unit = planned.kind == Characteristic::Angle ? "degrees" : "mm";
+  row.nominal = planned.nominal;
+  if (planned.nominal && planned.tolerance) {
+    row.limits = ToleranceLimits{*planned.nominal + planned.tolerance->lower,
+                                 *planned.nominal + planned.tolerance->upper};
+  }
+  if (planned.limit) row.limits = at_most(*planned.limit);
+  if (!needs_datum(planned.kind) && planned.kind != Characteristic::Position) row.fit = of->form;
+  const MeasuredFeature* datum = planned.datum.empty() ? nullptr : found.at(planned.datum).measured;
+  const bool is_measured = feature != nullptr && (planned.datum.empty() || datum != nullptr);
+  if (is_measured) {
+    const MeasuredValue value =
+        measure(planned.kind, *feature, datum, planned.position_mm, of->form);
+    row.value = value.value;
+    row.u95 = value.u95;
+  }
+  decide_row(row);
+  return row;
+}
+
+}  // namespace
+
+const Feature* nearest_feature(const PlannedFeature& planned,
+                               const std::vector<Feature>& features,
+                               double farthest_mm) {
+  return nearest_of(planned, features, farthest_mm);
+}
+
+std::vector<MeasuredCharacteristic> measure_characteristics(
+    const InspectionPlan& plan, const std::vector<MeasuredFeature>& features, const Run& run) {
+  std::vector<MeasuredCharacteristic> rows;
+  FeatureByName found;
+  const double farthest = farthest_mm(features);
+  for (const PlannedFeature& planned : plan.features) {
+    const MeasuredFeature* feature = nearest_of(planned, features, farthest);
+    found[planned.name] = {feature, &planned};
+    if (feature == nullptr) {
+      run.warn(fmt::format("{}: no {} was found near ({:g}, {:g}, {:g}); its values are missing",
+                           planned.name,
+                           name_of(planned.kind),
+                           planned.near_mm.x(),
+                           planned.near_mm.y(),
+                           planned.near_mm.z()));
+    }
+    add_feature_rows(planned, feature, rows);
+  }
+  for (const PlannedCharacteristic& planned : plan.characteristics)
+    rows.push_back(row_of(planned, found));
+  return rows;
+}
+
+std::vector<NamedFeature> named_features(const InspectionPlan& plan,
+                                         const std::vector<MeasuredFeature>& features) {
+  std::vector<NamedFeature> named;
+  for (const PlannedFeature& planned : plan.features) {
+    const MeasuredFeature* found = nearest_of(planned, features, farthest_mm(features));
+    if (found == nullptr) continue;
+    named.push_back({planned.name,
+                     found->feature.fit.shape,
+                     found->feature.uncertainty,
+                     found->low_mm,
+                     found->high_mm});
+  }
+  return named;
+}
+
+Conformity overall(const std::vector<MeasuredCharacteristic>& rows) {
+  bool all_in = false;
+  bool undecided = false;
+  for (const MeasuredCharacteristic& row : rows) {
+    if (!row.limits) continue;
+    if (row.conformity == Conformity::Out) return Conformity::Out;
+    undecided = undecided || row.conformity == Conformity::Undecided;
+    all_in = true;
+  }
+  return all_in && !undecided ? Conformity::In : Conformity::Undecided;
+}
+
+}  // namespace frangia

@@ -1,0 +1,68 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "frangia/core/missing.h"
+#include "frangia/core/run.h"
+#include "frangia/inspection/inspection_plan.h"
+
+namespace frangia {
+
+/// A row of the table of results.
+struct MeasuredCharacteristic {
+  std::string name;                       ///< of the plan, with the quantity
+  std::optional<Characteristic> kind;     ///< none: a diameter
+  std::string feature;                    ///< name of the feature in the plan
+  std::string datum;                      ///< name of its datum; may be empty
+  ShapeKind shape = ShapeKind::Plane;     ///< of the feature
+  std::optional<FormReference> fit;       ///< of a form: what it is measured from
+  std::string unit = "mm";                ///< mm or degrees
+  std::optional<double> nominal;          ///< none: not stated
+  double value = kMissing;                ///< NaN: the feature was not found
+  double u95 = kMissing;                  ///< half the width of the 95 % interval
+  std::optional<ToleranceLimits> limits;  ///< of the value; an absent limit is infinite
+  /// By ISO 14253-1; undecided where the value or its uncertainty is not known or no limit is
+  /// stated.
+  Conformity conformity = Conformity::Undecided;
+};
+
+/// The feature of the planned kind whose center, or axis, and diameter come nearest to those of the
+/// plan; null where none lies within `farthest_mm`.
+[[nodiscard]] const Feature* nearest_feature(const PlannedFeature& planned,
+                                             const std::vector<Feature>& features,
+                                             double farthest_mm);
+
+/// How far from its planned place and size a feature may be, as a share of the diagonal of the
+/// part.
+inline constexpr double kFarthestFeature = 0.1;
+
+/// Measures what a plan asks for on a mesh in the frame of its reference. A planned feature is the
+/// one of its kind whose center, or axis, and diameter come nearest, within `kFarthestFeature` of
+/// the diagonal of all points.
+///
+/// `run` is warned of planned features that are not found.
+/// @units    mm, degrees
+/// @missing  values of features that are not found are NaN
+/// @errors   Error(Input) for a characteristic that the kind of its feature does not have
+[[nodiscard]] std::vector<MeasuredCharacteristic> measure_characteristics(
+    const InspectionPlan& plan, const std::vector<MeasuredFeature>& features, const Run& run = {});
+
+/// A feature of a plan that was found.
+struct NamedFeature {
+  std::string name;              ///< in the plan
+  Shape shape;                   ///< measured
+  ShapeUncertainty uncertainty;  ///< of `shape`
+  double low_mm = 0.0;           ///< ends of its points along its axis, from the center
+  double high_mm = 0.0;          ///< see `low_mm`
+};
+
+/// The features of a plan that were found, in the order of the plan.
+[[nodiscard]] std::vector<NamedFeature> named_features(
+    const InspectionPlan& plan, const std::vector<MeasuredFeature>& features);
+
+/// The decision about all rows: out when one is out, in when all that have limits are in.
+[[nodiscard]] Conformity overall(const std::vector<MeasuredCharacteristic>& rows);
+
+}  // namespace frangia

@@ -1,0 +1,179 @@
+#include "frangia/report/report_pictures.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <set>
+#include <utility>
+
+#include <Eigen/Geometry>
+#include <fmt/format.h>
+
+#include "frangia/core/angles.h"
+#include "frangia/inspect/picture_positions.h"
+#include "frangia/inspect/render_mesh.h"
+#include "frangia/report/inspection_picture.h"
+#include "frangia/report/result_table.h"
+
+namespace frangia {
+namespace {
+
+/// A place on the part that pictures label.
+struct LabelledPlace {
+  PictureLabel label;
+  PicturedPlace place;
+};
+
+std::string value_text(double value, double u95) {
+  if (!std::isfinite(u95)) return fmt::format("{:+.4f}", value);
+  return fmt::format("{:+.4f} ± {:.4f}", value, u95);
+}
+
+/// The places that the pictures label, the most important first: what is out or undecided, the
+/// extremes, then the characteristics, the worst first.
+std::vector<LabelledPlace> labelled_places(const Inspection& part) {
+  std::vector<LabelledPlace> places;
+  if (part.surface) {
+    const SurfaceVerdict& verdict = part.surface->verdict;
+    for (const SurfacePlace& place : verdict.places) {
+      LabelledPlace labelled{{}, {place.at_mm, place.normal}};
+      const bool out = place.decision == PatchDecision::Out;
+      labelled.label.conformity = out ? Conformity::Out : Conformity::Undecided;
+      labelled.label.detail = out ? "out" : "undecided";
+      if (place.decision == PatchDecision::NotWellMeasured) labelled.label.detail = "U95 too large";
+      if (place.decision == PatchDecision::NotMeasured) labelled.label.detail = "not measured";
+      labelled.label.text = place.missing ? "missing"
+                            : std::isfinite(place.deviation_mm)
+                                ? value_text(place.deviation_mm, place.u95_mm)
+                                : fmt::format("{:.0f} mm²", place.area_mm2);
+      constexpr double kLeastArea = 1e-3;  // of the part: smaller ones are in the table alone
+      if (out || place.area_mm2 > kLeastArea * verdict.area_mm2) places.push_back(labelled);
+    }
+    for (const auto& [extreme, detail] :
+         {std::pair(verdict.highest, "largest"), std::pair(verdict.lowest, "smallest")}) {
+      if (!std::isfinite(extreme.deviation_mm)) continue;
+      const auto same =
+          std::find_if(places.begin(), places.end(), [&](const LabelledPlace& labelled) {
+            return labelled.place.point_mm == extreme.at_mm;
+          });
+      if (same != places.end()) {
+        same->label.detail = std::string(detail) + ", " + same->label.detail;
+        continue;
+      }
+      places.push_back({{value_text(extreme.deviation_mm, extreme.u95_mm),
+                         detail,
+                         conformity_of(extreme.deviation_mm,
+                                       std::isfinite(extreme.u95_mm) ? extreme.u95_mm / 1.96 : 0.0,
+                                       verdict.rule.limits),
+                         {}},
+                        {extreme.at_mm, extreme.normal}});
+    }
+  }
+  for (const MeasuredCharacteristic& row : worst_first(part.characteristics)) {
+    const auto found = std::find_if(part.named_features.begin(),
+                                    part.named_features.end(),
+                                    [&](const auto& one) { return one.name == row.feature; });
+    if (found == part.named_features.end() || !std::isfinite(row.value)) continue;
+    const Shape& shape = found->shape;
+    PictureLabel label{fmt::format("{:.4f}", row.value),
+                       row.name,
+                       row.limits ? row.conformity : Conformity::Undecided,
+                       {}};
+    if (shape.kind == ShapeKind::Plane) {
+      places.push_back({label, {shape.center_mm, shape.axis}});
+      continue;
+    }
+    // Around an axis, the first of eight points that a picture sees.
+    const Eigen::Vector3d across = shape.axis.unitOrthogonal();
+    for (int i = 0; i < 8; ++i) {
+      const Eigen::Vector3d away = Eigen::AngleAxisd(rad_from_deg(45.0 * i), shape.axis) * across;
+      places.push_back({label, {shape.center_mm + shape.radius_mm * away, away}});
+    }
+  }
+  return places;
+}
+
+/// Adds the labels of the places that a picture sees, each text once.
+void add_labels(ReportPicture& picture,
+                const RayScene& scene,
+                const RenderOptions& options,
+                const std::vector<LabelledPlace>& places) {
+  std::vector<PicturedPlace> points;
+  for (const LabelledPlace& place : places)
+    points.push_back(place.place);
+  const auto positions = picture_positions(scene, options, points);
+  std::set<std::string> shown;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const PictureLabel& label = places[i].label;
+    if (!positions[i] || (!label.detail.ends_with("out") && !label.detail.ends_with("undecided") &&
+                          !shown.insert(label.detail + label.text).second))
+      continue;
+    picture.labels.push_back(label);
+    picture.labels.back().at_px = *positions[i];
+  }
+}
+
+}  // namespace
+
+std::vector<ReportPicture> report_pictures(const Inspection& part,
+                                           double scale_mm,
+                                           const Run& run) {
+  constexpr std::array<double, 4> kAzimuths{35.0, 125.0, 215.0, 305.0};
+  RenderOptions options;
+  if (part.surface) options = deviation_picture(part.mesh, *part.surface, scale_mm);
+  // More pixels and rays would not be seen, but waited for.
+  options.width_px = kReportPictureWidth_px;
+  options.height_px = kReportPictureHeight_px;
+  options.samples_across = 2;
+  options.legend = false;
+  const RayScene scene(part.mesh, run);
+  const std::vector<LabelledPlace> places = labelled_places(part);
+  std::vector<ReportPicture> pictures;
+  const auto add = [&](const std::string& what, double azimuth, double elevation) {
+    options.azimuth_rad = rad_from_deg(azimuth);
+    options.elevation_rad = rad_from_deg(elevation);
+    ReportPicture picture;
+    picture.caption =
+        fmt::format("{}seen from azimuth {:.0f}°, elevation {:.0f}°{}",
+                    what,
+                    azimuth,
+                    elevation,
+                    what.empty() ? "" : "; dark gray: no value; magenta: inside of the surface");
+    picture.picture = render_mesh(part.mesh, options, run);
+    if (!options.values.empty()) {
+      picture.scale = PictureScale{options.value_label,
+                                   static_cast<double>(options.value_min),
+                                   static_cast<double>(options.value_max),
+                                   options.color_map,
+                                   std::nullopt};
+      if (options.value_limits.size() == 2)
+        picture.scale->limits = ToleranceLimits{options.value_limits[0], options.value_limits[1]};
+    }
+    pictures.push_back(std::move(picture));
+  };
+  for (const double azimuth : kAzimuths) {
+    add(part.surface ? "deviation, " : "", azimuth, 20.0);
+    add_labels(pictures.back(), scene, options, places);
+    if (!part.surface && pictures.size() == 2) break;
+  }
+  // The picture with the worst place stands first.
+  if (!places.empty()) {
+    const auto first = std::find_if(pictures.begin(), pictures.end(), [&](const auto& picture) {
+      return !picture.labels.empty() && picture.labels.front().text == places.front().label.text;
+    });
+    if (first != pictures.end()) std::rotate(pictures.begin(), first, first + 1);
+  }
+  if (!part.walls) return pictures;
+  const int width = options.width_px;
+  const int height = options.height_px;
+  options = thickness_picture(part.mesh, *part.walls, scale_mm);
+  options.width_px = width;
+  options.height_px = height;
+  options.samples_across = 2;
+  options.legend = false;
+  for (const double azimuth : {35.0, 215.0})
+    add("thickness, ", azimuth, 20.0);
+  return pictures;
+}
+
+}  // namespace frangia

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <vector>
+
+#include "frangia/inspection/inspect_part.h"
+#include "frangia/report/labelled_picture.h"
+
+namespace frangia {
+
+/// The pictures of a report, the one with the worst place first. What is out or undecided, the
+/// extremes and the characteristics are labelled. `scale_mm` is the end of the color scales; 0:
+/// chosen.
+///
+/// @errors   Error(Cancelled)
+[[nodiscard]] std::vector<ReportPicture> report_pictures(const Inspection& part,
+                                                         double scale_mm = 0.0,
+                                                         const Run& run = {});
+
+}  // namespace frangia

@@ -1,0 +1,213 @@
+#include "frangia/report/write_report.h"
+
+#include <algorithm>
+#include <cctype>
+#include <chrono>
+#include <cmath>
+#include <ctime>
+#include <iterator>
+#include <utility>
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "frangia/core/median.h"
+#include "frangia/core/sha256.h"
+#include "frangia/report/inspection_json.h"
+#include "frangia/report/report_pictures.h"
+#include "frangia/report/section_drawing.h"
+#include "frangia/uncertainty/uncertainty_budget.h"
+
+namespace frangia {
+namespace {
+
+using NamedTexts = std::vector<std::pair<std::string, std::string>>;
+
+double median_of_finite(const std::vector<float>& values) {
+  std::vector<float> known;
+  std::copy_if(values.begin(), values.end(), std::back_inserter(known), [](float value) {
+    return std::isfinite(value);
+  });
+  return known.empty() ? static_cast<double>(kMissing)
+                       : static_cast<double>(median(std::move(known)));
+}
+
+/// The terms of a part of a vertex's uncertainty, in words. That of the temperature stands apart.
+std::string names_of(UncertaintyPart part) {
+  std::string names;
+  for (const UncertaintyTermInfo& info : uncertainty_terms()) {
+    if (info.part != part || info.term == UncertaintyTerm::Temperature) continue;
+    names += (names.empty() ? "" : ", ") + std::string(info.name);
+  }
+  std::replace(names.begin(), names.end(), '_', ' ');
+  return names;
+}
+
+std::vector<std::pair<std::string, double>> uncertainty_terms_of(const Inspection& part) {
+  std::vector<std::pair<std::string, double>> terms;
+  const auto add = [&](const std::string& name, double value) {
+    if (std::isfinite(value)) terms.emplace_back(name, value);
+  };
+  const Mesh& mesh = part.mesh;
+  if (mesh.sigma_mm.empty()) return terms;
+  add("noise of a vertex, median (" + names_of(UncertaintyPart::Noise) + ")",
+      median_of_finite(mesh.sigma_noise_mm.empty() ? mesh.sigma_mm : mesh.sigma_noise_mm));
+  if (!mesh.sigma_systematic_mm.empty()) {
+    add("systematic part of a vertex, median (" + names_of(UncertaintyPart::Systematic) + ")",
+        median_of_finite(mesh.sigma_systematic_mm));
+  }
+  if (part.surface) {
+    if (part.alignment)
+      add("pose on the reference, largest", part.surface->deviations.largest_pose_u_mm);
+    add("temperature, largest", part.surface->deviations.largest_temperature_u_mm);
+    add("deviation, combined, median", part.surface->summary.median_u_mm);
+  }
+  return terms;
+}
+
+NamedTexts conditions_of(const InspectionPlan& plan, const ReportSources& sources) {
+  NamedTexts conditions;
+  if (!sources.mesh.empty())
+    conditions.emplace_back("SHA-256 of the mesh", sha256_of_file(sources.mesh));
+  if (!sources.reference.empty()) {
+    conditions.emplace_back("reference",
+                            sources.reference_name.empty() ? sources.reference.filename().string()
+                                                           : sources.reference_name);
+    conditions.emplace_back("SHA-256 of the reference", sha256_of_file(sources.reference));
+  }
+  if (!plan.file.empty()) {
+    conditions.emplace_back("plan", plan.file.filename().string());
+    conditions.emplace_back("SHA-256 of the plan", sha256_of_file(plan.file));
+  }
+  if (plan.temperature_u_k > 0.0) {
+    conditions.emplace_back("thermal expansion",
+                            fmt::format("{:g} 1e-6/K, temperature uncertain by {:g} K",
+                                        plan.expansion_ppm_per_k,
+                                        plan.temperature_u_k));
+  }
+  if (sources.scan == nullptr) {
+    conditions.emplace_back("rig and calibration", "not stated; --scan names the scan of the mesh");
+    return conditions;
+  }
+  const Scan& scan = *sources.scan;
+  conditions.emplace_back("scan", scan.folder.filename().string());
+  const auto& calibration = scan.rig.calibration;
+  conditions.emplace_back("calibrated", calibration ? calibration->date : "date not known");
+  if (calibration) {
+    conditions.emplace_back(
+        "uncertainty of a point by the calibration",
+        fmt::format(
+            "{:.4f} mm at {:.0f} mm", calibration->point_sigma_mm, calibration->distance_mm));
+  }
+  for (const char* name : {"scan.toml", "rig.toml"}) {
+    const auto path = scan.folder / name;
+    if (std::filesystem::exists(path))
+      conditions.emplace_back(fmt::format("SHA-256 of {}", name), sha256_of_file(path));
+  }
+  return conditions;
+}
+
+NamedTexts alignment_rows(const Inspection& part) {
+  if (!part.alignment) return {};
+  const AlignmentPose& pose = part.alignment->pose;
+  NamedTexts rows{{"overlap", fmt::format("{:.2f} %", 100.0 * pose.overlap)},
+                  {"RMS, mm", fmt::format("{:.4f}", pose.rms_mm)},
+                  {"iterations", fmt::format("{}", pose.iterations)}};
+  const auto& matrix = pose.reference_from_mesh.matrix();
+  for (Eigen::Index row = 0; row < 4; ++row) {
+    rows.emplace_back(row == 0 ? "reference from mesh" : "",
+                      fmt::format("{:.6f}  {:.6f}  {:.6f}  {:.6f}",
+                                  matrix(row, 0),
+                                  matrix(row, 1),
+                                  matrix(row, 2),
+                                  matrix(row, 3)));
+  }
+  for (const std::string& direction : part.alignment->free_directions)
+    rows.emplace_back("not determined by the shape", direction);
+  return rows;
+}
+
+std::string file_name_part(const std::string& name) {
+  std::string safe;
+  for (const char c : name)
+    safe += std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '-' || c == '.' ? c : '-';
+  return safe;
+}
+
+std::string created_now() {
+  return fmt::format(
+      "{:%Y-%m-%d %H:%M:%S} UTC",
+      fmt::gmtime(std::chrono::system_clock::to_time_t(std::chrono::system_clock::now())));
+}
+
+/// The inspection as JSON, with what the report adds.
+std::string json_of(const Inspection& part, const InspectionReport& report) {
+  auto json = nlohmann::ordered_json::parse(inspection_json(part));
+  json["verdict"] = name_of(part.verdict);
+  json["created"] = report.created;
+  json["version"] = report.version;
+  return json.dump(2, ' ', true, nlohmann::json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace
+
+InspectionReport report_of(const Inspection& part,
+                           const InspectionPlan& plan,
+                           const ReportSources& sources,
+                           const Run& run) {
+  run.stage("report");
+  InspectionReport report;
+  report.part = plan.part;
+  report.fields = plan.report;
+  if (!plan.report.logo.empty()) report.logo = read_logo(plan.report.logo);
+  report.mesh = sources.mesh.filename().string();
+  report.created = created_now();
+  report.version = sources.version;
+  report.conditions = conditions_of(plan, sources);
+  report.alignment = alignment_rows(part);
+  if (part.surface) {
+    report.deviation = part.surface->summary;
+    report.surface = part.surface->verdict;
+  }
+  if (part.walls) report.thickness = part.walls->summary;
+  report.pictures = report_pictures(part, sources.scale_mm, run);
+  report.characteristics = part.characteristics;
+  report.features = part.features;
+  report.nominals = part.nominals;
+  report.sections = part.sections;
+  report.uncertainty_mm = uncertainty_terms_of(part);
+  report.systematic_known = !part.mesh.sigma_systematic_mm.empty();
+  report.correlation_known = part.knows_calibration;
+  report.warnings = sources.warnings;
+  return report;
+}
+
+std::vector<std::string> write_report(const std::filesystem::path& page,
+                                      const Inspection& part,
+                                      const InspectionPlan& plan,
+                                      const ReportSources& sources,
+                                      const Run& run) {
+  const InspectionReport report = report_of(part, plan, sources, run);
+  std::vector<std::string> written;
+  const auto write = [&](const std::filesystem::path& path, const std::string& text) {
+    write_report_text(path, text);
+    written.push_back(path.string());
+  };
+  const auto beside = [&](const std::string& ending) {
+    std::filesystem::path path = page;
+    return path.replace_extension(ending);
+  };
+  for (const SectionResult& section : part.sections) {
+    if (section.measured.empty()) continue;
+    const std::string stem = page.stem().string() + "-" + file_name_part(section.name);
+    write(page.parent_path() / (stem + ".svg"), svg_of(section));
+    write(page.parent_path() / (stem + ".dxf"), dxf_of(section));
+  }
+  if (!part.characteristics.empty()) write(beside(".csv"), csv_of(part.characteristics));
+  write(beside(".json"), json_of(part, report));
+  write(page, html_of(report));
+  return written;
+}
+
+}  // namespace frangia

@@ -1,0 +1,226 @@
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "frangia/core/atomic_file.h"
+#include "frangia/core/error.h"
+#include "frangia/core/open_below.h"
+#include "frangia/geometry/transform_mesh.h"
+#include "frangia/inspection/write_inspection_plan.h"
+#include "frangia/report/qif_results.h"
+#include "frangia/report/write_report.h"
+#include "frangia/service/internal/implementation.h"
+
+namespace frangia {
+namespace {
+
+constexpr std::size_t kMostPlanBytes = 500'000;
+
+/// A value of JSON as TOML writes it.
+std::string toml_of(const nlohmann::json& value) {
+  if (value.is_object()) {
+    std::string inner;
+    for (const auto& [key, one] : value.items()) {
+      if (one.is_null()) continue;
+      inner += (inner.empty() ? "" : ", ") + nlohmann::json(key).dump() + " = " + toml_of(one);
+    }
+    return "{" + inner + "}";
+  }
+  if (value.is_array()) {
+    std::string inner;
+    for (const nlohmann::json& one : value)
+      inner += (inner.empty() ? "" : ", ") + toml_of(one);
+    return "[" + inner + "]";
+  }
+  return value.dump();
+}
+
+/// The plan of the page as the text of an inspection.toml, so that one reader checks it.
+std::string plan_text_of(const nlohmann::json& plan) {
+  std::string text = "format = \"frangia-inspection\"\nversion = 1\n";
+  for (const auto& [key, value] : plan.items()) {
+    if (key == "format" || key == "version" || value.is_null()) continue;
+    text += nlohmann::json(key).dump() + " = " + toml_of(value) + "\n";
+  }
+  return text;
+}
+
+/// A plan without the files that it names: no name that arrives from a page or with a folder is
+/// opened. The reference is the one that was sent.
+InspectionPlan without_files(InspectionPlan plan) {
+  plan.file.clear();
+  plan.reference.clear();
+  plan.report.logo.clear();
+  return plan;
+}
+
+/// The plan with the reference of the project, as it is inspected by and kept in the folder.
+InspectionPlan with_reference(InspectionPlan plan,
+                              const ProjectFolder& project,
+                              const ProjectReference& reference) {
+  if (!reference.name.empty())
+    plan.reference = project.reference(reference.format, reference.number);
+  return plan;
+}
+
+/// A plan that nobody made: the best fit, with the usual tolerance.
+InspectionPlan usual_plan() {
+  InspectionPlan plan;
+  plan.align = "best-fit";
+  plan.tolerance_mm = plan.tolerance();
+  return plan;
+}
+
+/// Whether a plan measures something without a reference.
+bool measures_alone(const InspectionPlan& plan) {
+  return !plan.features.empty() || !plan.sections.empty() || plan.thickness;
+}
+
+/// Whether a surface was made of the scan of its project, and no step has moved it since: its
+/// features then hold what the calibration of the rig does to all of them.
+bool lies_as_scanned(const SurfaceSnapshot& surface) {
+  const auto done = surface.steps.begin() + static_cast<std::ptrdiff_t>(surface.done);
+  return !surface.summary->empty() &&
+         std::none_of(surface.steps.begin(), done, [](const EditStep& step) {
+           return step.operation == "align" || step.operation == "mirror";
+         });
+}
+
+void write_text(const std::filesystem::path& path, const std::string& text) {
+  AtomicFile file(path);
+  file.stream() << text;
+  file.commit();
+}
+
+}  // namespace
+
+void read_plan_of(const ProjectFolder& folder, OpenProject& project) {
+  std::error_code ignored;
+  try {
+    const auto path = folder.plan();
+    if (!std::filesystem::exists(path, ignored)) return;
+    const std::string text = read_below(folder.derived, path.filename(), kMostPlanBytes);
+    project.plan = without_files(parse_inspection_plan(text, path.filename()));
+  } catch (const Error& error) {
+    project.plan_fault = error.what();
+  }
+}
+
+nlohmann::ordered_json Service::Implementation::set_plan(CommandArguments& arguments) {
+  const std::string text = plan_text_of(arguments.object("plan"));
+  arguments.check_all_read();
+  return keep_plan(text);
+}
+
+nlohmann::ordered_json Service::Implementation::open_plan(CommandArguments& arguments) {
+  const std::string text = arguments.text("text");
+  arguments.check_all_read();
+  return keep_plan(text);
+}
+
+nlohmann::ordered_json Service::Implementation::keep_plan(const std::string& text) {
+  require(text.size() <= kMostPlanBytes, "a plan has at most 500 kB; choose another file");
+  const InspectionPlan plan = without_files(parse_inspection_plan(text, "the plan"));
+  const OpenProject project = opened();
+  write_inspection_plan(project.folder.plan(),
+                        with_reference(plan, project.folder, project.reference));
+  change([&](OpenProject& now) {
+    now.plan = plan;
+    now.plan_fault.clear();
+  });
+  return nlohmann::ordered_json::object();
+}
+
+nlohmann::ordered_json Service::Implementation::start_inspect(CommandArguments& arguments) {
+  const ProjectFolder project = folder();
+  const bool features = arguments.flag("features");
+  arguments.check_all_read();
+  const InspectionPlan plan = opened().plan.value_or(usual_plan());
+  constexpr const char* kNone =
+      "there is nothing to inspect; choose a reference to compare with, or add features to the "
+      "plan";
+  require(
+      features || measures_alone(plan) || !opened().reference.name.empty() || awaits_reference(),
+      kNone);
+  return started_view(
+      "inspect",
+      [this, project, plan, features](const SurfaceModel& model, int count, const Run& run) {
+        const ProjectReference reference = opened().reference;  // a job before may have set it
+        InspectionPlan wanted = with_reference(plan, project, reference);
+        require(features || measures_alone(wanted) || !wanted.reference.empty(), kNone);
+        if (wanted.reference.empty()) {
+          wanted.align.clear();
+        } else if (wanted.align.empty()) {
+          wanted.align = "none";
+        }
+        // Where several poses fit alike, the page lists them and shows the first.
+        if (wanted.align == "best-fit" || wanted.align == "datum")
+          wanted.start = std::max<std::size_t>(wanted.start, 1);
+        if (opened().plan)
+          write_inspection_plan(project.plan(), with_reference(plan, project, reference));
+        const bool measures = features || !wanted.features.empty();
+        InspectionRequest asked{std::move(wanted), reference.name, features, nullptr};
+        if (measures && lies_as_scanned(*model.snapshot()) && opened().scan_complete)
+          asked.scan = std::make_shared<const Scan>(read_scan(project.scan, run));
+        return model.inspected(asked, count, run);
+      });
+}
+
+nlohmann::ordered_json Service::Implementation::start_report(CommandArguments& arguments) {
+  static constexpr std::array<std::string_view, 4> kFormats{"html", "csv", "qif", "toml"};
+  const ProjectFolder project = folder();
+  const std::string format = arguments.text_or("format", "html");
+  arguments.check_all_read();
+  require(std::find(kFormats.begin(), kFormats.end(), format) != kFormats.end(),
+          "format: is html, csv, qif or toml");
+  const SurfacePtr shown = surface();
+  require(format == "toml" || (shown && shown->inspection),
+          "there is no inspection to report; inspect the surface first");
+  return started("report", [this, project, format](const Run& run) {
+    const SurfaceModel& model =
+        model_of(project, "there is no surface yet; reconstruct it first", run);
+    const OpenProject now = opened();
+    const ExportOrigin origin{model.snapshot()->version, versions_of(project)->revision};
+    if (format == "toml") {
+      InspectionPlan plan = now.plan.value_or(usual_plan());
+      plan.reference = now.reference.name;
+      const auto write = [&](const std::filesystem::path& file) {
+        write_text(file, inspection_plan_text(plan, {}));
+      };
+      return put_export(project, "inspection.toml", std::nullopt, write, run);
+    }
+    const auto inspection = model.snapshot()->inspection;
+    require(inspection != nullptr, "the surface has changed; inspect it again");
+    Inspection part = inspection->found;
+    part.mesh = part.alignment
+                    ? transform_mesh(model.mesh(), part.alignment->pose.reference_from_mesh)
+                    : model.mesh();
+    const auto write = [&](const std::filesystem::path& file) {
+      if (format == "csv") return write_text(file, csv_of(part.characteristics));
+      if (format == "qif")
+        return write_text(file, qif_of({part.named_features, part.characteristics, part.verdict}));
+      InspectionPlan plan = inspection->asked.plan;
+      plan.file.clear();
+      if (now.plan) {  // the head of the report changes nothing that was measured
+        plan.part = now.plan->part;
+        plan.report = now.plan->report;
+      }
+      const ReportSources sources{.reference = plan.reference,
+                                  .reference_name = inspection->asked.reference,
+                                  .scan = inspection->asked.scan.get(),
+                                  .version = "Frangia " + options_.version};
+      InspectionReport report = report_of(part, plan, sources, run);
+      report.mesh = project.name;
+      write_text(file, html_of(report));
+    };
+    put_export(project, project.name + " report." + format, origin, write, run);
+  });
+}
+
+}  // namespace frangia

@@ -1,0 +1,192 @@
+// The step Inspect of the operator's app in Debian's Chromium, on a part of which everything is known: three balls. They
+// are found, clicked and put into a plan with their distance; the plan is saved and read back, and the report is written.
+//
+//   node inspect.mjs PROGRAM FOLDER      FOLDER receives the screenshots
+//
+// FRANGIA_WEB as in story.mjs. Ends with 77 where Chromium is missing.
+import { spawnSync } from 'node:child_process';
+import fs from 'node:fs';
+import path from 'node:path';
+import { check, expect, launch, look as lookAt, newHome, openPage, passed, PATIENCE, requireChromium, startServer, stateOf, tell } from './harness.mjs';
+
+const [program, shots] = process.argv.slice(2).map((name) => path.resolve(name));
+requireChromium();
+fs.mkdirSync(shots, { recursive: true });
+const home = newHome();
+
+/** A ball of triangles. */
+function ball([x, y, z], radius, rings) {
+  const at = (i, k) => {
+    const [u, v] = [(Math.PI * i) / rings, (2 * Math.PI * k) / (2 * rings)];
+    return [x + radius * Math.sin(u) * Math.cos(v), y + radius * Math.sin(u) * Math.sin(v), z + radius * Math.cos(u)];
+  };
+  const triangles = [];
+  for (let i = 0; i < rings; i++)
+    for (let k = 0; k < 2 * rings; k++) {
+      if (i > 0) triangles.push([at(i, k), at(i + 1, k), at(i, k + 1)]);
+      if (i < rings - 1) triangles.push([at(i, k + 1), at(i + 1, k), at(i + 1, k + 1)]);
+    }
+  return triangles;
+}
+function stlOf(triangles) {
+  const bytes = Buffer.alloc(84 + 50 * triangles.length);
+  bytes.writeUInt32LE(triangles.length, 80);
+  triangles.forEach((corners, i) => corners.flat().forEach((value, k) => bytes.writeFloatLE(value, 84 + 50 * i + 12 + 4 * k)));
+  return bytes;
+}
+// Measured: the small ball is 0.05 mm too large and 0.1 mm too far away.
+const third = ball([18, 30, 6], 6, 30); // beside the others, so that the part fits in one pose only
+const nominal = [...ball([0, 0, 0], 15, 60), ...ball([50, 0, 0], 10, 40), ...third];
+const measured = [...ball([0, 0, 0], 15, 60), ...ball([50.1, 0, 0], 10.025, 40), ...third];
+const folder = path.join(home, 'projects', 'balls');
+fs.mkdirSync(folder, { recursive: true });
+fs.writeFileSync(path.join(folder, 'project.json'), '{"format": "frangia-project", "version": 1}\n');
+const stl = path.join(home, 'part.stl');
+fs.writeFileSync(stl, stlOf(measured));
+const made = spawnSync(program, ['edit', stl, '-o', path.join(folder, 'surface.ply')], { encoding: 'utf8' });
+if (made.status !== 0) throw new Error(made.stderr);
+const reference = path.join(home, 'balls as designed.stl');
+fs.writeFileSync(reference, stlOf(nominal));
+
+const server = await startServer(program, home);
+await tell(home, async () => {
+  const browser = await launch();
+  const page = await openPage(browser, server.url, undefined, { expected: /status of 400/ }); // of a plan with a wrong key
+  const look = (name) => lookAt(page, shots, name);
+  const state = () => page.evaluate(async () => {
+    const app = document.querySelector('frangia-app');
+    await app.updateComplete;
+    return app.state.project;
+  });
+  const idle = () => page.waitForFunction(() => !document.querySelector('.foot .bar'));
+  const until = async (what, wanted) => {
+    const end = Date.now() + PATIENCE;
+    for (;;) {
+      const now = await state();
+      if (wanted(now)) return now;
+      const failed = (await stateOf(page)).jobs.at(-1);
+      expect(failed?.state !== 'failed', `${what}: ${failed?.error}`);
+      expect(Date.now() < end, `${what} does not come`);
+      await page.waitForTimeout(60);
+    }
+  };
+  const submit = (form) => page.locator(`${form} button`).last().click();
+  await page.waitForSelector('#try');
+  await page.getByText('balls', { exact: true }).click();
+  await page.waitForSelector('.figures');
+  await idle();
+
+  // Without a reference and a plan there is nothing to inspect; features can be looked for.
+  await page.keyboard.press('7');
+  await page.waitForSelector('#find-features:not([disabled])');
+  expect(await page.locator('#report').isDisabled(), 'a report of nothing');
+  await look('begin');
+  await page.click('#find-features');
+  const { inspection } = (await until('the features', (project) => project.surface.inspection?.searched)).surface;
+  const balls = inspection.features.filter(({ kind }) => kind === 'sphere');
+  expect(balls.length === 3, `${balls.length} balls were found`);
+  await idle();
+
+  // A click on the large ball chooses it; both go into the plan.
+  await page.click('#pick-feature');
+  const scene = await page.locator('.view-canvas').boundingBox();
+  const at = await page.evaluate(() => {
+    const { view, size } = document.querySelector('frangia-app').viewer;
+    void size;
+    const camera = view.camera;
+    const point = camera.position.clone().set(0, 0, 0).project(camera);
+    return [(point.x + 1) / 2, (1 - point.y) / 2];
+  });
+  await page.mouse.click(scene.x + at[0] * scene.width, scene.y + at[1] * scene.height);
+  await page.waitForSelector('#plan-group > .features tr[aria-selected=true]');
+  expect((await page.locator('#plan-group > .features').innerText()).includes('30.0'), 'another feature was clicked');
+  await look('clicked');
+  await page.locator('#plan-group > .features .btn').click();
+  await until('the first ball', (project) => project.plan?.features?.length === 1);
+  await idle();
+  await page.locator('#plan-group details summary').click();
+  await page.locator('#plan-group details tr:has(.btn)').filter({ hasText: /sphere/ }).first().locator('.btn').click();
+  const planned = (await until('the second ball', (project) => project.plan?.features?.length === 2)).plan;
+  expect(planned.features.every(({ name }) => /^sphere \d$/.test(name)), 'the balls have other names');
+  await until('its size', (project) => project.surface.inspection.characteristics.length === 2);
+  await idle();
+
+  // The size of the small ball is out of its tolerance, and so is the distance of the two.
+  const small = page.locator('[data-planned="sphere 2"]');
+  await small.locator('[name=nominal]').fill('20');
+  await small.locator('[name=lower]').fill('-0.02');
+  await small.locator('[name=upper]').fill('0.02');
+  await small.locator('form button').click();
+  await until('the verdict', (project) => project.surface.inspection.verdict === 'out');
+  await idle();
+  await page.locator('#add-characteristic [name=feature]').selectOption('sphere 2');
+  await page.locator('#add-characteristic [name=datum]').selectOption('sphere 1');
+  await page.locator('#add-characteristic [name=nominal]').fill('50');
+  await page.locator('#add-characteristic [name=limit]').fill('0.3');
+  await submit('#add-characteristic');
+  const rows = (await until('the distance', (project) => project.surface.inspection.characteristics.length === 3)).surface.inspection.characteristics;
+  await idle();
+  const [, diameter, distance] = rows;
+  expect(Math.abs(diameter.value - 20.05) < 0.005 && diameter.verdict === 'out', `the small ball measures ${diameter.value}`);
+  expect(Math.abs(distance.value - 50.1) < 0.005 && distance.verdict === 'in', `the distance measures ${distance.value}`);
+  expect(Math.abs(distance.used - 1 / 3) < 0.1, `a third of the tolerance is used, not ${distance.used}`);
+  passed('features and characteristics are chosen in the page');
+
+  // With a reference, the surface is judged as well.
+  await page.setInputFiles('#reference', reference);
+  const judged = await until('the deviations', (project) => project.surface.comparison);
+  expect(judged.surface.inspection.verdict === 'out' && judged.surface.inspection.characteristics.length === 3, 'the plan was lost');
+  await idle();
+  await page.locator('.panel').evaluate((panel) => (panel.scrollTop = 0));
+  await look('results');
+  await page.locator('#plan-group').scrollIntoViewIfNeeded();
+  await look('plan');
+
+  // The command line below finds the same.
+  const [, ...line] = (await state()).commands.inspect;
+  const inspected = JSON.parse(spawnSync(program, ['--json', ...line], { encoding: 'utf8' }).stdout);
+  expect(inspected.characteristics.every(({ value }, i) => Math.abs(value - rows[i].value) < 1e-3), 'the program measures otherwise');
+
+  // Report and plan are downloaded; the plan is read back.
+  const saved = async (button, name) => {
+    const saving = page.waitForEvent('download');
+    await page.click(button);
+    const file = path.join(home, name);
+    await (await saving).saveAs(file);
+    await idle();
+    return fs.readFileSync(file, 'utf8');
+  };
+  await page.locator('#report-group summary').click();
+  await page.locator('#report-group [name=serial]').fill('No. 17');
+  await page.locator('#report-group [name=serial]').press('Tab');
+  await until('the serial number', (project) => project.plan.report?.serial === 'No. 17');
+  await idle();
+  const report = await saved('#report', 'report.html');
+  expect(report.includes('No. 17') && report.includes('balls as designed.stl') && /sphere 2 diameter/.test(report), 'the report lacks what was inspected');
+  const plan = await saved('#save-plan', 'saved.toml');
+  const before = (await state()).plan;
+  await page.locator('[data-planned="sphere 2"] .icon-btn').first().click();
+  const less = (await until('one feature less', (project) => project.plan.features.length === 1)).plan;
+  expect((less.characteristics ?? []).length === 0, 'a distance of a feature that is gone');
+  await idle();
+  await page.setInputFiles('#open-plan', { name: 'bad.toml', mimeType: 'text/plain', buffer: Buffer.from(plan.replace('tolerance_mm', 'tolerence_mm')) });
+  await page.waitForSelector('.notice >> text=perhaps tolerance_mm was meant');
+  await page.setInputFiles('#open-plan', { name: 'saved.toml', mimeType: 'text/plain', buffer: Buffer.from(plan) });
+  const again = (await until('the plan again', (project) => project.plan.features.length === 2)).plan;
+  expect(JSON.stringify(again) === JSON.stringify(before), 'the plan was read back otherwise');
+  await idle();
+  check('state', await stateOf(page));
+  passed('report and plan are files');
+
+  // The part on its datums, in another language and in the light theme.
+  await page.getByText('Datums', { exact: true }).click();
+  await until('the alignment to datums', (project) => project.plan.align === 'datum' && project.surface.comparison);
+  await idle();
+  await page.selectOption('#language', 'de');
+  await page.emulateMedia({ colorScheme: 'light' });
+  await page.keyboard.press('d');
+  await page.locator('.panel').evaluate((panel) => (panel.scrollTop = 0));
+  await look('german');
+  await page.setViewportSize({ width: 1024, height: 700 });
+  await look('small');
+}, 'the inspection is told');

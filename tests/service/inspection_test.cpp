@@ -1,0 +1,127 @@
+// The surface inspected in the app: a reference that arrives, a plan that the page makes, and the
+// reports.
+#include <fstream>
+#include <iterator>
+
+#include <gtest/gtest.h>
+
+#include "frangia/core/read_text_file.h"
+#include "frangia/files/write_mesh.h"
+
+#include "service/service_fixture.h"
+
+namespace frangia {
+namespace {
+
+using testing::error_of;
+using Json = nlohmann::json;
+
+TEST_F(ServiceTest, ComparesTheSurfaceWithAReferenceThatArrivesInPieces) {
+  open_box();
+  EXPECT_NE(refusal("inspect", "{}"), "") << "there is no reference";
+  const auto file = folder_.path() / "nominal.stl";
+  Mesh nominal = testing::sphere({20, 0, 0}, 3.0, 12);
+  append_mesh(nominal, testing::box({-5, -5, -5}, {5, 5, 4.75}));  // 0.25 mm lower than measured
+  write_mesh(file, nominal);
+  std::ifstream stream(file, std::ios::binary);
+  const std::string bytes{std::istreambuf_iterator<char>(stream), {}};
+  const std::size_t half = bytes.size() / 2;
+  service_->add_to_reference(0, bytes.substr(0, half));
+  EXPECT_NE(error_of([&] { service_->add_to_reference(half + 1, "x"); }), "") << "a gap";
+  EXPECT_NE(error_of([&] { service_->add_to_reference(600'000'000, "x"); }), "") << "too large";
+  Json asked = {{"name", "nominal.stl"}, {"format", "stl"}, {"bytes", bytes.size()}};
+  EXPECT_NE(refusal("set-reference", asked.dump()), "") << "it is incomplete";
+  service_->add_to_reference(half, bytes.substr(half));
+  asked["format"] = "../stl";
+  EXPECT_NE(refusal("set-reference", asked.dump()), "");
+  asked["format"] = "stl";
+  static_cast<void>(command("set-reference", asked));
+  EXPECT_EQ(finish().at("state"), "done");
+  EXPECT_NE(refusal("set-plan", R"({"plan": {"tolerance_mm": [1, 0]}})"), "");
+  static_cast<void>(
+      command("set-plan", {{"plan", {{"align", "none"}, {"tolerance_mm", {-0.1, 0.2}}}}}));
+  static_cast<void>(command("inspect"));
+  ASSERT_EQ(finish().at("state"), "done");
+  const Json found = state().at("project").at("surface").at("comparison");
+  EXPECT_EQ(found.at("reference"), "nominal.stl");
+  EXPECT_EQ(found.at("tolerance_mm"), Json::array({-0.1, 0.2}));
+  EXPECT_NEAR(found.at("max_mm").get<double>(), 0.25, 1e-6);
+  EXPECT_EQ(found.at("verdict"), "out");
+  const Json inspection = state().at("project").at("surface").at("inspection");
+  EXPECT_EQ(inspection.at("verdict"), "out");
+  ASSERT_FALSE(inspection.at("places").empty());
+  EXPECT_EQ(inspection.at("places")[0].at("decision"), "out");
+  EXPECT_FALSE(service_->deviations(0).empty());
+  EXPECT_TRUE(service_->deviations(1).empty());
+  restart();
+  static_cast<void>(command("open-project", {{"name", "box"}}));
+  static_cast<void>(finish());
+  EXPECT_EQ(state().at("project").at("reference").at("name"), "nominal.stl");
+}
+
+TEST_F(ServiceTest, InspectsByAPlanThatThePageMakesAndTheFolderKeeps) {
+  open_box();
+  EXPECT_TRUE(state().at("project").at("plan").is_null());
+  const Json top = {{"name", "top \"A\""}, {"kind", "plane"}, {"near_mm", {0, 0, 5}}};
+  Json bottom = {{"name", "bottom"}, {"kind", "plane"}, {"near_mm", {0, 0, -5}}};
+  const Json height = {{"name", "height"},
+                       {"kind", "distance"},
+                       {"feature", "top \"A\""},
+                       {"datum", "bottom"},
+                       {"nominal", 10},
+                       {"tolerance", {-0.01, 0.01}}};
+  Json plan = {{"part", "box ä"},
+               {"features", {top, bottom}},
+               {"characteristics", {height}},
+               {"reference", "/etc/passwd"},
+               {"report", {{"serial", "17"}, {"logo", "/etc/passwd"}}}};
+  static_cast<void>(command("set-plan", {{"plan", plan}}));
+  Json kept = state().at("project").at("plan");
+  EXPECT_EQ(kept.at("features").size(), 2U);
+  EXPECT_EQ(kept.at("report"), Json({{"serial", "17"}})) << "no file that a page names is opened";
+  EXPECT_FALSE(kept.contains("reference"));
+  bottom["kinds"] = "plane";
+  const auto wrong = refusal("set-plan", Json{{"plan", {{"features", {top, bottom}}}}}.dump());
+  EXPECT_NE(wrong.find("the plan: features[1].kinds is unknown here"), std::string::npos) << wrong;
+  EXPECT_EQ(state().at("project").at("plan"), kept) << "a plan that is refused changes nothing";
+
+  static_cast<void>(command("inspect", {{"features", true}}));
+  ASSERT_EQ(finish().at("state"), "done");
+  const Json found = state().at("project").at("surface").at("inspection");
+  ASSERT_EQ(found.at("characteristics").size(), 1U);
+  EXPECT_NEAR(found.at("characteristics")[0].at("value").get<double>(), 10.0, 1e-4);
+  EXPECT_EQ(found.at("verdict"), "in");
+  EXPECT_TRUE(state().at("project").at("surface").at("comparison").is_null());
+  std::size_t named = 0;
+  for (const Json& feature : found.at("features"))
+    named += feature.at("name").is_null() ? 0U : 1U;
+  EXPECT_EQ(named, 2U);
+
+  for (const char* format : {"html", "csv", "qif", "toml"}) {
+    static_cast<void>(command("report", {{"format", format}}));
+    EXPECT_EQ(finish().at("state"), "done") << format;
+  }
+  const auto text = [&](const char* name) { return read_text_file(service_->exported(name).path); };
+  EXPECT_NE(text("box report.html").find("box ä"), std::string::npos);
+  EXPECT_NE(text("box report.csv").find("\"height\",mm,10,9.99,10.01,10,"), std::string::npos);
+  EXPECT_NE(text("inspection.toml").find("name = \"height\""), std::string::npos);
+  // The plan that was saved is read back, and the one in the folder after a restart.
+  const std::string saved = text("inspection.toml");
+  static_cast<void>(command("set-plan", {{"plan", {{"part", "other"}}}}));
+  static_cast<void>(command("open-plan", {{"text", saved}}));
+  EXPECT_EQ(state().at("project").at("plan"), kept);
+  EXPECT_NE(refusal("open-plan", R"({"text": "part = 1"})"), "");
+  restart();
+  static_cast<void>(command("open-project", {{"name", "box"}}));
+  static_cast<void>(finish());
+  EXPECT_EQ(state().at("project").at("plan"), kept);
+  std::ofstream(folder_.path() / "projects" / "box" / "inspection.toml") << "format = 1\n";
+  restart();
+  static_cast<void>(command("open-project", {{"name", "box"}}));
+  static_cast<void>(finish());
+  EXPECT_TRUE(state().at("project").at("plan").is_null());
+  EXPECT_NE(state().at("project").at("plan_fault"), "");
+}
+
+}  // namespace
+}  // namespace frangia

@@ -1,0 +1,128 @@
+/** Deviations of the surface from a reference; shares are of the compared area. */
+export interface Comparison {
+  revision: number;
+  reference: string;
+  reference_triangles: number;
+  best_fit: boolean;
+  /** Of `poses`, from 1. */
+  start: number;
+  /** Poses that fit alike, the best first. */
+  poses: { turned_deg: number; moved_mm: number; overlap: number; rms_mm: number | null }[];
+  tolerance_mm: [number, number];
+  scale_mm: [number, number];
+  histogram: number[];
+  verdict: 'in' | 'out' | 'undecided';
+  /** The verdict in words, with the reason and what to do. */
+  sentence: string;
+  /** Shares of the nominal area; they sum to 1. */
+  in_share: number;
+  out_share: number;
+  undecided_share: number;
+  not_measured_share: number;
+  /** Diameter of the patches over which deviations are averaged. */
+  patch_mm: number;
+  rms_mm: number | null;
+  mean_mm: number | null;
+  min_mm: number | null;
+  max_mm: number | null;
+  median_u_mm: number | null;
+  area_mm2: number;
+  overlap: number;
+  fit_rms_mm: number | null;
+  turned_deg: number;
+  moved_mm: number;
+  left_out: number;
+  free_directions: string[];
+}
+/** A row of the table of results. */
+export interface MeasuredRow {
+  name: string;
+  kind: string;
+  feature: string;
+  datum: string;
+  unit: 'mm' | 'degrees';
+  nominal: number | null;
+  /** Of the value; null: none on that side. */
+  limits: [number | null, number | null] | null;
+  value: number | null;
+  u95: number | null;
+  /** Share of the tolerance that is used; above 1 beyond it. */
+  used: number | null;
+  verdict: 'in' | 'out' | 'undecided' | null;
+}
+/** A feature of the surface. `at_mm` and `axis` are in its frame, `near_mm` in that of the reference. */
+export interface FoundFeature {
+  /** In the plan; null: it is not in the plan. */
+  name: string | null;
+  kind: 'plane' | 'line' | 'circle' | 'cylinder' | 'sphere' | 'cone' | 'torus';
+  hole: boolean;
+  diameter_mm: number | null;
+  u95_mm: number | null;
+  form_mm: number | null;
+  near_mm: [number, number, number];
+  at_mm: [number, number, number];
+  axis: [number, number, number];
+  half_angle_deg: number | null;
+  /** Of the CAD reference. */
+  face: number | null;
+  nominal_mm: number | null;
+}
+/** What an inspection found. Places are in the frame of the surface. */
+export interface Inspection {
+  revision: number;
+  verdict: 'in' | 'out' | 'undecided';
+  searched: boolean;
+  characteristics: MeasuredRow[];
+  features: FoundFeature[];
+  places: {
+    decision: 'out' | 'near_limit' | 'not_well_measured' | 'not_measured';
+    at_mm: [number, number, number];
+    deviation_mm: number | null;
+    u95_mm: number | null;
+    area_mm2: number;
+    missing: boolean;
+  }[];
+  thickness_mm: [number | null, number | null, number | null] | null;
+}
+export type CharacteristicKind =
+  | 'distance'
+  | 'angle'
+  | 'flatness'
+  | 'roundness'
+  | 'cylindricity'
+  | 'position'
+  | 'parallelism'
+  | 'perpendicularity'
+  | 'run-out'
+  | 'total-run-out';
+export interface PlannedFeature {
+  name: string;
+  kind?: FoundFeature['kind'];
+  near_mm?: [number, number, number];
+  face?: number;
+  diameter_mm?: number | null;
+  tolerance_mm?: [number, number] | null;
+}
+export interface PlannedCharacteristic {
+  name: string;
+  kind: CharacteristicKind;
+  feature: string;
+  datum?: string;
+  position_mm?: [number, number, number] | null;
+  nominal?: number;
+  tolerance?: [number, number];
+  limit?: number;
+}
+/** The keys of inspection.toml that the page edits; it keeps all others. */
+export interface Plan {
+  format: string;
+  version: number;
+  part?: string;
+  align?: 'best-fit' | 'datum' | 'none';
+  datums?: string[];
+  start?: number;
+  tolerance_mm?: [number, number];
+  features?: PlannedFeature[];
+  characteristics?: PlannedCharacteristic[];
+  report?: Partial<Record<'drawing' | 'order' | 'serial' | 'customer' | 'operator' | 'date' | 'paper', string>>;
+}
