@@ -136,12 +136,12 @@ ExplainedAngles worded(ExplainedAngles found, const Registration& work) {
 }  // namespace
 
 std::optional<ExplainedAngles> explain_angles(const Registration& work) {
-  constexpr double kSuspicious = 0.03;  // fifteen times what edges and stray points cause
-  constexpr double kRemaining = 0.3;    // of the violations, with the angles as they were
-  constexpr float kMuch = 2.0F;         // times as far apart by the commanded angles
-  constexpr double kFewest = 0.5;       // of the surfels that agree with the commanded angles
-  constexpr double kOpen = 0.3;         // of the reach: where the stated axis may place views
-  constexpr std::size_t kFew = 500;     // surfels of a view
+  // Edges and stray points cause 0.002; of a gear, the sides of the teeth alone contradict.
+  constexpr double kSuspicious = 0.003;
+  constexpr double kRemaining = 0.3;  // of the violations, with the angles as they were
+  constexpr float kMuch = 2.0F;       // times as far apart by the commanded angles
+  constexpr double kOpen = 0.3;       // of the reach: where the stated axis may place views
+  constexpr std::size_t kFew = 500;   // surfels of a view
   Bundle bundle = work.bundle;
   const SurfelLists surfels = pick_all_surfels(bundle.maps, kFew);
   bundle.gate_mm = kOpen * work.reach_mm;
@@ -157,13 +157,15 @@ std::optional<ExplainedAngles> explain_angles(const Registration& work) {
   }
   bundle.state = bundle.given;  // the refined axis is that of the wrong angles
   ExplainedAngles best{given, {}};
-  double least = kRemaining * commanded.violation;
+  const double few = kRemaining * commanded.violation;
+  double most = commanded.surfels;
   // The refined axis slid, where the stated one places the views with the angles as they are.
-  if (agreement_of(bundle, surfels, given).violation < least) return std::nullopt;
+  if (agreement_of(bundle, surfels, given).violation < few) return std::nullopt;
   const auto try_angles = [&](std::vector<double> angles_rad, const PoseExplanation& as) {
     const Agreement agreement = agreement_of(bundle, surfels, angles_rad);
-    if (agreement.violation > least || agreement.surfels < kFewest * commanded.surfels) return;
-    least = agreement.violation;
+    // Of parts that repeat themselves, other angles fit, too, but the right ones fit more of it.
+    if (agreement.violation > few || agreement.surfels <= most) return;
+    most = agreement.surfels;
     best = {std::move(angles_rad), as};
   };
   for (const double factor : factors())
