@@ -303,6 +303,14 @@ TEST(ExplainPoses, FindsAnglesOfAGearThoughItsTeethRepeatThemselves) {
   EXPECT_LT(out.error_mm, 0.01);
 }
 
+TEST(ExplainPoses, FindsAGearsAnglesInAnotherProportion) {
+  FaultyScan scan(8);
+  scan.scale_angles(0.96);
+  const Registered out = registered(scan, RayScene(make_part("gear")));
+  EXPECT_EQ(out.report.explanation.best, PoseCause::AnglesScaled) << out.report.explanation.text;
+  EXPECT_NEAR(out.report.explanation.scale, 0.96, 2e-3) << out.report.explanation.text;
+}
+
 TEST(ExplainPoses, FindsATurnThatDidNotHappen) {
   FaultyScan scan(8);
   for (std::size_t view = 5; view < 8; ++view)
