@@ -215,7 +215,8 @@ void bind_mesh(py::module_& module) {
         return result_of(py::none(), [&](const Run& run) { return make_part(name, run); });
       },
       py::arg("name"),
-      "A built-in part of the simulator: shaft, blade, bust, ball-bar, plate, bracket, groove.");
+      "A built-in part of the simulator: shaft, blade, bust, ball-bar, plate, bracket, groove, "
+      "gear.");
 }
 
 }  // namespace frangia::python

@@ -691,7 +691,7 @@ def least_squares(shifts_rad: Iterable[float]) -> PhaseAlgorithm:
     ...
 
 def make_part(name: str) -> Mesh:
-    """A built-in part of the simulator: shaft, blade, bust, ball-bar, plate, bracket, groove."""
+    """A built-in part of the simulator: shaft, blade, bust, ball-bar, plate, bracket, groove, gear."""
     ...
 
 def merge(paths: Iterable[str | os.PathLike[str]], *, voxel_mm: float = 0.0, progress: Callable[[float, str], object] | None = None) -> tuple[Any, ...]:

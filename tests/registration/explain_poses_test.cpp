@@ -113,6 +113,17 @@ TEST(ExplainPoses, NamesARigThatIsNotAsStated) {
   EXPECT_NE(found.remedy.find("refine_rig"), std::string::npos) << found.remedy;
 }
 
+TEST(ExplainPoses, NamesAWrongRigThoughAnAxisElsewhereBringsTheViewsTogether) {
+  for (const char* part : {"bust", "shaft"}) {
+    FaultyScan scan(8);
+    scan.drift_projector(rad_from_deg(0.1), 0.5, true);
+    const Registered out = registered(scan, RayScene(make_part(part)), false);
+    const PoseExplanation& found = out.report.explanation;
+    EXPECT_EQ(found.best, PoseCause::Rig) << part << found.text;
+    EXPECT_TRUE(found.decided) << part << found.text;
+  }
+}
+
 TEST(ExplainPoses, EstimatesTheWobbleOfATable) {
   FaultyScan scan(8);
   scan.wobble(rad_from_deg(0.03), 0.03);
@@ -279,6 +290,25 @@ TEST(ExplainPoses, FindsATableThatTurnsByHalfOfWhatWasCommanded) {
   EXPECT_EQ(out.report.explanation.scale, 0.5);
   EXPECT_TRUE(out.report.outliers.empty());
   EXPECT_LT(out.error_mm, 0.01);
+}
+
+TEST(ExplainPoses, FindsAnglesOfAGearThoughItsTeethRepeatThemselves) {
+  // 22.5 degrees a view instead of 45, and 48.2, which is a tooth more, fit: but few of the pairs.
+  FaultyScan scan(8);
+  for (testing::TrueView& view : scan.views)
+    view.angle_rad *= 0.5;
+  const Registered out = registered(scan, RayScene(make_part("gear")));
+  EXPECT_EQ(out.report.explanation.best, PoseCause::AnglesScaled) << out.report.explanation.text;
+  EXPECT_EQ(out.report.explanation.scale, 0.5) << out.report.explanation.text;
+  EXPECT_LT(out.error_mm, 0.01);
+}
+
+TEST(ExplainPoses, FindsAGearsAnglesInAnotherProportion) {
+  FaultyScan scan(8);
+  scan.scale_angles(0.96);
+  const Registered out = registered(scan, RayScene(make_part("gear")));
+  EXPECT_EQ(out.report.explanation.best, PoseCause::AnglesScaled) << out.report.explanation.text;
+  EXPECT_NEAR(out.report.explanation.scale, 0.96, 2e-3) << out.report.explanation.text;
 }
 
 TEST(ExplainPoses, FindsATurnThatDidNotHappen) {

@@ -1,6 +1,8 @@
 #include "frangia/simulate/parts.h"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -103,6 +105,25 @@ TEST(Bracket, HasTheVolumeOfItsPlatesLessTheBores) {
   const double rib = 6.0 * 0.5 * 30.0 * 30.0;
   const double bores = kPi * 8.0 * (2.0 * 25.0 + 2.0 * 36.0 + 49.0);
   EXPECT_NEAR(volume_mm3(make_bracket()), plates + rib - bores, 1.0);
+}
+
+TEST(Gear, HasTheVolumeOfItsInvoluteTeeth) {
+  // ISO 53 basic rack of module 4, 20 degrees: the tooth thickness at the diameter d_y is
+  // d_y (pi / 2z + inv(alpha) - inv(alpha_y)), and that of the base circle from there to the root.
+  const auto involute = [](double angle) { return std::tan(angle) - angle; };
+  const double alpha = 20.0 * kPi / 180.0;
+  constexpr int kSteps = 20000;
+  double tooth = 0.0;
+  for (int i = 0; i < kSteps; ++i) {
+    const double r = 23.0 + 9.0 * (i + 0.5) / kSteps;
+    const double alpha_y = std::acos(std::min(1.0, 28.0 * std::cos(alpha) / r));
+    tooth += 9.0 / kSteps * 2.0 * r * (kPi / 28.0 + involute(alpha) - involute(alpha_y));
+  }
+  const double key = 2.0 * std::asin(2.5 / 7.0);
+  const double bore = 0.5 * 49.0 * (kTwoPi - key) + 5.0 * 9.3 - 2.5 * 7.0 * std::cos(0.5 * key);
+  const double expected =
+      24.0 * (kPi * 23.0 * 23.0 + 14.0 * tooth) + 16.0 * kPi * 225.0 - 40.0 * bore;
+  EXPECT_NEAR(volume_mm3(make_gear()), expected, 2e-4 * expected);
 }
 
 TEST(Bust, HasANoseInFrontAndEarsOnBothSides) {

@@ -19,14 +19,15 @@ Mesh make_at_once(const Run& /*run*/) {
   return make();
 }
 
-constexpr std::array<std::pair<std::string_view, Maker>, 7> kParts{
+constexpr std::array<std::pair<std::string_view, Maker>, 8> kParts{
     {{"shaft", make_at_once<make_shaft>},
      {"blade", make_at_once<make_blade>},
      {"bust", make_bust},
      {"ball-bar", make_at_once<make_ball_bar>},
      {"plate", make_at_once<make_plate>},
      {"bracket", make_at_once<make_bracket>},
-     {"groove", make_at_once<make_groove>}}};
+     {"groove", make_at_once<make_groove>},
+     {"gear", make_at_once<make_gear>}}};
 
 }  // namespace
 

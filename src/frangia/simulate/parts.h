@@ -22,6 +22,7 @@ namespace frangia {
 /// plate     80 x 60 x 6, standing upright on the axis
 /// bracket   an angle with a rib, bores and an overhang
 /// groove    a block 35 x 64 x 50 with an upright 90 degree V-groove, 25 deep, in its face x = 15
+/// gear      a spur gear of 14 teeth of module 4, with a hub, and a bore with a keyway
 ///
 /// @units    mm, object frame; round faces have chord errors below 0.002 mm
 /// @errors   Error(Input) that lists the names for an unknown name
@@ -35,6 +36,7 @@ namespace frangia {
 [[nodiscard]] Mesh make_plate();     ///< the part "plate" of `make_part`
 [[nodiscard]] Mesh make_bracket();   ///< the part "bracket" of `make_part`
 [[nodiscard]] Mesh make_groove();    ///< the part "groove" of `make_part`
+[[nodiscard]] Mesh make_gear();      ///< the part "gear" of `make_part`
 
 /// A ball bar for acceptance tests: balls along z, on a thin rod, with the middle of their centers
 /// at the origin; or one ball, with its center there, on a stem below it.

@@ -16,6 +16,9 @@ namespace {
 struct Agreement {
   double violation = 0.0;  ///< share of the comparisons in front of what another view measured
   double surfels = 0.0;    ///< that lie on what another view measured
+
+  /// What speaks for the angles. A hundredth of the comparisons that contradict outweighs all.
+  [[nodiscard]] double support() const { return surfels * std::max(0.0, 1.0 - 100.0 * violation); }
 };
 
 Agreement agreement_of(Bundle& bundle,
@@ -136,12 +139,17 @@ ExplainedAngles worded(ExplainedAngles found, const Registration& work) {
 }  // namespace
 
 std::optional<ExplainedAngles> explain_angles(const Registration& work) {
-  constexpr double kSuspicious = 0.03;  // fifteen times what edges and stray points cause
-  constexpr double kRemaining = 0.3;    // of the violations, with the angles as they were
-  constexpr float kMuch = 2.0F;         // times as far apart by the commanded angles
-  constexpr double kFewest = 0.5;       // of the surfels that agree with the commanded angles
-  constexpr double kOpen = 0.3;         // of the reach: where the stated axis may place views
-  constexpr std::size_t kFew = 500;     // surfels of a view
+  // Edges and stray points cause up to 0.002, but other angles then fit no more of the part; of a
+  // gear, the sides of the teeth alone contradict.
+  constexpr double kSuspicious = 0.0005;
+  constexpr double kRemaining = 0.4;  // of the violations, with the angles as they were
+  constexpr double kMore = 1.005;     // times the surfels that agree with the angles as they were
+  constexpr float kMuch = 2.0F;       // times as far apart by the commanded angles
+  constexpr double kOpen = 0.3;       // of the reach: where the stated axis may place views
+  constexpr std::size_t kFew = 500;   // surfels of a view
+  constexpr int kFine = 7;
+  constexpr double kFineStep = 0.0005;
+  constexpr double kAsMany = 0.998;
   Bundle bundle = work.bundle;
   const SurfelLists surfels = pick_all_surfels(bundle.maps, kFew);
   bundle.gate_mm = kOpen * work.reach_mm;
@@ -157,21 +165,29 @@ std::optional<ExplainedAngles> explain_angles(const Registration& work) {
   }
   bundle.state = bundle.given;  // the refined axis is that of the wrong angles
   ExplainedAngles best{given, {}};
-  double least = kRemaining * commanded.violation;
+  const double few = kRemaining * commanded.violation;
+  double most = 0.0;
   // The refined axis slid, where the stated one places the views with the angles as they are.
-  if (agreement_of(bundle, surfels, given).violation < least) return std::nullopt;
+  if (agreement_of(bundle, surfels, given).violation < few) return std::nullopt;
   const auto try_angles = [&](std::vector<double> angles_rad, const PoseExplanation& as) {
     const Agreement agreement = agreement_of(bundle, surfels, angles_rad);
-    if (agreement.violation > least || agreement.surfels < kFewest * commanded.surfels) return;
-    least = agreement.violation;
+    // Of parts that repeat themselves, other angles fit, too, but the right ones fit more of it.
+    if (agreement.violation > few || agreement.surfels < kMore * commanded.surfels ||
+        agreement.support() <= most)
+      return;
+    most = agreement.support();
     best = {std::move(angles_rad), as};
   };
   for (const double factor : factors())
     try_angles(scaled(given, factor), scaled_by(factor));
   const double found = best.explanation.scale;
   if (best.explanation.best == PoseCause::AnglesScaled && std::abs(found - 1.0) < kMostWrong) {
-    best.explanation.scale = refined_factor(work, found);
-    best.angles_rad = scaled(given, best.explanation.scale);
+    for (int i = -kFine; i <= kFine; ++i)
+      try_angles(scaled(given, found + i * kFineStep), scaled_by(found + i * kFineStep));
+    // Where the part holds the angles of the views, their fit is better than any step.
+    const double factor = refined_factor(work, best.explanation.scale);
+    if (agreement_of(bundle, surfels, scaled(given, factor)).support() >= kAsMany * most)
+      best = {scaled(given, factor), scaled_by(factor)};
   }
   for (std::size_t view = 1; view < given.size(); ++view) {
     PoseExplanation lost;

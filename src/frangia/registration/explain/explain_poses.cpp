@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <optional>
 #include <utility>
 
@@ -12,7 +13,6 @@
 #include "frangia/registration/explain/internal/scored_round.h"
 #include "frangia/registration/explain/internal/spread_of_causes.h"
 #include "frangia/registration/explain/internal/time_profiles.h"
-#include "frangia/registration/internal/assess_fit.h"
 #include "frangia/registration/refine_rig.h"
 
 namespace frangia {
@@ -25,42 +25,41 @@ bool is_beyond_prior(const PoseRound& round) {
   return round.posterior({}).table.head(own).cwiseAbs().maxCoeff() > kUnlikely;
 }
 
-/// The hypotheses about the poses on the pairs of the views as the table places them.
-PoseRound scored_as_placed(const Registration& work, const PoseChart& chart) {
+/// Scores the hypotheses on the pairs of the views in the poses of a round.
+///
+/// @shape    `rig_at`: changes of the rig with which the surfels are measured, as
+///           `changes_of_views` has them
+void score_pairs(PoseRound& round,
+                 const SurfelLists& surfels,
+                 const TurntableStations& given,
+                 const std::optional<DriftModel>& model,
+                 const Eigen::VectorXd& rig_at) {
+  if (model) {
+    round.rig_at = rig_at;
+    round.rig = rig_changes(*model, *given.pattern, round.chart.setting.rig_basis, rig_at);
+    round.chart.setting.rig_changes = model->count();
+  }
+  const RigChanges* rig = round.rig ? &*round.rig : nullptr;
+  round.sums = sum_poses(round.bundle, surfels, {round.poses, rig});
+  score(round);
+}
+
+/// No changes of the rig in any view.
+Eigen::VectorXd rig_as_stated(const std::optional<DriftModel>& model, const PoseChart& chart) {
+  return Eigen::VectorXd::Zero(model ? chart.setting.rig_basis.cols() * model->count() : 0);
+}
+
+/// The hypotheses on the pairs of the views as the table places them, which needs no iterations.
+PoseRound scored_as_placed(const Registration& work,
+                           const TurntableStations& given,
+                           const std::optional<DriftModel>& model,
+                           const PoseChart& chart) {
   // Of the reach: views that do not fit are outside of the gate of those that do.
   constexpr double kOpen = 0.3;
   PoseRound round{.bundle = work.bundle, .chart = chart, .poses = chart.from};
   round.bundle.gate_mm = std::max(work.bundle.gate_mm, kOpen * work.reach_mm);
-  round.sums = sum_poses(round.bundle, work.surfels, {round.poses, nullptr});
-  score(round);
+  score_pairs(round, work.surfels, given, model, rig_as_stated(model, chart));
   return round;
-}
-
-/// Whether the stated table leaves the views much farther apart than the refined one, which has not
-/// just slid along faces that do not hold it.
-bool contradicts_stated(const PoseRound& round, const Registration& work) {
-  constexpr double kMuch = 2.0;
-  Bundle bundle = round.bundle;
-  bundle.gate_mm = work.reach_mm;
-  const double refined_mm = rms_of(sum(bundle, work.surfels).distances_mm);
-  bundle.state = bundle.given;
-  return rms_of(sum(bundle, work.surfels).distances_mm) > kMuch * refined_mm;
-}
-
-/// Whether views that are moved by themselves fit noticeably better than the table places them, or
-/// the table does so only by changes that are not to be expected.
-bool is_suspicious(const PoseRound& round, const Registration& work) {
-  if (is_beyond_prior(round) && contradicts_stated(round, work)) return true;
-  // A wrong rig bends what each view measures: an axis elsewhere brings the views near, but leaves
-  // more in common to a pair of them than sound ones have, up to 2.5 times at rims and by blur.
-  constexpr double kBent = 4.0;
-  if (round.noise.shared_mm > kBent * round.bundle.systematic_mm) return true;
-  const PosePosterior free =
-      round.posterior({PoseCause::Unexplained, {}, 0.001 * round.chart.setting.distance_mm, 0.0});
-  const double effect_mm = round.effect_mm(free.motion - round.stated());
-  // Poses do not explain a wrong rig: what pairs have in common here may be just that.
-  constexpr double kSystematic = 2.5;  // times the error that sound views have in common
-  return effect_mm > std::max(kSystematic * round.bundle.systematic_mm, round.noise.scatter_mm);
 }
 
 const ScoredCause& as_stated(const PoseRound& round) {
@@ -177,8 +176,8 @@ struct PlacedViews {
   }
 };
 
-PlacedViews placed_as_stated(const Registration& work, Eigen::Index rig_unknowns) {
-  PlacedViews placed{Eigen::VectorXd::Zero(rig_unknowns), work.bundle, work.surfels};
+PlacedViews placed_as_stated(const Registration& work, Eigen::VectorXd rig_at) {
+  PlacedViews placed{std::move(rig_at), work.bundle, work.surfels};
   placed.compare(work.reach_mm);
   return placed;
 }
@@ -199,25 +198,26 @@ PlacedViews placed_by(const Registration& work,
   return placed;
 }
 
-/// The hypotheses on the pairs of the fit in which every view moves by itself.
+/// The poses on whose pairs hypotheses are scored.
+enum class ScoredPoses : std::uint8_t {
+  OfTable,  ///< as the table places the views
+  Free      ///< where every view fits by itself
+};
+
+/// The hypotheses on the pairs of views that were placed.
 PoseRound scored_round(const Registration& work,
                        const TurntableStations& given,
                        const std::optional<DriftModel>& model,
-                       const PlacedViews& placed) {
+                       const PlacedViews& placed,
+                       ScoredPoses poses) {
   const PoseChart chart = make_chart(
       placed.bundle, placed.surfels, placed.bundle.state, times_of(work.stations), work.options);
   PoseRound round{.bundle = placed.bundle, .chart = chart, .poses = chart.from};
   round.bundle.gate_mm = work.reach_mm;
-  free_poses(round.bundle, placed.surfels, round.poses, round.chart, work.options, work.run);
-  if (model) {
-    round.rig_at = placed.rig_at;
-    round.rig = rig_changes(*model, *given.pattern, chart.setting.rig_basis, round.rig_at);
-    round.chart.setting.rig_changes = model->count();
-  }
-  const RigChanges* rig = round.rig ? &*round.rig : nullptr;
-  round.sums = sum_poses(round.bundle, placed.surfels, {round.poses, rig});
+  if (poses == ScoredPoses::Free)
+    free_poses(round.bundle, placed.surfels, round.poses, round.chart, work.options, work.run);
   round.surfaces = surfaces_of(placed.surfels, round.poses);
-  score(round);
+  score_pairs(round, placed.surfels, given, model, placed.rig_at);
   return round;
 }
 
@@ -243,25 +243,47 @@ std::optional<PlacedViews> best_placed(const Registration& work,
   return best;
 }
 
-/// The hypotheses, linearized again at the rig that they find: points move with it linearly to a
-/// tenth only.
-PoseRound scored_at_found_rig(const Registration& work,
-                              const TurntableStations& given,
-                              const std::optional<DriftModel>& model) {
+/// A round, and the views that it is about.
+struct RoundOfViews {
+  PoseRound round;
+  PlacedViews placed;
+};
+
+/// The hypotheses, linearized again at the rig that they find, as long as the table places the
+/// views better with it: points move with the rig linearly to a tenth only.
+RoundOfViews at_found_rig(const Registration& work,
+                          const TurntableStations& given,
+                          const DriftModel& model,
+                          RoundOfViews found,
+                          ScoredPoses poses) {
   constexpr int kTurns = 4;
-  const Eigen::Index functions = basis_of_profiles(times_of(work.stations)).cols();
-  PlacedViews placed = placed_as_stated(work, model ? functions * model->count() : 0);
-  PoseRound round = scored_round(work, given, model, placed);
-  for (int turn = 1; model && turn < kTurns; ++turn) {
-    std::optional<PlacedViews> better = best_placed(work, given, *model, round, placed);
+  for (int turn = 1; turn < kTurns; ++turn) {
+    std::optional<PlacedViews> better = best_placed(work, given, model, found.round, found.placed);
     if (!better) break;
-    PoseRound next = scored_round(work, given, model, *better);
+    PoseRound next = scored_round(work, given, model, *better, poses);
     // Far from the rig that is stated the views may slide off each other: what was found stays.
     if (!changes_rig(next.causes[winner_of(next)].cause)) break;
-    placed = std::move(*better);
-    round = std::move(next);
+    found = {std::move(next), std::move(*better)};
   }
-  return round;
+  return found;
+}
+
+/// The hypotheses about views that are not all where the table places them.
+PoseRound scored_again(const Registration& work,
+                       const TurntableStations& given,
+                       const std::optional<DriftModel>& model,
+                       const PoseRound& as_placed) {
+  PlacedViews placed = placed_as_stated(work, rig_as_stated(model, as_placed.chart));
+  if (!model) return scored_round(work, given, model, placed, ScoredPoses::Free);
+  // Views of a wrong rig slide off each other once they are free: its hypothesis goes first.
+  if (changes_rig(as_placed.causes[winner_of(as_placed)].cause)) {
+    RoundOfViews found =
+        at_found_rig(work, given, *model, {as_placed, placed}, ScoredPoses::OfTable);
+    if (!found.placed.rig_at.isZero()) return std::move(found.round);
+  }
+  PoseRound round = scored_round(work, given, model, placed, ScoredPoses::Free);
+  RoundOfViews free{std::move(round), std::move(placed)};
+  return at_found_rig(work, given, *model, std::move(free), ScoredPoses::Free).round;
 }
 
 /// The second best of the causes, and those that move the views as the winner does.
@@ -306,15 +328,16 @@ ExplainedPoses explain_poses(const Registration& work,
   ExplainedPoses all;
   const PoseChart chart = make_chart(
       work.bundle, work.surfels, work.bundle.state, times_of(work.stations), work.options);
-  const PoseRound placed = scored_as_placed(work, chart);
-  if (!is_suspicious(placed, work)) {
-    all.spread = spread_of_causes(placed, as_stated(placed), work).of_views();
-    return all;
-  }
   std::optional<DriftModel> model;
   if (given.rig != nullptr && given.pattern != nullptr)
     model.emplace(*given.rig, RefineRigOptions{}, chart.setting.distance_mm);
-  const PoseRound round = scored_at_found_rig(work, given, model);
+  const PoseRound placed = scored_as_placed(work, given, model, chart);
+  // Sound views need no more than this; others are looked at where they fit by themselves.
+  if (placed.causes.front().cause == PoseCause::AsStated) {
+    all.spread = spread_of_causes(placed, placed.causes.front(), work).of_views();
+    return all;
+  }
+  const PoseRound round = scored_again(work, given, model, placed);
   const std::size_t first = winner_of(round);
   const ScoredCause winner = round.causes[first];
   PoseExplanation& explanation = all.explanation;

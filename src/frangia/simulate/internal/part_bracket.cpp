@@ -20,10 +20,6 @@ constexpr double kRibEnd = 8.0;   ///< x
 constexpr double kRibTop = 38.0;  ///< z
 constexpr int kRound = 256;
 
-Loop reversed(const Loop& loop) {
-  return {loop.rbegin(), loop.rend()};
-}
-
 /// A circle in the plane of u and v, counter-clockwise seen against u x v.
 Loop bore(const Eigen::Vector3d& center,
           const Eigen::Vector3d& u,

@@ -19,7 +19,7 @@ Mesh make_groove() {
   SolidBuilder solid;
   solid.add_face(high);
   solid.add_band(low, high);
-  solid.add_face({low.rbegin(), low.rend()});
+  solid.add_face(reversed(low));
   return solid.build();
 }
 

@@ -21,6 +21,10 @@ Loop circle(const Eigen::Vector3d& center, double radius, int count) {
   return loop;
 }
 
+Loop reversed(const Loop& loop) {
+  return {loop.rbegin(), loop.rend()};
+}
+
 void SolidBuilder::add_face(const Loop& outer, const std::vector<Loop>& holes) {
   // Newell's normal is exact for any simple polygon, collinear points included.
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();

@@ -14,6 +14,9 @@ using Loop = std::vector<Eigen::Vector3d>;
 /// A circle about an axis parallel to z, counter-clockwise seen from above, with `count` points.
 [[nodiscard]] Loop circle(const Eigen::Vector3d& center, double radius, int count);
 
+/// The same line the other way round.
+[[nodiscard]] Loop reversed(const Loop& loop);
+
 /// Builds a closed solid from its faces.
 ///
 /// Neighbouring faces must have equal points along their shared edge; equal points become one
