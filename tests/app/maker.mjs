@@ -73,7 +73,7 @@ await tell(home, async () => {
   await page.waitForSelector('.figures');
   await idle(page);
   await look('surface');
-  await page.keyboard.press('7');
+  await page.keyboard.press('8');
   await page.waitForSelector('#export');
   await look('export');
   await page.click('#export');

@@ -3,8 +3,8 @@ import { Vector3 } from 'three';
 import type { App } from './app';
 import { icon } from './icons';
 import { number, t } from './messages';
-import { type Measurement, measured } from './ruler';
-import type { HandMeasurement, Surface } from './types';
+import { type HandMeasurement, type Measurement, measured } from './ruler';
+import type { Surface } from './types';
 
 interface Measured {
   label: string;

@@ -13,6 +13,14 @@ export interface Measurement {
   u95_deg: number | null;
 }
 
+/** Points that were clicked on a mesh: two for a distance, three for an angle. */
+export interface HandMeasurement {
+  label: string;
+  mesh: string;
+  points_mm: [number, number, number][];
+  sigmas_mm: (number | null)[];
+}
+
 const COLOR = 0xff8a4c;
 
 /** The distance of two points, or the angle at the second of three, with its uncertainty from those of the points, mm. */

@@ -1,4 +1,5 @@
 import type { Comparison, Inspection, Plan } from './inspection_types';
+import type { HandMeasurement } from './ruler';
 
 /** The state that the server sends; docs/service-schema.json describes it. */
 export type JobState = 'waiting' | 'running' | 'done' | 'failed' | 'stopped';
@@ -335,13 +336,6 @@ export interface Project {
   plan: Plan | null;
   plan_fault: string;
   commands: { rig?: string[]; scan?: string[]; reconstruct?: string[]; edit?: string[]; inspect?: string[] };
-}
-/** Points that were clicked on a mesh: two for a distance, three for an angle. */
-export interface HandMeasurement {
-  label: string;
-  mesh: string;
-  points_mm: [number, number, number][];
-  sigmas_mm: (number | null)[];
 }
 export interface ExportedFile {
   name: string;
