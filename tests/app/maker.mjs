@@ -11,8 +11,8 @@ const [program, shots] = process.argv.slice(2).map((name) => path.resolve(name))
 requireChromium();
 fs.mkdirSync(shots, { recursive: true });
 const home = newHome();
-const POSES = 4;
-const STATIONS = 6;
+const POSES = 3;
+const STATIONS = 5;
 
 await tell(home, async () => {
   const server = await startServer(program, home);
