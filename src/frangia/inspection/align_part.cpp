@@ -59,7 +59,7 @@ PartAlignment align_by_datums(const Mesh& mesh,
                               const std::filesystem::path& mesh_name,
                               const Run& run) {
   require(!plan.datums.empty(),
-          "align = \"datum\" needs `datums`, which name one to three of the plan's features");
+          "align = \"datum\" needs datums, which name one to three of the plan's features");
   const std::vector<PlannedFeature> features = stated_features(plan, &reference);
   const auto reference_name =
       reference.file.empty() ? std::filesystem::path("the reference") : reference.file;
@@ -72,7 +72,7 @@ PartAlignment align_by_datums(const Mesh& mesh,
   for (const std::string& name : plan.datums) {
     const auto planned = std::find_if(
         features.begin(), features.end(), [&](const auto& one) { return one.name == name; });
-    require(planned != features.end(), "`datums` name a feature that the plan does not have");
+    require(planned != features.end(), "datums name a feature that the plan does not have");
     const Feature& seen = found_datum(*planned, measured, aligned, mesh_name);
     Datum datum{name, {}, seen.fit.shape, seen.uncertainty};
     if (planned->face > 0) {

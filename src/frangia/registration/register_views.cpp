@@ -273,8 +273,14 @@ RegistrationReport register_views(ViewStore& views,
                                         : explanation.text + "; " + explanation.remedy);
   }
   run.report(0.7);
+  // What a wrong rig does to the views is judged once it is refined.
+  const bool is_refined = explanation.best == PoseCause::Rig && explanation.decided &&
+                          options.wrong_rig == WrongRig::IsRefined;
+  const auto warn_if_untrusted = [&] {
+    if (!is_refined && !report.untrusted_reason().empty()) run.warn(report.untrusted_reason());
+  };
   if (apply_correction(report, explained, work)) {
-    if (!report.untrusted_reason().empty()) run.warn(report.untrusted_reason());
+    warn_if_untrusted();
     return report;
   }
   if (explanation.best == PoseCause::AsStated || explanation.best == PoseCause::ViewMoved)
@@ -287,8 +293,8 @@ RegistrationReport register_views(ViewStore& views,
   report.iterations = bundle.iterations;
   const bool slid = keep_better_state(report, after, work);
   add_motions(report.motions, explained.spread);
-  if (!report.untrusted_reason().empty()) run.warn(report.untrusted_reason());
-  if (slid) run.warn(report.rig_alone_text());
+  warn_if_untrusted();
+  if (slid && !is_refined) run.warn(report.rig_alone_text());
   const PartScale scale = measure_part_scale(bundle, surfels, camera);
   assess_observability(report, bundle, after, scale.radius_mm);
   warn_of_uncertain_axis(report, scale, options, run);
