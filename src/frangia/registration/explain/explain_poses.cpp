@@ -10,25 +10,19 @@
 #include "frangia/registration/explain/internal/correct_poses.h"
 #include "frangia/registration/explain/internal/describe_explanation.h"
 #include "frangia/registration/explain/internal/displace_views.h"
+#include "frangia/registration/explain/internal/measure_cause.h"
 #include "frangia/registration/explain/internal/scored_round.h"
 #include "frangia/registration/explain/internal/spread_of_causes.h"
 #include "frangia/registration/explain/internal/time_profiles.h"
+#include "frangia/registration/internal/assess_fit.h"
 #include "frangia/registration/refine_rig.h"
 
 namespace frangia {
 namespace {
 
-/// Whether the views are where only axis or angles would put them that are not to be expected.
-bool is_beyond_prior(const PoseRound& round) {
-  constexpr double kUnlikely = 3.5;  // standard deviations of a change
-  const auto own = static_cast<Eigen::Index>(round.chart.setting.views) + 3;
-  return round.posterior({}).table.head(own).cwiseAbs().maxCoeff() > kUnlikely;
-}
-
 /// Scores the hypotheses on the pairs of the views in the poses of a round.
 ///
-/// @shape    `rig_at`: changes of the rig with which the surfels are measured, as
-///           `changes_of_views` has them
+/// @shape    `rig_at`: changes of the rig that measured the surfels, as `changes_of_views` has them
 void score_pairs(PoseRound& round,
                  const SurfelLists& surfels,
                  const TurntableStations& given,
@@ -62,100 +56,33 @@ PoseRound scored_as_placed(const Registration& work,
   return round;
 }
 
+/// Whether the stated table leaves the views much farther apart than the refined one, which has not
+/// just slid along faces that do not hold it.
+bool contradicts_stated(const PoseRound& round, const Registration& work) {
+  constexpr double kMuch = 2.0;
+  Bundle bundle = round.bundle;
+  bundle.gate_mm = work.reach_mm;
+  const double refined_mm = rms_of(sum(bundle, work.surfels).distances_mm);
+  bundle.state = bundle.given;
+  return rms_of(sum(bundle, work.surfels).distances_mm) > kMuch * refined_mm;
+}
+
+/// Whether views that are moved by themselves fit noticeably better than the table places them, or
+/// the table does so only by changes that are not to be expected. Else they would slide along faces
+/// that do not hold them.
+bool fits_better_free(const PoseRound& round, const Registration& work) {
+  if (is_beyond_prior(round) && contradicts_stated(round, work)) return true;
+  const PosePosterior free =
+      round.posterior({PoseCause::Unexplained, {}, 0.001 * round.chart.setting.distance_mm, 0.0});
+  const double effect_mm = round.effect_mm(free.motion - round.stated());
+  constexpr double kSystematic = 2.5;  // times the error that sound views have in common
+  return effect_mm > std::max(kSystematic * round.bundle.systematic_mm, round.noise.scatter_mm);
+}
+
 const ScoredCause& as_stated(const PoseRound& round) {
   return *std::find_if(round.causes.begin(), round.causes.end(), [](const ScoredCause& cause) {
     return cause.cause == PoseCause::AsStated;
   });
-}
-
-/// The parameters of the rig that changed most, in standard deviations of their prior: from what is
-/// stated, or by the way between the views.
-///
-/// @shape    `changes`: terms x views
-std::vector<std::string> terms_of(const DriftModel& model,
-                                  const Eigen::MatrixXd& changes,
-                                  bool drifts) {
-  constexpr double kMost = 0.5;  // of the largest
-  const Eigen::MatrixXd all = model.factor() * changes;
-  const Eigen::VectorXd way = all.rowwise().maxCoeff() - all.rowwise().minCoeff();
-  const Eigen::VectorXd prior = model.factor().rowwise().norm();
-  const Eigen::VectorXd shares =
-      (drifts ? way : all.col(0)).cwiseAbs().cwiseQuotient(prior.cwiseMax(1e-300));
-  std::vector<std::string> names;
-  for (Eigen::Index i = 0; i < shares.size(); ++i) {
-    if (shares[i] > kMost * shares.maxCoeff())
-      names.push_back(model.parameters()[static_cast<std::size_t>(i)]);
-  }
-  return names;
-}
-
-/// The largest of the motions of the part that a cause consists of: how far its centre moved, and
-/// how far it turned about it.
-void measure_motion(PoseExplanation& explanation,
-                    const PosePosterior& found,
-                    const CauseHypothesis& cause,
-                    double radius_mm) {
-  constexpr double kTurns = 0.2;  // share of the motion that is a rotation worth a word
-  double largest = -1.0;
-  const Eigen::Matrix<double, 6, 1> scales = cause.scale * shares_of_motion(cause.slides);
-  for (Eigen::Index at = 0; at < found.changes.size(); at += 6) {
-    const Eigen::Matrix<double, 6, 1> motion = scales.cwiseProduct(found.changes.segment<6>(at));
-    const Eigen::Vector3d arc = motion.head<3>();
-    const Eigen::Vector3d way = motion.tail<3>();
-    const double size = arc.squaredNorm() + way.squaredNorm();
-    if (size < largest) continue;
-    largest = size;
-    // What no overlap sees of it counts, too.
-    const Eigen::Matrix<double, 6, 1> variances =
-        scales.cwiseAbs2().cwiseProduct(found.changes_covariance.diagonal().segment<6>(at));
-    const double arc_sigma_mm = std::sqrt(variances.head<3>().sum());
-    explanation.moved_mm = way.norm();
-    explanation.moved_sigma_mm = std::sqrt(variances.tail<3>().sum());
-    const bool turned = arc.norm() > 3.0 * arc_sigma_mm && arc.norm() > kTurns * std::sqrt(size);
-    explanation.turned_rad = turned ? arc.norm() / radius_mm : kMissing;
-    explanation.turned_sigma_rad = turned ? arc_sigma_mm / radius_mm : kMissing;
-  }
-}
-
-/// What the winner found, in numbers.
-void measure(PoseExplanation& explanation,
-             const Registration& work,
-             const PoseRound& round,
-             const ScoredCause& winner) {
-  explanation.best = winner.cause;
-  const PosePosterior found = round.posterior(winner.best);
-  const double scale = winner.best.scale;
-  explanation.views = winner.best.views;
-  // A table that the views put beyond its prior is an explanation only in want of a better one.
-  const Eigen::VectorXd stated =
-      is_beyond_prior(round) ? Eigen::VectorXd::Zero(found.motion.size()) : round.stated();
-  explanation.effect_mm = round.effect_mm(found.motion - stated);
-  explanation.unexplained_mm = round.noise.shared_mm;
-  if (is_drift(winner.cause)) {
-    explanation.time_constant = time_constant_of(winner.best.profile);
-    explanation.times_assumed = !are_times_stated(work.stations);
-  }
-  switch (winner.cause) {
-    case PoseCause::Turned:
-      // The points turn back by what the table has turned too far.
-      explanation.turned_rad = -scale / round.chart.setting.radius_mm * found.changes[0];
-      break;
-    case PoseCause::AnglesScaled:
-      explanation.scale = work.angle_factor * (1.0 - scale * found.changes[0]);
-      break;
-    case PoseCause::PartMoved:
-    case PoseCause::PartMovedTwice:
-    case PoseCause::ViewMoved:
-    case PoseCause::ViewsMoved:
-    case PoseCause::PartDrift:
-      measure_motion(explanation, found, winner.best, round.chart.setting.radius_mm);
-      break;
-    case PoseCause::Wobble:
-      explanation.scale = scale;
-      break;
-    default:
-      break;
-  }
 }
 
 /// Views as the table places them that was refined with their points as rigs of their own measure
@@ -268,56 +195,40 @@ RoundOfViews at_found_rig(const Registration& work,
   return found;
 }
 
-/// The hypotheses about views that are not all where the table places them.
-PoseRound scored_again(const Registration& work,
-                       const TurntableStations& given,
-                       const std::optional<DriftModel>& model,
-                       const PoseRound& as_placed) {
-  PlacedViews placed = placed_as_stated(work, rig_as_stated(model, as_placed.chart));
-  if (!model) return scored_round(work, given, model, placed, ScoredPoses::Free);
-  // Views of a wrong rig slide off each other once they are free: its hypothesis goes first.
-  if (changes_rig(as_placed.causes[winner_of(as_placed)].cause)) {
-    RoundOfViews found =
-        at_found_rig(work, given, *model, {as_placed, placed}, ScoredPoses::OfTable);
-    if (!found.placed.rig_at.isZero()) return std::move(found.round);
-  }
+/// The hypotheses at the rig that is the winner of those as placed; none where it is not, or where
+/// the table places the views hardly better with it.
+std::optional<PoseRound> scored_with_rig(const Registration& work,
+                                         const TurntableStations& given,
+                                         const DriftModel& model,
+                                         const PoseRound& as_placed) {
+  if (!changes_rig(as_placed.causes[winner_of(as_placed)].cause)) return std::nullopt;
+  PlacedViews placed = placed_as_stated(work, as_placed.rig_at);
+  RoundOfViews found =
+      at_found_rig(work, given, model, {as_placed, std::move(placed)}, ScoredPoses::OfTable);
+  if (found.placed.rig_at.isZero()) return std::nullopt;
+  return std::move(found.round);
+}
+
+/// The hypotheses where every view fits by itself.
+PoseRound scored_where_free(const Registration& work,
+                            const TurntableStations& given,
+                            const std::optional<DriftModel>& model,
+                            const PoseChart& chart) {
+  PlacedViews placed = placed_as_stated(work, rig_as_stated(model, chart));
   PoseRound round = scored_round(work, given, model, placed, ScoredPoses::Free);
+  if (!model) return round;
   RoundOfViews free{std::move(round), std::move(placed)};
   return at_found_rig(work, given, *model, std::move(free), ScoredPoses::Free).round;
 }
 
-/// The second best of the causes, and those that move the views as the winner does.
-void compare(PoseExplanation& explanation, const PoseRound& round, std::size_t first) {
-  const ScoredCause& winner = round.causes[first];
-  bool has_second = false;
-  for (std::size_t i = 0; i < round.causes.size(); ++i) {
-    const ScoredCause& other = round.causes[i];
-    if (i == first) continue;
-    if (are_alike(round, first, i)) {
-      if (freedom_of(other.cause) <= freedom_of(winner.cause) &&
-          other.log_odds > winner.log_odds - kNamed)
-        explanation.alike.push_back(other.cause);
-    } else if (!has_second) {
-      has_second = true;
-      explanation.second = other.cause;
-      explanation.log_odds = round.causes.front().log_odds - other.log_odds;
-    }
+/// Without the causes that change the rig.
+PoseRound without_rig(PoseRound round) {
+  for (std::size_t i = round.causes.size(); i-- > 0;) {
+    if (!changes_rig(round.causes[i].cause)) continue;
+    round.causes.erase(round.causes.begin() + static_cast<std::ptrdiff_t>(i));
+    round.motions.erase(round.motions.begin() + static_cast<std::ptrdiff_t>(i));
   }
-  // The same cause at other views counts against it, too.
-  for (const CauseHypothesis& other : winner.others) {
-    const double log_odds = winner.log_odds - other.log_odds;
-    if (log_odds > std::min(kNamed, explanation.log_odds)) break;
-    if (are_alike(round,
-                  {winner.cause, round.motions[first]},
-                  {winner.cause, round.posterior(other).motion}))
-      continue;
-    explanation.second = winner.cause;
-    explanation.log_odds = log_odds;
-    break;
-  }
-  explanation.log_odds_stated = winner.log_odds - round.log_odds_of(PoseCause::AsStated);
-  explanation.decided = explanation.log_odds > kNamed && explanation.log_odds_stated > kNamed &&
-                        predicts(round, winner.best);
+  return round;
 }
 
 }  // namespace
@@ -331,17 +242,22 @@ ExplainedPoses explain_poses(const Registration& work,
   std::optional<DriftModel> model;
   if (given.rig != nullptr && given.pattern != nullptr)
     model.emplace(*given.rig, RefineRigOptions{}, chart.setting.distance_mm);
-  const PoseRound placed = scored_as_placed(work, given, model, chart);
-  // Sound views need no more than this; others are looked at where they fit by themselves.
-  if (placed.causes.front().cause == PoseCause::AsStated) {
-    all.spread = spread_of_causes(placed, placed.causes.front(), work).of_views();
+  PoseRound placed = scored_as_placed(work, given, model, chart);
+  // Views of a wrong rig slide off each other once they are free: its hypothesis goes first.
+  std::optional<PoseRound> again;
+  if (model) again = scored_with_rig(work, given, *model, placed);
+  if (!again) placed = without_rig(std::move(placed));
+  if (!again && fits_better_free(placed, work))
+    again = scored_where_free(work, given, model, chart);
+  if (!again) {
+    all.spread = spread_of_causes(placed, as_stated(placed), work).of_views();
     return all;
   }
-  const PoseRound round = scored_again(work, given, model, placed);
+  const PoseRound& round = *again;
   const std::size_t first = winner_of(round);
   const ScoredCause winner = round.causes[first];
   PoseExplanation& explanation = all.explanation;
-  measure(explanation, work, round, winner);
+  explanation = explanation_by(round, first, work);
   // Views that all move by themselves follow what their rims have in common, too.
   constexpr double kEach = 1.5;
   const bool each_moves =
@@ -352,7 +268,6 @@ ExplainedPoses explain_poses(const Registration& work,
     all.spread = spread_of_causes(round, as_stated(round), work).of_views();
     return all;
   }
-  compare(explanation, round, first);
   if (changes_rig(winner.cause)) {
     const Eigen::VectorXd of_rig = round.motions[first].tail(round.rig_at.size());
     const Eigen::MatrixXd changes = changes_of_views(of_rig, round.rig->basis);

@@ -1,0 +1,149 @@
+#include "frangia/registration/explain/internal/measure_cause.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "frangia/registration/explain/internal/displace_views.h"
+#include "frangia/registration/explain/internal/time_profiles.h"
+
+namespace frangia {
+namespace {
+
+/// The largest of the motions of the part that a cause consists of: how far its centre moved, and
+/// how far it turned about it.
+void measure_motion(PoseExplanation& explanation,
+                    const PosePosterior& found,
+                    const CauseHypothesis& cause,
+                    double radius_mm) {
+  constexpr double kTurns = 0.2;  // share of the motion that is a rotation worth a word
+  double largest = -1.0;
+  const Eigen::Matrix<double, 6, 1> scales = cause.scale * shares_of_motion(cause.slides);
+  for (Eigen::Index at = 0; at < found.changes.size(); at += 6) {
+    const Eigen::Matrix<double, 6, 1> motion = scales.cwiseProduct(found.changes.segment<6>(at));
+    const Eigen::Vector3d arc = motion.head<3>();
+    const Eigen::Vector3d way = motion.tail<3>();
+    const double size = arc.squaredNorm() + way.squaredNorm();
+    if (size < largest) continue;
+    largest = size;
+    // What no overlap sees of it counts, too.
+    const Eigen::Matrix<double, 6, 1> variances =
+        scales.cwiseAbs2().cwiseProduct(found.changes_covariance.diagonal().segment<6>(at));
+    const double arc_sigma_mm = std::sqrt(variances.head<3>().sum());
+    explanation.moved_mm = way.norm();
+    explanation.moved_sigma_mm = std::sqrt(variances.tail<3>().sum());
+    const bool turned = arc.norm() > 3.0 * arc_sigma_mm && arc.norm() > kTurns * std::sqrt(size);
+    explanation.turned_rad = turned ? arc.norm() / radius_mm : kMissing;
+    explanation.turned_sigma_rad = turned ? arc_sigma_mm / radius_mm : kMissing;
+  }
+}
+
+/// What the winner found, in numbers.
+PoseExplanation measured(const PoseRound& round,
+                         const ScoredCause& winner,
+                         const Registration& work) {
+  PoseExplanation explanation;
+  explanation.best = winner.cause;
+  const PosePosterior found = round.posterior(winner.best);
+  const double scale = winner.best.scale;
+  explanation.views = winner.best.views;
+  // A table that the views put beyond its prior is an explanation only in want of a better one.
+  const Eigen::VectorXd stated =
+      is_beyond_prior(round) ? Eigen::VectorXd::Zero(found.motion.size()) : round.stated();
+  explanation.effect_mm = round.effect_mm(found.motion - stated);
+  explanation.unexplained_mm = round.noise.shared_mm;
+  if (is_drift(winner.cause)) {
+    explanation.time_constant = time_constant_of(winner.best.profile);
+    explanation.times_assumed = !are_times_stated(work.stations);
+  }
+  switch (winner.cause) {
+    case PoseCause::Turned:
+      // The points turn back by what the table has turned too far.
+      explanation.turned_rad = -scale / round.chart.setting.radius_mm * found.changes[0];
+      break;
+    case PoseCause::AnglesScaled:
+      explanation.scale = work.angle_factor * (1.0 - scale * found.changes[0]);
+      break;
+    case PoseCause::PartMoved:
+    case PoseCause::PartMovedTwice:
+    case PoseCause::ViewMoved:
+    case PoseCause::ViewsMoved:
+    case PoseCause::PartDrift:
+      measure_motion(explanation, found, winner.best, round.chart.setting.radius_mm);
+      break;
+    case PoseCause::Wobble:
+      explanation.scale = scale;
+      break;
+    default:
+      break;
+  }
+  return explanation;
+}
+
+/// The second best of the causes, and those that move the views as the winner does.
+void compare(PoseExplanation& explanation, const PoseRound& round, std::size_t first) {
+  const ScoredCause& winner = round.causes[first];
+  bool has_second = false;
+  for (std::size_t i = 0; i < round.causes.size(); ++i) {
+    const ScoredCause& other = round.causes[i];
+    if (i == first) continue;
+    if (are_alike(round, first, i)) {
+      if (freedom_of(other.cause) <= freedom_of(winner.cause) &&
+          other.log_odds > winner.log_odds - kNamed)
+        explanation.alike.push_back(other.cause);
+    } else if (!has_second) {
+      has_second = true;
+      explanation.second = other.cause;
+      explanation.log_odds = round.causes.front().log_odds - other.log_odds;
+    }
+  }
+  // The same cause at other views counts against it, too.
+  for (const CauseHypothesis& other : winner.others) {
+    const double log_odds = winner.log_odds - other.log_odds;
+    if (log_odds > std::min(kNamed, explanation.log_odds)) break;
+    if (are_alike(round,
+                  {winner.cause, round.motions[first]},
+                  {winner.cause, round.posterior(other).motion}))
+      continue;
+    explanation.second = winner.cause;
+    explanation.log_odds = log_odds;
+    break;
+  }
+  explanation.log_odds_stated = winner.log_odds - round.log_odds_of(PoseCause::AsStated);
+  explanation.decided = explanation.log_odds > kNamed && explanation.log_odds_stated > kNamed &&
+                        predicts(round, winner.best);
+}
+
+}  // namespace
+
+bool is_beyond_prior(const PoseRound& round) {
+  constexpr double kUnlikely = 3.5;  // standard deviations of a change
+  const auto own = static_cast<Eigen::Index>(round.chart.setting.views) + 3;
+  return round.posterior({}).table.head(own).cwiseAbs().maxCoeff() > kUnlikely;
+}
+
+std::vector<std::string> terms_of(const DriftModel& model,
+                                  const Eigen::MatrixXd& changes,
+                                  bool drifts) {
+  constexpr double kMost = 0.5;  // of the largest
+  const Eigen::MatrixXd all = model.factor() * changes;
+  const Eigen::VectorXd way = all.rowwise().maxCoeff() - all.rowwise().minCoeff();
+  const Eigen::VectorXd prior = model.factor().rowwise().norm();
+  const Eigen::VectorXd shares =
+      (drifts ? way : all.col(0)).cwiseAbs().cwiseQuotient(prior.cwiseMax(1e-300));
+  std::vector<std::string> names;
+  for (Eigen::Index i = 0; i < shares.size(); ++i) {
+    if (shares[i] > kMost * shares.maxCoeff())
+      names.push_back(model.parameters()[static_cast<std::size_t>(i)]);
+  }
+  return names;
+}
+
+PoseExplanation explanation_by(const PoseRound& round,
+                               std::size_t first,
+                               const Registration& work) {
+  PoseExplanation explanation = measured(round, round.causes[first], work);
+  compare(explanation, round, first);
+  return explanation;
+}
+
+}  // namespace frangia
