@@ -7,7 +7,7 @@ import pathlib
 import re
 import sys
 
-MOST = 138
+MOST = 99
 
 
 def main(root, *options):

@@ -1,4 +1,5 @@
-// OpenCV is expensive to compile: its FileStorage stays in this source and in opencv_text.cpp.
+// OpenCV is expensive to compile: its FileStorage stays in this source and in
+// write_calibration_file.cpp.
 #include <algorithm>
 #include <exception>
 #include <string>
