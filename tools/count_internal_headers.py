@@ -7,7 +7,7 @@ import pathlib
 import re
 import sys
 
-MOST = 99
+MOST = 75
 
 
 def main(root, *options):

@@ -11,6 +11,7 @@
 #include "frangia/calibrate/internal/point_sigma.h"
 #include "frangia/calibrate/internal/rig_bundle.h"
 #include "frangia/calibrate/internal/rig_model.h"
+#include "frangia/calibrate/internal/rig_observations.h"
 #include "frangia/calibrate/internal/start_values.h"
 #include "frangia/calibrate/solve/internal/rig_covariance.h"
 #include "frangia/calibrate/solve/internal/rig_result.h"

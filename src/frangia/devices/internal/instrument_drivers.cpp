@@ -1,5 +1,3 @@
-#include "frangia/devices/internal/instrument_drivers.h"
-
 #include <functional>
 #include <memory>
 #include <string>
@@ -9,6 +7,7 @@
 #include "frangia/devices/internal/instrument_shifter.h"
 #include "frangia/devices/internal/message_instrument.h"
 #include "frangia/devices/internal/open_configured_transport.h"
+#include "frangia/devices/internal/own_drivers.h"
 #include "frangia/devices/switch_device.h"
 
 namespace frangia {

@@ -13,8 +13,7 @@
 #include "frangia/core/plain_text.h"
 #include "frangia/core/read_text_file.h"
 #include "frangia/exchange/internal/named_values.h"
-#include "frangia/exchange/internal/read_opencv_xml.h"
-#include "frangia/exchange/internal/storage_yaml.h"
+#include "frangia/exchange/internal/storage_formats.h"
 
 namespace frangia {
 namespace {

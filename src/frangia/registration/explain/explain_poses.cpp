@@ -10,6 +10,7 @@
 #include "frangia/registration/explain/internal/correct_poses.h"
 #include "frangia/registration/explain/internal/describe_explanation.h"
 #include "frangia/registration/explain/internal/displace_views.h"
+#include "frangia/registration/explain/internal/pose_round.h"
 #include "frangia/registration/explain/internal/scored_round.h"
 #include "frangia/registration/explain/internal/spread_of_causes.h"
 #include "frangia/registration/explain/internal/time_profiles.h"
