@@ -21,7 +21,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json finite_or_null(double value) {
+Json number_or_null(double value) {
   return std::isfinite(value) ? Json(value) : Json();
 }
 
@@ -30,8 +30,8 @@ Json json_of_fit(const SurfaceFit& fit) {
   return {{"kind", fit.kind},
           {"center_mm", vector(fit.center_mm)},
           {"axis", vector(fit.axis)},
-          {"diameter_mm", finite_or_null(fit.diameter_mm)},
-          {"u95_mm", finite_or_null(fit.u95_mm)},
+          {"diameter_mm", number_or_null(fit.diameter_mm)},
+          {"u95_mm", number_or_null(fit.u95_mm)},
           {"rms_mm", fit.rms_mm},
           {"form_mm", fit.form_mm},
           {"points", fit.points}};
@@ -56,9 +56,9 @@ nlohmann::ordered_json json_of_surface(const SurfaceSnapshot& surface) {
             {"selected", surface.selected},
             {"components", surface.components},
             {"sigma_mm",
-             {{"combined", finite_or_null(surface.sigma.combined_mm)},
-              {"noise", finite_or_null(surface.sigma.noise_mm)},
-              {"systematic", finite_or_null(surface.sigma.systematic_mm)}}},
+             {{"combined", number_or_null(surface.sigma.combined_mm)},
+              {"noise", number_or_null(surface.sigma.noise_mm)},
+              {"systematic", number_or_null(surface.sigma.systematic_mm)}}},
             {"hole_count", surface.hole_count}};
   json["levels"] = Json::array();
   for (const auto& level : surface.picture->levels()) {
@@ -101,10 +101,6 @@ nlohmann::ordered_json json_of_surface(const SurfaceSnapshot& surface) {
 }
 
 using Json = nlohmann::ordered_json;
-
-Json number_or_null(double value) {
-  return std::isfinite(value) ? Json(value) : Json();
-}
 
 Json json_of_job(const Job& job) {
   Json json{{"number", job.number},
