@@ -7,7 +7,7 @@ import pathlib
 import re
 import sys
 
-MOST = 138
+MOST = 75
 
 
 def main(root, *options):

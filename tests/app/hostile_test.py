@@ -228,8 +228,13 @@ class Hostile(HostileServer):
                     "NaN",
                     "Infinity",
                 ):
-                    if (field, number) in (("exposures_ms", "[]"), ("devices", "{}"), ("plan", "{}")):
-                        continue  # no merging of exposures, no devices, a plan of defaults
+                    if (field, number) in (
+                        ("exposures_ms", "[]"),
+                        ("devices", "{}"),
+                        ("plan", "{}"),
+                        ("measurements", "[]"),
+                    ):
+                        continue  # no merging of exposures, no devices, a plan of defaults, no measurements
                     body = '{"%s": %s}' % (field, number)
                     status = self.server.ask("POST", f"/api/commands/{command}", body.encode())[0]
                     self.assertEqual(status, 400, (command, body))

@@ -3,21 +3,125 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <numeric>
 
 #include <fmt/format.h>
 
-#include "frangia/acceptance/internal/ball_region.h"
-#include "frangia/acceptance/internal/direction_set.h"
 #include "frangia/core/angles.h"
 #include "frangia/core/error.h"
 #include "frangia/core/median.h"
 #include "frangia/features/find_features.h"
 #include "frangia/features/fit_shape.h"
+#include "frangia/features/shape.h"
 
 namespace frangia {
 namespace {
+
+/// Vertices of a mesh near a sphere, and where its surface ends.
+struct BallRegion {
+  std::vector<std::size_t> vertices;     ///< on the sphere
+  std::vector<Eigen::Vector3d> borders;  ///< unit directions from its center
+};
+
+bool is_measured(const Mesh& mesh, std::size_t triangle) {
+  if (!mesh.triangle_marks.empty() && mesh.triangle_marks[triangle] != Mark::Measured) return false;
+  return mesh.vertex_marks.empty() ||
+         std::all_of(mesh.triangles[triangle].begin(), mesh.triangles[triangle].end(), [&](auto v) {
+           return mesh.vertex_marks[v] == Mark::Measured;
+         });
+}
+
+/// Collects the measured vertices within `gate_mm` of a sphere. A vertex is on the border where a
+/// triangle reaches from it beyond the sphere, or where the triangles around it do not close: its
+/// edges then do not come in pairs.
+BallRegion ball_region(const Mesh& mesh, const Shape& sphere, double gate_mm) {
+  const auto residual = [&](std::size_t v) {
+    return (mesh.vertices_mm[v].cast<double>() - sphere.center_mm).norm() - sphere.radius_mm;
+  };
+  std::vector<char> on(mesh.vertices_mm.size(), 0);
+  for (std::size_t v = 0; v < on.size(); ++v)
+    on[v] = std::abs(residual(v)) < gate_mm ? 1 : 0;
+  std::vector<char> used(on.size(), 0);
+  std::vector<char> border(on.size(), 0);
+  std::vector<std::uint64_t> turn(on.size(), 0);  // sums of next - previous around a vertex
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const Mesh::Triangle& corners = mesh.triangles[t];
+    const bool whole =
+        is_measured(mesh, t) &&
+        std::all_of(corners.begin(), corners.end(), [&](auto v) { return on[v] != 0; });
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint32_t v = corners[k];
+      if (on[v] == 0) continue;
+      if (!whole) {
+        border[v] = 1;
+      } else {
+        used[v] = 1;
+        turn[v] += corners[(k + 1) % 3];
+        turn[v] -= corners[(k + 2) % 3];
+      }
+    }
+  }
+  BallRegion region;
+  for (std::size_t v = 0; v < on.size(); ++v) {
+    if (used[v] == 0) continue;
+    if (border[v] != 0 || turn[v] != 0) {
+      region.borders.push_back(
+          (mesh.vertices_mm[v].cast<double>() - sphere.center_mm).normalized());
+    } else {
+      region.vertices.push_back(v);
+    }
+  }
+  return region;
+}
+
+/// Buckets of unit directions, so that the ones near a direction are found without trying all.
+class DirectionSet {
+ public:
+  /// `radius_rad` is at most 6 degrees.
+  DirectionSet(const std::vector<Eigen::Vector3d>& directions, double radius_rad)
+      : cells_(count(kAcross)), least_cosine_(std::cos(radius_rad)) {
+    for (const Eigen::Vector3d& direction : directions)
+      cells_[index(cell(direction))].push_back(direction);
+  }
+  /// Whether the set has a direction within the radius of this one.
+  [[nodiscard]] bool has_near(const Eigen::Vector3d& direction) const {
+    const Eigen::Vector3i middle = cell(direction);
+    for (int z = -1; z <= 1; ++z) {
+      for (int y = -1; y <= 1; ++y) {
+        for (int x = -1; x <= 1; ++x) {
+          const Eigen::Vector3i at = middle + Eigen::Vector3i(x, y, z);
+          if (at.minCoeff() < 0 || at.maxCoeff() >= kAcross) continue;
+          for (const Eigen::Vector3d& other : cells_[index(at)])
+            if (other.dot(direction) > least_cosine_) return true;
+        }
+      }
+    }
+    return false;
+  }
+
+ private:
+  static constexpr int kAcross = 18;  ///< cells of 0.11, above the chord of 6 degrees
+  static std::size_t count(int across) {
+    const auto n = static_cast<std::size_t>(across);
+    return n * n * n;
+  }
+  static Eigen::Vector3i cell(const Eigen::Vector3d& direction) {
+    return ((direction.array() + 1.0) * (0.5 * kAcross))
+        .floor()
+        .cast<int>()
+        .max(0)
+        .min(kAcross - 1)
+        .matrix();
+  }
+  static std::size_t index(const Eigen::Vector3i& at) {
+    const int cell = (at.z() * kAcross + at.y()) * kAcross + at.x();
+    return static_cast<std::size_t>(cell);
+  }
+  std::vector<std::vector<Eigen::Vector3d>> cells_;
+  double least_cosine_;
+};
 
 constexpr double kDiameterTolerance = 0.1;  ///< share by which a ball that is found may differ
 constexpr double kLeavesSphere = 0.01;      ///< of the diameter, see measure_balls

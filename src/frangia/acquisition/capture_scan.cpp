@@ -4,20 +4,71 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
+#include <string>
+#include <string_view>
 #include <utility>
+#include <variant>
+#include <vector>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "frangia/acquisition/internal/capture_devices.h"
 #include "frangia/acquisition/internal/capture_folder.h"
 #include "frangia/acquisition/internal/capture_session.h"
 #include "frangia/acquisition/internal/check_devices.h"
-#include "frangia/acquisition/internal/describe_devices.h"
 #include "frangia/core/angles.h"
+#include "frangia/devices/device_settings.h"
 #include "frangia/frames/jpeg_noise.h"
 
 namespace frangia {
 namespace {
+
+/// Keys that may change between sessions: the operating system may renumber ports and monitors
+/// after a restart, and a user who resumes after a fault may have slowed the table down or given it
+/// more time to home. docs/devices.md lists all keys.
+constexpr std::array<std::string_view, 23> kMayChange = {"port",
+                                                         "baud",
+                                                         "parity",
+                                                         "stop_bits",
+                                                         "host",
+                                                         "tcp_port",
+                                                         "path",
+                                                         "monitor",
+                                                         "boot_s",
+                                                         "settle_s",
+                                                         "delay_s",
+                                                         "speed_deg_per_s",
+                                                         "min_deg",
+                                                         "max_deg",
+                                                         "start_deg",
+                                                         "faults",
+                                                         "real_time",
+                                                         "skip_frames",
+                                                         "gpib_address",
+                                                         "identify",
+                                                         "end",
+                                                         "home_time_s",
+                                                         "exposure_step_ms"};
+
+std::string text_of_value(const SettingValue& value) {
+  return std::visit([](const auto& held) { return fmt::format("{}", held); }, value);
+}
+
+/// Describes the devices of a rig for comparison between the sessions of a scan, one setting per
+/// line: "[camera]", "part = plate", ... Settings that state only how a device is reached, how fast
+/// it is or which faults are simulated may change between sessions and are left out.
+std::string describe_devices(const std::vector<DeviceSettings>& devices) {
+  std::string text;
+  for (const DeviceSettings& device : devices) {
+    text += fmt::format("[{}]\n", device.device());
+    for (const auto& [key, value] : device.values()) {
+      if (std::find(kMayChange.begin(), kMayChange.end(), key) == kMayChange.end())
+        text += fmt::format("{} = {}\n", key, text_of_value(value));
+    }
+  }
+  return text;
+}
 
 /// The options that must not change between the sessions of one scan, in words.
 std::string describe(const CaptureOptions& options) {

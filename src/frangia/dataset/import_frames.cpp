@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <random>
 #include <string>
+#include <system_error>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -11,7 +14,8 @@
 #include <nlohmann/json.hpp>
 
 #include "frangia/core/atomic_file.h"
-#include "frangia/dataset/internal/new_folder.h"
+#include "frangia/core/error.h"
+#include "frangia/core/make_folder.h"
 #include "frangia/dataset/internal/write_imported_frames.h"
 #include "frangia/dataset/write_scan.h"
 #include "frangia/frames/jpeg_noise.h"
@@ -19,6 +23,69 @@
 
 namespace frangia {
 namespace {
+
+/// A folder that appears under its final name only when it is complete. It is made under a
+/// hidden name in the same parent folder and renamed by `commit`; the destructor removes a folder
+/// that was not committed.
+///
+/// @errors   Error(File) when the final name exists and is not an empty folder, or when the folder
+///           cannot be made
+class NewFolder {
+ public:
+  explicit NewFolder(std::filesystem::path path);
+  NewFolder(const NewFolder&) = delete;
+  NewFolder& operator=(const NewFolder&) = delete;
+  NewFolder(NewFolder&&) = delete;
+  NewFolder& operator=(NewFolder&&) = delete;
+  ~NewFolder();
+
+  /// The folder while it is being filled.
+  [[nodiscard]] const std::filesystem::path& temporary() const { return temporary_; }
+  /// Renames the folder to its final name.
+  void commit();
+
+ private:
+  std::filesystem::path path_;
+  std::filesystem::path temporary_;
+};
+
+namespace fs = std::filesystem;
+
+void require_free(const fs::path& path) {
+  std::error_code error;
+  if (!fs::exists(fs::symlink_status(path, error))) return;
+  if (fs::is_directory(path, error) && fs::is_empty(path, error)) return;
+  throw Error(ErrorKind::File,
+              fmt::format("{}: exists already; remove it or choose another name", path.string()));
+}
+
+NewFolder::NewFolder(fs::path path) : path_(std::move(path)) {
+  // "scan/" names the folder "scan".
+  if (!path_.has_filename()) path_ = path_.parent_path();
+  require_free(path_);
+  std::random_device random;
+  const std::uint64_t number = (std::uint64_t{random()} << 32U) | random();
+  temporary_ = path_.parent_path() /
+               fmt::format(".{}.frangia-{:016x}.tmp", path_.filename().string(), number);
+  make_folder(temporary_);
+}
+
+NewFolder::~NewFolder() {
+  if (temporary_.empty()) return;
+  std::error_code ignored;
+  fs::remove_all(temporary_, ignored);
+}
+
+void NewFolder::commit() {
+  require_free(path_);
+  std::error_code error;
+  fs::rename(temporary_, path_, error);
+  if (error) {
+    throw Error(ErrorKind::File,
+                fmt::format("{}: cannot be created: {}", path_.string(), error.message()));
+  }
+  temporary_.clear();
+}
 
 namespace fs = std::filesystem;
 

@@ -4,10 +4,8 @@
 #include <utility>
 
 #include "frangia/devices/internal/aravis_driver.h"
-#include "frangia/devices/internal/board_drivers.h"
-#include "frangia/devices/internal/folder_camera.h"
 #include "frangia/devices/internal/glfw_display.h"
-#include "frangia/devices/internal/instrument_drivers.h"
+#include "frangia/devices/internal/own_drivers.h"
 #include "frangia/devices/internal/v4l2_camera.h"
 
 namespace frangia {

@@ -3,17 +3,41 @@
 #include <algorithm>
 #include <array>
 #include <string>
+#include <utility>
+#include <vector>
 
+#include <Eigen/Core>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
+#include <opencv2/core.hpp>
 
 #include "frangia/core/atomic_file.h"
 #include "frangia/core/error.h"
 #include "frangia/core/lowercase_extension.h"
-#include "frangia/exchange/internal/opencv_text.h"
 
 namespace frangia {
 namespace {
+
+/// The text that OpenCV's FileStorage writes for whole numbers and matrices, as XML for the ending
+/// .xml and as YAML for any other.
+std::string opencv_text(const std::vector<std::pair<std::string, Eigen::MatrixXd>>& matrices,
+                        const std::vector<std::pair<std::string, int>>& numbers,
+                        const std::string& ending) {
+  // In memory, FileStorage takes the format from the ending of the name.
+  cv::FileStorage storage(ending == ".xml" ? ".xml" : ".yml",
+                          cv::FileStorage::WRITE | cv::FileStorage::MEMORY);
+  for (const auto& [name, number] : numbers)
+    storage << name << number;
+  for (const auto& [name, matrix] : matrices) {
+    cv::Mat copy(static_cast<int>(matrix.rows()), static_cast<int>(matrix.cols()), CV_64F);
+    for (int row = 0; row < copy.rows; ++row) {
+      for (int column = 0; column < copy.cols; ++column)
+        copy.at<double>(row, column) = matrix(row, column);
+    }
+    storage << name << copy;
+  }
+  return storage.releaseAndGetString();
+}
 
 using nlohmann::ordered_json;
 

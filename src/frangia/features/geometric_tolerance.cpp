@@ -3,20 +3,104 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <utility>
 
+#include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <fmt/format.h>
 
 #include "frangia/core/angles.h"
 #include "frangia/core/error.h"
 #include "frangia/features/feature_points.h"
-#include "frangia/features/internal/form_width.h"
+#include "frangia/features/internal/filtered_range.h"
+#include "frangia/features/internal/minimum_zone.h"
 #include "frangia/features/internal/shape_distance_between.h"
-#include "frangia/features/internal/shared_calibration.h"
 
 namespace frangia {
 namespace {
+
+/// The width of a form and half the width of its 95 % interval, mm.
+struct FormWidth {
+  double value = 0.0;
+  double u95 = 0.0;
+};
+
+/// The shape whose minimum zone is wanted, and what it may choose.
+struct WantedZone {
+  const Shape* shape = nullptr;  ///< null: the range of the values as they are
+  ZoneFreedom freedom = ZoneFreedom::All;
+};
+
+/// The range of values without their noise. Of the distances from a shape whose minimum zone is
+/// wanted, the width of that zone of the points without noise.
+///
+/// @errors   as filtered_range and minimum_zone_width
+FormWidth form_width(std::vector<SurfaceValue> values, const WantedZone& zone = {}) {
+  const FilteredRange range = filtered_range(std::move(values));
+  if (zone.shape == nullptr) return {range.high - range.low, range.u95};
+  std::vector<Eigen::Vector3d> points;
+  points.reserve(range.values.size());
+  for (const SurfaceValue& one : range.values) {
+    const ShapeDistance at = distance_to(*zone.shape, one.point_mm);
+    points.emplace_back(one.point_mm + (one.value - at.distance_mm) * at.normal);
+  }
+  return {minimum_zone_width(*zone.shape, points, zone.freedom), range.u95};
+}
+
+/// The largest such width in sections normal to an axis; few points in a section do not count.
+FormWidth largest_section_width(const std::vector<SurfaceValue>& values,
+                                const Eigen::Vector3d& center_mm,
+                                const Eigen::Vector3d& axis,
+                                const WantedZone& zone = {}) {
+  constexpr std::size_t kSections = 24;
+  constexpr std::size_t kLeast = 96;
+  double low = 0.0;
+  double high = 0.0;
+  for (const SurfaceValue& one : values) {
+    const double along = (one.point_mm - center_mm).dot(axis);
+    low = std::min(low, along);
+    high = std::max(high, along);
+  }
+  const std::size_t count =
+      std::clamp<std::size_t>(values.size() / (4 * kLeast), std::size_t{1}, kSections);
+  std::vector<std::vector<SurfaceValue>> sections(count);
+  for (const SurfaceValue& one : values) {
+    const double share = ((one.point_mm - center_mm).dot(axis) - low) / std::max(high - low, 1e-12);
+    const double at = share * static_cast<double>(count);
+    sections[std::min(static_cast<std::size_t>(at), count - 1)].push_back(one);
+  }
+  FormWidth largest;
+  for (auto& section : sections) {
+    if (section.size() < kLeast && count > 1) continue;
+    if (section.empty()) continue;
+    const FormWidth width = form_width(std::move(section), zone);
+    if (width.value >= largest.value) largest = width;
+  }
+  return largest;
+}
+
+/// Whether it is known what the calibration does to both features.
+bool knows_calibration(const ShapeUncertainty& a, const ShapeUncertainty& b) {
+  return a.calibration.size() > 0 && a.calibration.cols() == b.calibration.cols();
+}
+
+/// Half the width of the 95 % interval that the calibration of the rig gives a quantity of two
+/// features: each change of its parameters moves both.
+template <typename Value>
+double calibration_u95(const Feature& feature, const Feature& datum, const Value& value) {
+  constexpr double k95 = 1.959964;
+  const Eigen::MatrixXd& changes = feature.uncertainty.calibration;
+  const Eigen::MatrixXd& datum_changes = datum.uncertainty.calibration;
+  const double now = value(feature.fit.shape, datum.fit.shape);
+  double square = 0.0;
+  for (Eigen::Index i = 0; i < changes.cols(); ++i) {
+    const double then = value(moved(feature.fit.shape, changes.col(i)),
+                              moved(datum.fit.shape, datum_changes.col(i)));
+    square += (then - now) * (then - now);
+  }
+  return k95 * std::sqrt(square);
+}
 
 using Eigen::Vector3d;
 using Kind = ShapeKind;

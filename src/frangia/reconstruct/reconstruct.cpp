@@ -22,7 +22,6 @@
 #include "frangia/reconstruct/internal/count_indirect_light.h"
 #include "frangia/reconstruct/internal/explain_no_surface.h"
 #include "frangia/reconstruct/internal/finish_targets.h"
-#include "frangia/reconstruct/internal/mark_left_out.h"
 #include "frangia/reconstruct/internal/measure_views.h"
 #include "frangia/reconstruct/internal/points_of_setups.h"
 #include "frangia/reconstruct/internal/register_setups.h"
@@ -37,6 +36,25 @@
 
 namespace frangia {
 namespace {
+
+/// Adds the names of the views that the registration of a setup emptied.
+void add_outliers(std::set<std::string>& names, const MeasuredSetup& setup) {
+  if (!setup.registration) return;
+  for (const std::size_t view : setup.registration->outliers)
+    names.insert(setup.measured.stations[view].name);
+}
+
+/// Marks as left out the outliers and the views that are not part of the joined setups.
+void mark_left_out(std::vector<ViewSummary>& summaries,
+                   const MeasuredSetup& joined,
+                   const std::set<std::string>& outliers) {
+  std::set<std::string> used;
+  for (const Station& station : joined.measured.stations)
+    used.insert(station.name);
+  for (ViewSummary& view : summaries) {
+    if (!used.contains(view.name) || outliers.contains(view.name)) view.left_out = true;
+  }
+}
 
 /// How well the points agree that were measured twice.
 std::vector<RigAgreement> agreements_of(const MeasuredViews& measured, const Rig& rig) {

@@ -18,6 +18,7 @@
 #include "frangia/registration/internal/make_bundle.h"
 #include "frangia/registration/internal/retriangulate_views.h"
 #include "frangia/registration/internal/state_motions.h"
+#include "frangia/registration/internal/turntable_bundle.h"
 
 namespace frangia {
 namespace {

@@ -1,9 +1,11 @@
 #include "frangia/service/project_scan.h"
 
 #include <algorithm>
+#include <cmath>
 #include <mutex>
 #include <utility>
 
+#include <Eigen/Core>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -12,16 +14,57 @@
 #include "frangia/core/angles.h"
 #include "frangia/core/atomic_file.h"
 #include "frangia/core/folder_lock.h"
+#include "frangia/core/image.h"
 #include "frangia/core/make_folder.h"
+#include "frangia/decode/decode_view.h"
+#include "frangia/decode/triangulate_view.h"
+#include "frangia/range/range_grid.h"
 #include "frangia/reconstruct/reconstruct.h"
 #include "frangia/rig/read_rig.h"
+#include "frangia/rig/rig.h"
 #include "frangia/service/encode_arrays.h"
 #include "frangia/service/internal/opened_devices.h"
-#include "frangia/service/internal/station_cloud.h"
 #include "frangia/service/internal/station_json.h"
+#include "frangia/views/collect_points.h"
 
 namespace frangia {
 namespace {
+
+/// Triangulates decoded views of one rig, to be looked at while a scan grows.
+class StationCloud {
+ public:
+  explicit StationCloud(const Rig& rig) : rig_(rig), rays_(rays_of(rig.reference().model)) {}
+
+  /// The points of a view at a turntable angle; none when its phase does not fit the rig.
+  ///
+  /// @units    mm, object frame of the rig as calibrated
+  [[nodiscard]] PointCloud of(const DecodedView& decoded, double angle_rad) const;
+
+ private:
+  Rig rig_;
+  Image<Eigen::Vector2f> rays_;
+};
+
+PointCloud StationCloud::of(const DecodedView& decoded, double angle_rad) const {
+  PointCloud cloud;
+  DecodedView view = decoded;
+  const ViewFit fit = check_view(view, rig_, rays_, false);
+  if (!fit.fits()) return cloud;
+  const RangeGrid range = triangulate_view(view, fit, rig_, rays_, DirectionChoice::Fused).range;
+  const Eigen::Isometry3d object_from_rig = rig_.rig_from_object(angle_rad).inverse();
+  for (int y = 0; y < range.depth_mm.height(); ++y) {
+    for (int x = 0; x < range.depth_mm.width(); ++x) {
+      const RangePixel pixel = range.pixel(x, y);
+      if (std::isnan(pixel.depth_mm)) continue;
+      const Eigen::Vector2f& ray = rays_(x, y);
+      const Eigen::Vector3d point_mm =
+          Eigen::Vector3f(ray.x(), ray.y(), 1.0F).cast<double>() * pixel.depth_mm;
+      cloud.points_mm.emplace_back((object_from_rig * point_mm).cast<float>());
+      cloud.sigma_mm.push_back(pixel.sigma_mm);
+    }
+  }
+  return cloud;
+}
 
 constexpr double kDegreesPerTurn = 360.0;
 

@@ -11,6 +11,7 @@
 #include "frangia/core/error.h"
 #include "frangia/core/read_text_file.h"
 #include "frangia/service/encode_arrays.h"
+#include "frangia/service/internal/answered_commands.h"
 #include "frangia/service/internal/array_packer.h"
 #include "frangia/service/internal/implementation.h"
 #include "frangia/service/pick_surface.h"

@@ -4,11 +4,48 @@
 #include <cmath>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
-#include "frangia/acquisition/internal/survey_exposures.h"
+#include "frangia/acquisition/internal/probe_exposure.h"
 
 namespace frangia {
 namespace {
+
+/// Chooses exposures from up to four views, evenly over the plan: one exposure, or a bracket in the
+/// order of the pixels that each adds.
+///
+/// @units    ms
+/// @errors   Error(Input) without a pattern of fringes, and those of the devices
+std::vector<double> survey_exposures(const Scan& plan,
+                                     CaptureDevices& devices,
+                                     TableMover& table,
+                                     const CaptureOptions& options,
+                                     ExposureRange range,
+                                     const Run& run) {
+  constexpr std::size_t kViews = 4;
+  const bool bracketed = options.exposure == ExposureChoice::Bracketed;
+  ExposureBracket bracket(range);
+  const std::size_t views = std::min(kViews, plan.views.size());
+  for (std::size_t i = 0; i < views; ++i) {
+    run.check();
+    const std::size_t view = i * plan.views.size() / views;
+    table.turn_to(plan.views[view].angle_rad);
+    const ExposureProbe probe_here = [&](double exposure_ms) {
+      run.check();
+      return probe_exposure(plan.patterns, plan.rig, static_cast<int>(view), devices, exposure_ms);
+    };
+    if (bracketed) {
+      bracket.add_view(probe_here);
+    } else {
+      range.initial_ms = longest_exposure(probe_here, range);
+      range.max_ms = range.initial_ms;  // the other views can only shorten it
+    }
+  }
+  std::vector<double> chosen =
+      bracketed ? bracket.selected() : std::vector<double>{range.initial_ms};
+  run.note(fmt::format("exposures chosen: {:.3g} ms", fmt::join(chosen, ", ")));
+  return chosen;
+}
 
 void warn_of_uneven_light(const std::vector<double>& exposures_ms, double step_ms, const Run& run) {
   constexpr double kSame = 0.01;  // of a step

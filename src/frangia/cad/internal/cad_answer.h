@@ -6,6 +6,7 @@
 #include <string>
 #include <string_view>
 
+#include "frangia/cad/internal/occt_translate.h"
 #include "frangia/cad/internal/separate_process.h"
 
 namespace frangia {

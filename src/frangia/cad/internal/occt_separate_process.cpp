@@ -18,6 +18,7 @@
 
 #include "frangia/cad/internal/cad_answer.h"
 #include "frangia/cad/internal/faces.h"
+#include "frangia/cad/internal/occt_translate.h"
 #include "frangia/cad/internal/separate_process.h"
 
 namespace frangia {

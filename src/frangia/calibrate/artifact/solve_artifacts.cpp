@@ -8,19 +8,74 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "frangia/calibrate/artifact/internal/artifact_inverse.h"
 #include "frangia/calibrate/artifact/internal/artifact_prior.h"
-#include "frangia/calibrate/artifact/internal/check_artifact_captures.h"
 #include "frangia/calibrate/internal/artifact_model.h"
 #include "frangia/calibrate/internal/fit_sheet.h"
+#include "frangia/calibrate/internal/invert_normal.h"
 #include "frangia/calibrate/internal/rig_bundle.h"
 #include "frangia/calibrate/internal/select_wavefront.h"
+#include "frangia/core/angles.h"
 #include "frangia/core/error.h"
 #include "frangia/core/median.h"
 #include "frangia/rig/rig_covariance.h"
 
 namespace frangia {
 namespace {
+
+/// @errors   Error(Input) as `solve_artifacts`, before anything is solved
+void check_artifact_captures(std::span<const ArtifactCapture> captures, const Rig& start) {
+  constexpr std::size_t kFewestViews = 3;
+  constexpr double kLeast_rad = 0.35;  // 20 degrees
+  if (!start.turntable) {
+    throw Error(ErrorKind::Input,
+                "the rig has no [turntable]; add its point_mm and axis to rig.toml, within a few "
+                "degrees");
+  }
+  require(!captures.empty(), "there is no plate and no ball to calibrate by");
+  for (const ArtifactCapture& capture : captures) {
+    const std::string name = name_of(capture.artifact);
+    require(!std::holds_alternative<Screen>(capture.artifact), "a screen does not turn");
+    if (capture.views.size() < kFewestViews) {
+      throw Error(ErrorKind::Input,
+                  fmt::format("the {} is found in {} of at least {} views; turn the table by "
+                              "smaller steps, so that camera and projector see it",
+                              name,
+                              capture.views.size(),
+                              kFewestViews));
+    }
+    double widest = 0.0;
+    for (const ArtifactView& a : capture.views)
+      for (const ArtifactView& b : capture.views)
+        widest = std::max(widest, std::abs(std::remainder(a.angle_rad - b.angle_rad, kTwoPi)));
+    if (widest < kLeast_rad) {
+      throw Error(ErrorKind::Input,
+                  fmt::format("the angles of the views of the {} span {:.1f} degrees; state "
+                              "angle_deg of each view in scan.toml, and turn the table by 60 to "
+                              "120 degrees in all",
+                              name,
+                              deg_from_rad(widest)));
+    }
+  }
+}
+
+/// Covariance of the estimated parameters. Directions that the data leaves open are infinite.
+struct ArtifactInverse {
+  std::vector<std::string> names;
+  Eigen::MatrixXd covariance;
+  std::vector<std::string> open;
+};
+
+/// Inverts the normal equations; a direction whose eigenvalue is below 1e-13 of the largest, in
+/// parameters scaled to unit diagonal, is open.
+ArtifactInverse invert_artifacts(const ArtifactLinearization& linear) {
+  constexpr double kOpen = 1e-13;
+  constexpr double kMuch = 0.1;  // share of a parameter that lies in open directions
+  const NormalInverse inverse = invert_normal(linear.normal, kOpen);
+  ArtifactInverse out{linear.names, inverse.covariance, {}};
+  for (Eigen::Index i = 0; i < inverse.open.size(); ++i)
+    if (inverse.open[i] > kMuch) out.open.push_back(linear.names[static_cast<std::size_t>(i)]);
+  return out;
+}
 
 /// Standard deviation of residuals in their own standard deviations, with the weights of the loss.
 double noise_of_residuals(const std::vector<double>& sigmas, double noise) {

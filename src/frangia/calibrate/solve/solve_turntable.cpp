@@ -5,16 +5,76 @@
 #include <limits>
 #include <variant>
 
+#include <fmt/format.h>
 #include <opencv2/calib3d.hpp>
 
-#include "frangia/calibrate/solve/internal/check_table_views.h"
-#include "frangia/calibrate/solve/internal/table_model.h"
 #include "frangia/core/angles.h"
 #include "frangia/core/error.h"
 #include "frangia/core/solve_symmetric.h"
 
 namespace frangia {
 namespace {
+
+constexpr Eigen::Index kAxisParameters = 4;                     // two turns, two shifts
+constexpr Eigen::Index kTableParameters = kAxisParameters + 6;  // and the pose of the board
+using TableStep = Eigen::Matrix<double, kTableParameters, 1>;
+
+/// The turning board.
+struct TableModel {
+  Eigen::Vector3d point_mm;
+  Eigen::Vector3d axis;
+  Eigen::Isometry3d rig_from_board;  ///< at angle 0
+
+  [[nodiscard]] Eigen::Isometry3d at(double angle_rad) const {
+    return Eigen::Translation3d(point_mm) * Eigen::AngleAxisd(angle_rad, axis) *
+           Eigen::Translation3d(-point_mm) * rig_from_board;
+  }
+
+  /// Two directions across the axis.
+  [[nodiscard]] Eigen::Matrix<double, 3, 2> across() const {
+    Eigen::Matrix<double, 3, 2> directions;
+    directions.col(0) = axis.unitOrthogonal();
+    directions.col(1) = axis.cross(directions.col(0));
+    return directions;
+  }
+
+  [[nodiscard]] TableModel moved(const TableStep& step) const {
+    TableModel out = *this;
+    const Eigen::Matrix<double, 3, 2> sides = across();
+    out.axis = (axis + sides * step.head<2>()).normalized();
+    out.point_mm += sides * step.segment<2>(2);
+    const Eigen::Vector3d turn = step.segment<3>(4);
+    const double angle = turn.norm();
+    if (angle > 0.0) {
+      out.rig_from_board.linear() =
+          Eigen::AngleAxisd(angle, turn / angle).toRotationMatrix() * rig_from_board.linear();
+    }
+    out.rig_from_board.translation() += step.tail<3>();
+    return out;
+  }
+};
+
+/// @errors   Error(Input) for views of a turning board that are too few or span too small an angle
+void check_table_views(std::span<const BoardView> views, std::span<const double> angles_rad) {
+  constexpr std::size_t kFewest = 3;
+  constexpr double kLeast_rad = 0.35;  // 20 degrees; the axis is extrapolated from a shorter arc
+  if (views.size() < kFewest) {
+    throw Error(ErrorKind::Input,
+                fmt::format("the board is found in {} of at least {} views; turn the table by "
+                            "smaller steps, so that camera and projector see the board",
+                            views.size(),
+                            kFewest));
+  }
+  double widest = 0.0;
+  for (const double a : angles_rad)
+    for (const double b : angles_rad)
+      widest = std::max(widest, std::abs(std::remainder(a - b, kTwoPi)));
+  if (widest >= kLeast_rad) return;
+  throw Error(ErrorKind::Input,
+              fmt::format("the angles of the views span {:.1f} degrees; state angle_deg of each "
+                          "view in scan.toml, and turn the table by 60 to 90 degrees in all",
+                          deg_from_rad(widest)));
+}
 
 /// What the residuals are computed from.
 struct TableProblem {

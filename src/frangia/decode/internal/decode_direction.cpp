@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
+#include <span>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -12,20 +14,55 @@
 #include "frangia/core/angles.h"
 #include "frangia/core/error.h"
 #include "frangia/core/missing.h"
+#include "frangia/core/run.h"
 #include "frangia/decode/internal/check_code.h"
-#include "frangia/decode/internal/correct_view_orders.h"
 #include "frangia/decode/internal/judge_direction.h"
 #include "frangia/decode/select_stacks.h"
+#include "frangia/frames/frame_stack.h"
 #include "frangia/fringe_order/check_start_by_sheet.h"
+#include "frangia/phase/algorithm/fit_algorithm.h"
 #include "frangia/phase/gray/decode_gray_alone.h"
 #include "frangia/phase/gray/decode_gray_code.h"
 #include "frangia/phase/temporal/check_indirect_light.h"
+#include "frangia/phase/temporal/correct_order_jumps.h"
 #include "frangia/phase/temporal/unwrap_sequence.h"
+#include "frangia/phase/waveform/frame_samples.h"
+#include "frangia/phase/wrap/merge_exposures.h"
+#include "frangia/phase/wrap/wrap_phase.h"
 #include "frangia/range/fringe_ray.h"
 #include "frangia/rig/phase_range.h"
 
 namespace frangia {
 namespace {
+
+/// Corrects regions of a wrong fringe order. The wrapped maps may be gone, so the coarse phases are
+/// computed again at the few pixels that matter; a correction of the projector's response is not
+/// repeated, as it is far smaller than half a fringe.
+void correct_view_orders(std::span<const FrameStack* const> fringes,
+                         std::span<const FittedAlgorithm> fits,
+                         const DecodeOptions& options,
+                         const Run& run,
+                         DecodedDirection& out) {
+  const auto coarse = [&](std::span<const std::uint32_t> pixels) {
+    std::vector<WrappedPhase> maps;
+    for (std::size_t m = 0; m + 1 < fringes.size(); ++m) {
+      std::vector<FrameStack> some;
+      for (const FrameStack& stack : exposures_of(fringes[m]))
+        some.push_back(sample_pixels(stack, pixels));
+      maps.push_back(some.size() > 1
+                         ? merge_exposures(some, fits[m].shifts_rad, out.noise, options.wrap)
+                         : wrap_phase(some.front(), fits[m].algorithm, out.noise, options.wrap));
+    }
+    return maps;
+  };
+  const OrderJumpResult found = correct_order_jumps(coarse, out.phase, options.order_jumps);
+  if (found.corrected + found.discarded == 0) return;
+  run.note(
+      fmt::format("fringe orders of {} pixels corrected and of {} discarded, at whose border "
+                  "the order jumps although all phases are smooth, as indirect light causes it",
+                  found.corrected,
+                  found.discarded));
+}
 
 /// Distance at which the camera's axis crosses the centre of the projected field: x0 of the paper.
 double crossing_distance(const Pattern& pattern, const Rig& rig) {

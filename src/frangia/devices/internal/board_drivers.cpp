@@ -1,5 +1,3 @@
-#include "frangia/devices/internal/board_drivers.h"
-
 #include <filesystem>
 #include <limits>
 #include <map>
@@ -11,6 +9,7 @@
 #include "frangia/core/angles.h"
 #include "frangia/devices/internal/board_switch.h"
 #include "frangia/devices/internal/open_configured_transport.h"
+#include "frangia/devices/internal/own_drivers.h"
 #include "frangia/devices/internal/stepper_turntable.h"
 
 namespace frangia {

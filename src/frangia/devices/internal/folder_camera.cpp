@@ -1,5 +1,3 @@
-#include "frangia/devices/internal/folder_camera.h"
-
 #include <algorithm>
 #include <filesystem>
 #include <string>
@@ -9,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "frangia/devices/camera_device.h"
+#include "frangia/devices/internal/own_drivers.h"
 #include "frangia/frames/png.h"
 
 namespace frangia {

@@ -1,14 +1,79 @@
-#include "frangia/devices/internal/instrument_drivers.h"
-
 #include <functional>
+#include <memory>
+#include <string>
 #include <utility>
 
+#include "frangia/devices/internal/actuator_protocol.h"
 #include "frangia/devices/internal/instrument_shifter.h"
-#include "frangia/devices/internal/instrument_switch.h"
+#include "frangia/devices/internal/message_instrument.h"
 #include "frangia/devices/internal/open_configured_transport.h"
+#include "frangia/devices/internal/own_drivers.h"
+#include "frangia/devices/switch_device.h"
 
 namespace frangia {
 namespace {
+
+/// A lamp or laser switched by an instrument: an output of a power supply, a relay.
+class InstrumentSwitch final : public SwitchDevice {
+ public:
+  /// Switches off first.
+  ///
+  /// @errors   Error(Device) when the instrument does not answer or rejects a command in `off`
+  InstrumentSwitch(MessageInstrument line,
+                   std::vector<std::string> on,
+                   std::vector<std::string> off,
+                   const Deadline& deadline);
+  InstrumentSwitch(const InstrumentSwitch&) = delete;
+  InstrumentSwitch& operator=(const InstrumentSwitch&) = delete;
+  InstrumentSwitch(InstrumentSwitch&&) = delete;
+  InstrumentSwitch& operator=(InstrumentSwitch&&) = delete;
+  ~InstrumentSwitch() override;
+
+  [[nodiscard]] std::string name() const override { return "light at " + instrument_.name(); }
+  [[nodiscard]] std::string test(const Deadline& deadline) override;
+  void make_safe() noexcept override;
+  [[nodiscard]] std::optional<SafeOff> safe_off() const override {
+    return instrument_.safe_off(off_);
+  }
+  void set(bool on, const Deadline& deadline) override;
+  [[nodiscard]] bool is_on() const override { return is_on_; }
+
+ private:
+  MessageInstrument instrument_;
+  std::vector<std::string> on_;
+  std::vector<std::string> off_;
+  bool is_on_ = false;
+};
+
+InstrumentSwitch::InstrumentSwitch(MessageInstrument line,
+                                   std::vector<std::string> on,
+                                   std::vector<std::string> off,
+                                   const Deadline& deadline)
+    : instrument_(std::move(line)), on_(std::move(on)), off_(std::move(off)) {
+  instrument_.send_unchecked(off_);
+  instrument_.clear_errors(deadline);
+  set(false, deadline);
+}
+
+InstrumentSwitch::~InstrumentSwitch() {
+  make_safe();
+}
+
+std::string InstrumentSwitch::test(const Deadline& deadline) {
+  return instrument_.identify(deadline);
+}
+
+void InstrumentSwitch::make_safe() noexcept {
+  instrument_.send_unchecked(off_);
+  is_on_ = false;
+}
+
+void InstrumentSwitch::set(bool on, const Deadline& deadline) {
+  is_on_ = true;  // assume on until off is acknowledged
+  for (const std::string& command : on ? on_ : off_)
+    instrument_.send(command, deadline);
+  is_on_ = on;
+}
 
 /// Replaces the defaults of a protocol by the settings in rig.toml.
 void read_language(DeviceSettings& settings, MessageInstrument::Language& language) {

@@ -1,4 +1,5 @@
-// OpenCV is expensive to compile: its FileStorage stays in this source and in opencv_text.cpp.
+// OpenCV is expensive to compile: its FileStorage stays in this source and in
+// write_calibration_file.cpp.
 #include <algorithm>
 #include <exception>
 #include <string>
@@ -12,8 +13,7 @@
 #include "frangia/core/plain_text.h"
 #include "frangia/core/read_text_file.h"
 #include "frangia/exchange/internal/named_values.h"
-#include "frangia/exchange/internal/read_opencv_xml.h"
-#include "frangia/exchange/internal/storage_yaml.h"
+#include "frangia/exchange/internal/storage_formats.h"
 
 namespace frangia {
 namespace {

@@ -1,6 +1,4 @@
 // OpenCV's own reader of XML follows broken pointers in damaged files (4.6), so Expat reads them.
-#include "frangia/exchange/internal/read_opencv_xml.h"
-
 #include <charconv>
 #include <map>
 #include <optional>
@@ -12,6 +10,7 @@
 
 #include "frangia/core/error.h"
 #include "frangia/core/xml_parser.h"
+#include "frangia/exchange/internal/storage_formats.h"
 
 namespace frangia {
 namespace {

@@ -1,8 +1,8 @@
-#include "frangia/exchange/internal/storage_yaml.h"
-
 #include <algorithm>
 #include <optional>
 #include <vector>
+
+#include "frangia/exchange/internal/storage_formats.h"
 
 namespace frangia {
 namespace {

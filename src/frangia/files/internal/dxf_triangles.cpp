@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 #include <fmt/format.h>
 
+#include "frangia/files/internal/polygon_triangles.h"
 #include "frangia/files/internal/weld_vertices.h"
 
 namespace frangia {

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "frangia/core/error.h"
+#include "frangia/files/internal/polygon_triangles.h"
 
 namespace frangia {
 

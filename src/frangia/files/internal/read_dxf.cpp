@@ -11,6 +11,7 @@
 #include "frangia/core/plain_text.h"
 #include "frangia/files/dxf.h"
 #include "frangia/files/internal/check_mesh.h"
+#include "frangia/files/internal/dxf_blocks.h"
 #include "frangia/files/internal/dxf_entities.h"
 #include "frangia/files/internal/dxf_groups.h"
 #include "frangia/files/internal/read_bytes.h"

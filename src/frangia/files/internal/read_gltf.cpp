@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <map>
 #include <set>
 #include <string>
 #include <vector>
@@ -15,12 +16,55 @@
 #include "frangia/files/internal/check_mesh.h"
 #include "frangia/files/internal/gltf.h"
 #include "frangia/files/internal/gltf_document.h"
-#include "frangia/files/internal/gltf_memory.h"
 #include "frangia/files/internal/mark_names.h"
+#include "frangia/files/internal/mesh_memory.h"
 #include "frangia/geometry/vertex_data.h"
 
 namespace frangia {
 namespace {
+
+/// The `mode` of a primitive of triangles.
+constexpr std::uint64_t kGltfTriangles = 4;
+constexpr std::uint64_t kGltfFan = 6;  ///< 5 is a strip
+
+using nlohmann::json;
+
+double memory_of_mesh(const GltfDocument& document, const json& mesh) {
+  const auto count_of = [&](const json& accessor, std::size_t width) {
+    return static_cast<double>(document.locate(document.whole(accessor), width).count);
+  };
+  double bytes = 0.0;
+  const json* attributes = nullptr;
+  for (const auto& primitive : mesh.at("primitives")) {
+    const std::uint64_t mode = document.whole_or(primitive, "mode", kGltfTriangles);
+    if (mode < kGltfTriangles || mode > kGltfFan) continue;
+    const json& own = primitive.at("attributes");
+    const double vertices = count_of(own.at("POSITION"), 3);
+    const double corners =
+        primitive.contains("indices") ? count_of(primitive.at("indices"), 1) : vertices;
+    const bool shared = attributes != nullptr && *attributes == own;
+    // In a strip or fan each corner but two makes a triangle.
+    const double triangles = mode == kGltfTriangles ? corners / 3.0 : corners;
+    bytes += mesh_memory_bytes(shared ? 0.0 : vertices, triangles);
+    attributes = &own;
+  }
+  return bytes;
+}
+
+/// Memory of a document and of its meshes as often as `meshes` names them, bytes. No number of an
+/// accessor is read.
+///
+/// @errors   Error(Input) as GltfDocument::locate
+double gltf_memory_bytes(const GltfDocument& document, const std::vector<std::uint64_t>& meshes) {
+  std::map<std::uint64_t, double> memory_of;
+  auto bytes = static_cast<double>(document.total_bytes);
+  for (const std::uint64_t mesh : meshes) {
+    const auto [known, inserted] = memory_of.try_emplace(mesh, 0.0);
+    if (inserted) known->second = memory_of_mesh(document, document.item("meshes", mesh));
+    bytes += known->second;
+  }
+  return bytes;
+}
 
 using nlohmann::json;
 

@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "frangia/fusion/internal/edge_limits.h"
 #include "frangia/fusion/internal/find_faces.h"
 #include "frangia/geometry/one_rings.h"
 

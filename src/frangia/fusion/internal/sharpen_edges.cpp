@@ -8,6 +8,8 @@
 #include <Eigen/Geometry>
 
 #include "frangia/core/parallel.h"
+#include "frangia/fusion/internal/edge_limits.h"
+#include "frangia/fusion/internal/find_feature_vertices.h"
 #include "frangia/fusion/internal/sharpening_plan.h"
 #include "frangia/fusion/internal/split_triangle.h"
 #include "frangia/uncertainty/combined_sigma.h"

@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "frangia/fusion/internal/edge_limits.h"
 #include "frangia/fusion/internal/find_feature_vertices.h"
 
 namespace frangia {

@@ -3,17 +3,96 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <span>
+#include <utility>
 
 #include <Eigen/Geometry>
 #include <Eigen/SparseCholesky>
 #include <Eigen/SparseCore>
 
 #include "frangia/core/median.h"
-#include "frangia/mesh/internal/patch_laplacian.h"
 
 namespace frangia {
 namespace {
+
+/// The vertices and triangles of a patch and its surroundings; the vertices of the patch come
+/// first.
+class PatchWithSurroundings {
+ public:
+  PatchWithSurroundings(const PatchMesh& patch, const PatchSurroundings& around)
+      : patch_(patch), around_(around) {}
+
+  [[nodiscard]] std::uint32_t count() const {
+    return patch_.count() + static_cast<std::uint32_t>(around_.outer_mm.size());
+  }
+  [[nodiscard]] const Eigen::Vector3d& position(std::uint32_t vertex) const {
+    return vertex < patch_.count() ? patch_.position(vertex)
+                                   : around_.outer_mm[vertex - patch_.count()];
+  }
+  template <typename Work>
+  void for_each_triangle(const Work& work) const {
+    for (std::uint32_t edge = 0; edge < patch_.half_edges(); edge += 3)
+      work(std::array<std::uint32_t, 3>{
+          patch_.from(edge), patch_.from(edge + 1), patch_.from(edge + 2)});
+    for (std::array<std::uint32_t, 3> triangle : around_.triangles) {
+      for (std::uint32_t& vertex : triangle)
+        if (vertex >= patch_.boundary_vertices())
+          vertex += patch_.count() - patch_.boundary_vertices();
+      work(triangle);
+    }
+  }
+
+ private:
+  const PatchMesh& patch_;
+  const PatchSurroundings& around_;
+};
+
+// Cotangent weights are limited to the angle of 3 degrees: larger ones belong to slivers.
+constexpr double kMaxCotangent = 20.0;
+// Positive weights keep a minimal surface within the convex hull of its boundary.
+constexpr double kMinPositiveCotangent = 1e-3;
+
+/// The cotangent Laplacian of the vertices of a patch: weights / area.
+///
+/// @source   Pinkall & Polthier 1993, Computing Discrete Minimal Surfaces and Their Conjugates
+struct PatchLaplacian {
+  Eigen::SparseMatrix<double> weights;  ///< vertices of the patch x all vertices
+  Eigen::VectorXd areas;                ///< a third of the area of the triangles at each vertex
+};
+
+PatchLaplacian patch_laplacian(const PatchMesh& patch,
+                               const PatchWithSurroundings& all,
+                               double min_cotangent = -kMaxCotangent) {
+  std::vector<Eigen::Triplet<double>> entries;
+  Eigen::VectorXd areas = Eigen::VectorXd::Zero(patch.count());
+  const auto add = [&](std::uint32_t a, std::uint32_t b, double weight) {
+    if (a >= patch.count()) return;
+    entries.emplace_back(a, b, weight);
+    entries.emplace_back(a, a, -weight);
+  };
+  all.for_each_triangle([&](const std::array<std::uint32_t, 3>& t) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::uint32_t a = t.at(i);
+      const std::uint32_t b = t.at((i + 1) % 3);
+      const Eigen::Vector3d& apex = all.position(t.at((i + 2) % 3));
+      const Eigen::Vector3d u = all.position(a) - apex;
+      const Eigen::Vector3d v = all.position(b) - apex;
+      const double twice_area = u.cross(v).norm();
+      const double cotangent = u.dot(v) / std::max(twice_area, std::numeric_limits<double>::min());
+      const double weight = 0.5 * std::clamp(cotangent, min_cotangent, kMaxCotangent);
+      add(a, b, weight);
+      add(b, a, weight);
+      if (a < patch.count()) areas[a] += twice_area / 6.0;
+    }
+  });
+  constexpr double kMinArea = 1e-3;  // of the mean: slivers would dominate L / area
+  areas = areas.cwiseMax(kMinArea * areas.mean()).eval();
+  PatchLaplacian laplacian{Eigen::SparseMatrix<double>(patch.count(), all.count()),
+                           std::move(areas)};
+  laplacian.weights.setFromTriplets(entries.begin(), entries.end());
+  return laplacian;
+}  // NOLINT(clang-analyzer-unix.Malloc): Eigen releases it
 
 using Eigen::MatrixX3d;
 using Eigen::Vector3d;

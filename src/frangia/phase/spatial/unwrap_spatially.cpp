@@ -3,8 +3,7 @@
 #include <utility>
 
 #include "frangia/phase/spatial/internal/discard_residues.h"
-#include "frangia/phase/spatial/internal/unwrap_quality_guided.h"
-#include "frangia/phase/spatial/internal/unwrap_reliability_sorted.h"
+#include "frangia/phase/spatial/internal/unwrap_pixels.h"
 #include "frangia/phase/spatial/internal/unwrap_run_merging.h"
 
 namespace frangia {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <cstdlib>
 #include <span>
@@ -13,11 +14,110 @@
 
 #include "frangia/core/median.h"
 #include "frangia/phase/algorithm/phase_algorithm.h"
-#include "frangia/phase/wrap/internal/noise_row_gatherer.h"
+#include "frangia/phase/waveform/fit_waveform.h"
 #include "frangia/phase/wrap/internal/row_rounds.h"
 
 namespace frangia {
 namespace {
+
+/// The harmonics of the fringes in a combination of the frames.
+class CombinedHarmonics {
+ public:
+  /// Finds the harmonics; there are none for fewer than four frames.
+  CombinedHarmonics(const FrameStack& stack, std::vector<double> weights)
+      : fit_(least_squares(stack.pattern.shifts_rad)),
+        shifts_(stack.pattern.shifts_rad),
+        weights_(std::move(weights)) {
+    if (shifts_.size() < 4) return;
+    // The noise is not known yet; the scatter of the residuals decides.
+    constexpr std::size_t kHarmonicSamples = 10'000;
+    waveform_ =
+        fit_waveform(
+            stack, shifts_, NoiseModel{}, {.samples = kHarmonicSamples, .min_harmonic = 0.002})
+            .waveform;
+    for (const auto& harmonic : waveform_.harmonics)
+      found_ = found_ || harmonic != 0.0;
+  }
+  [[nodiscard]] bool found() const { return found_; }
+  /// Their value at a pixel, counts.
+  [[nodiscard]] double value_at(const FrameStack& stack, int x, int y) const {
+    double cosine = 0.0;
+    double sine = 0.0;
+    for (std::size_t k = 0; k < shifts_.size(); ++k) {
+      const double counts = counts_at(stack.frames[k], x, y);
+      cosine += fit_.cosine[k] * counts;
+      sine += fit_.sine[k] * counts;
+    }
+    const double phase = std::atan2(sine, cosine);
+    double value = 0.0;
+    for (std::size_t k = 0; k < shifts_.size(); ++k)
+      value += weights_[k] * waveform_.light_at(phase + shifts_[k]);
+    return std::hypot(cosine, sine) * value;
+  }
+
+ private:
+  PhaseAlgorithm fit_;
+  std::vector<double> shifts_;
+  std::vector<double> weights_;
+  FringeWaveform waveform_;
+  bool found_ = false;
+};
+
+/// Absolute differences, counts, binned by brightness.
+using NoiseBins = std::array<std::vector<float>, NoiseSamples::kBins>;
+
+/// Gathers the noise in rows of one combination of the frames.
+class NoiseRowGatherer {
+ public:
+  /// `stack` must outlive the gatherer; one weight a frame.
+  NoiseRowGatherer(const FrameStack& stack, std::vector<double> weights);
+  /// Adds the absolute second differences along a row.
+  void gather(int y, NoiseBins& bins) const;
+
+ private:
+  const FrameStack* stack_;
+  std::vector<double> weights_;
+  CombinedHarmonics harmonics_;
+};
+
+NoiseRowGatherer::NoiseRowGatherer(const FrameStack& stack, std::vector<double> weights)
+    : stack_(&stack), weights_(std::move(weights)), harmonics_(stack, weights_) {}
+
+void NoiseRowGatherer::gather(int y, NoiseBins& bins) const {
+  const int width = width_of(stack_->frames.front());
+  std::vector<double> sum(static_cast<std::size_t>(width), 0.0);
+  std::vector<double> mean(sum);
+  std::vector<int> brightest(sum.size(), 0);
+  std::vector<int> darkest(sum.size(), stack_->white_level);
+  for (std::size_t k = 0; k < stack_->frames.size(); ++k) {
+    std::visit(
+        [&](const auto& image) {
+          for (int x = 0; x < width; ++x) {
+            const auto i = static_cast<std::size_t>(x);
+            sum[i] += weights_[k] * image(x, y);
+            mean[i] += image(x, y) / static_cast<double>(stack_->frames.size());
+            brightest[i] = std::max(brightest[i], static_cast<int>(image(x, y)));
+            darkest[i] = std::min(darkest[i], static_cast<int>(image(x, y)));
+          }
+        },
+        stack_->frames[k]);
+  }
+  if (harmonics_.found()) {
+    for (int x = 0; x < width; ++x)
+      sum[static_cast<std::size_t>(x)] -= harmonics_.value_at(*stack_, x, y);
+  }
+  for (std::size_t i = 1; i + 1 < sum.size(); ++i) {
+    if (std::max({brightest[i - 1], brightest[i], brightest[i + 1]}) >= stack_->white_level)
+      continue;
+    // Clipping at 0 counts would reduce the apparent noise.
+    if (std::min({darkest[i - 1], darkest[i], darkest[i + 1]}) <= 0) continue;
+    const double difference = (sum[i - 1] - 2.0 * sum[i] + sum[i + 1]) / std::sqrt(6.0);
+    const double share = mean[i] / stack_->white_level;
+    const auto bin = std::min<std::size_t>(NoiseSamples::kBins - 1,
+                                           static_cast<std::size_t>(share * NoiseSamples::kBins));
+    bins[bin].push_back(static_cast<float>(std::abs(difference)));
+  }
+}
 
 constexpr int kBins = NoiseSamples::kBins;
 constexpr double kMinSigma = 0.3;  ///< counts: quantization, 1 / sqrt(12)

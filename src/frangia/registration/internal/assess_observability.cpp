@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "frangia/core/symmetric_eigen.h"
+#include "frangia/registration/internal/turntable_bundle.h"
 
 namespace frangia {
 namespace {

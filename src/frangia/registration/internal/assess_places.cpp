@@ -8,6 +8,7 @@
 
 #include "frangia/core/median.h"
 #include "frangia/registration/internal/state_motions.h"
+#include "frangia/registration/internal/turntable_bundle.h"
 
 namespace frangia {
 namespace {

@@ -4,13 +4,25 @@
 #include <cmath>
 #include <cstdint>
 
+#include <Eigen/Core>
+
 #include "frangia/core/angles.h"
 #include "frangia/core/random.h"
-#include "frangia/simulate/internal/board_texture.h"
+#include "frangia/rig/board.h"
 #include "frangia/simulate/internal/surface_color.h"
 
 namespace frangia {
 namespace {
+
+/// Reflectance of a printed board at a point of its plane, relative to the middle of its grid.
+///
+/// @units    mm; 1 is white paper
+double board_albedo(const Board& board, const Eigen::Vector2d& point_mm) {
+  constexpr double kInk = 0.06;  // reflectance of black laser print
+  const Eigen::Vector2d half =
+      0.5 * board.square_mm * Eigen::Vector2d(board.columns - 1, board.rows - 1);
+  return is_printed_black(board, point_mm + half) ? kInk : 1.0;
+}
 
 using Eigen::Vector3d;
 

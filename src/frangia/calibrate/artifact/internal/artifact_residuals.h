@@ -7,6 +7,7 @@
 
 #include "frangia/calibrate/internal/rig_model.h"
 #include "frangia/calibrate/internal/rig_residuals.h"
+#include "frangia/rig/projector.h"
 
 namespace frangia {
 

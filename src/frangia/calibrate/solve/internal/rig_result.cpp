@@ -5,6 +5,8 @@
 #include <variant>
 #include <vector>
 
+#include "frangia/calibrate/internal/rig_observations.h"
+
 namespace frangia {
 namespace {
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "frangia/calibrate/internal/rig_bundle.h"
+#include "frangia/calibrate/internal/rig_observations.h"
 
 namespace frangia {
 

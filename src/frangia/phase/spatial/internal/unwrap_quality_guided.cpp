@@ -1,5 +1,3 @@
-#include "frangia/phase/spatial/internal/unwrap_quality_guided.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -9,6 +7,7 @@
 
 #include "frangia/core/angles.h"
 #include "frangia/core/missing.h"
+#include "frangia/phase/spatial/internal/unwrap_pixels.h"
 #include "frangia/phase/spatial/internal/unwrap_run_merging.h"
 
 namespace frangia {

@@ -1,5 +1,3 @@
-#include "frangia/phase/spatial/internal/unwrap_reliability_sorted.h"
-
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -10,6 +8,7 @@
 #include "frangia/core/missing.h"
 #include "frangia/core/parallel.h"
 #include "frangia/phase/internal/fringe_forest.h"
+#include "frangia/phase/spatial/internal/unwrap_pixels.h"
 #include "frangia/phase/spatial/internal/unwrap_run_merging.h"
 
 namespace frangia {

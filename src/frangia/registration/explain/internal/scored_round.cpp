@@ -4,6 +4,7 @@
 
 #include <Eigen/Cholesky>
 
+#include "frangia/registration/explain/internal/pose_round.h"
 #include "frangia/registration/explain/internal/time_profiles.h"
 
 namespace frangia {
