@@ -87,7 +87,8 @@ NamedTexts conditions_of(const InspectionPlan& plan, const ReportSources& source
                                         plan.temperature_u_k));
   }
   if (sources.scan == nullptr) {
-    conditions.emplace_back("rig and calibration", "not stated: the scan of the mesh was not named");
+    conditions.emplace_back("rig and calibration",
+                            "not stated: the scan of the mesh was not named");
     return conditions;
   }
   const Scan& scan = *sources.scan;
