@@ -15,11 +15,9 @@
 namespace frangia {
 namespace {
 
-constexpr std::size_t kBlocks = 6;  ///< along each side of the image
-
+constexpr std::size_t kBlocks = 6;        ///< along each side of the image
 constexpr double kMinBlockPixels = 12.0;  ///< fewer average no noise
-
-constexpr std::size_t kMinBlocks = 8;  ///< fewer show no scatter
+constexpr std::size_t kMinBlocks = 8;     ///< fewer show no scatter
 
 /// Least disagreement, rad. Step errors and scattering below the surface stay below it.
 constexpr double kMinResidual_rad = 0.03;
