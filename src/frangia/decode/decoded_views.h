@@ -30,12 +30,14 @@ class DecodedViews {
 
   /// The scan as read_scan will return it once the plan is captured.
   [[nodiscard]] const Scan& scan() const { return scan_; }
+  /// What the views are decoded with.
   [[nodiscard]] const DecodeOptions& options() const { return options_; }
   /// Whether another plan is the same, and so is the algorithm.
   [[nodiscard]] bool fits(const Scan& plan, const DecodeOptions& options) const;
 
   /// The frames of a view are captured, for the first time or again.
   void forget(std::size_t view);
+  /// Keeps a view that was decoded from its captured frames.
   void put(std::size_t view, ToldView decoded);
   /// The frames of all views that were put are on the disk, as they were decoded. Until then none
   /// of them is given out.

@@ -14,7 +14,7 @@ namespace frangia {
 
 /// The pose of a part on its reference, and how far each datum is from its nominal place then.
 struct PartAlignment {
-  Alignment alignment;
+  Alignment alignment;                ///< of the mesh to the reference
   std::vector<DatumResidual> datums;  ///< empty for another alignment than `datum`
 };
 

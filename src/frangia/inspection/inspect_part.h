@@ -45,42 +45,42 @@ struct InspectOptions {
 /// What a reference is, for people.
 struct ReferenceSummary {
   std::size_t triangles = 0;  ///< of the mesh or the tessellation
-  bool is_cad = false;
-  std::size_t faces = 0;  ///< of the CAD model
-  std::string unit;       ///< of the CAD file in words
+  bool is_cad = false;        ///< a STEP or IGES file, no mesh
+  std::size_t faces = 0;      ///< of the CAD model
+  std::string unit;           ///< of the CAD file in words
 };
 
 /// How all vertices of a mesh lie on its reference.
 struct SurfaceStatistics {
-  SurfaceError error;
-  SurfaceCompleteness completeness;
-  SurfaceValidity validity;
-  double within_mm = 0.0;  ///< of `completeness`
-  bool of_views = false;   ///< `completeness` counts what the views of the scan can measure
+  SurfaceError error;                ///< distances of the vertices from the reference
+  SurfaceCompleteness completeness;  ///< share of the reference that has mesh
+  SurfaceValidity validity;          ///< whether sigma predicts the errors
+  double within_mm = 0.0;            ///< of `completeness`
+  bool of_views = false;  ///< `completeness` counts what the views of the scan can measure
 };
 
 /// The thickness of the walls.
 struct MeasuredWalls {
-  Thickness thickness;  ///< of each vertex
-  ThicknessSummary summary;
+  Thickness thickness;       ///< of each vertex
+  ThicknessSummary summary;  ///< of all of them
 };
 
 /// Everything that one inspection found. The program, the report, the app and Python format it.
 struct Inspection {
-  Mesh mesh;                                         ///< aligned
-  std::optional<ReferenceSummary> reference;         ///< none: no reference
-  std::optional<Alignment> alignment;                ///< none: the plan says nothing about it
-  std::vector<DatumResidual> datums;                 ///< of an alignment to datums
-  bool searched = false;                             ///< features were looked for
-  std::vector<Feature> features;                     ///< that were found
-  std::vector<std::optional<NominalFace>> nominals;  ///< of the features, by a CAD reference
-  std::vector<NamedFeature> named_features;          ///< those of the plan
-  std::vector<MeasuredCharacteristic> characteristics;
-  std::optional<SurfaceStatistics> statistics;  ///< none without a reference
-  std::optional<SurfaceInspection> surface;     ///< deviations from the reference and the decision
-  bool tolerance_is_default = false;            ///< the plan states none for the deviations
-  std::optional<MeasuredWalls> walls;           ///< their thickness, where asked for
-  std::vector<SectionResult> sections;
+  Mesh mesh;                                            ///< aligned
+  std::optional<ReferenceSummary> reference;            ///< none: no reference
+  std::optional<Alignment> alignment;                   ///< none: the plan says nothing about it
+  std::vector<DatumResidual> datums;                    ///< of an alignment to datums
+  bool searched = false;                                ///< features were looked for
+  std::vector<Feature> features;                        ///< that were found
+  std::vector<std::optional<NominalFace>> nominals;     ///< of the features, by a CAD reference
+  std::vector<NamedFeature> named_features;             ///< those of the plan
+  std::vector<MeasuredCharacteristic> characteristics;  ///< of the plan, in its order
+  std::optional<SurfaceStatistics> statistics;          ///< none without a reference
+  std::optional<SurfaceInspection> surface;    ///< deviations from the reference and the decision
+  bool tolerance_is_default = false;           ///< the plan states none for the deviations
+  std::optional<MeasuredWalls> walls;          ///< their thickness, where asked for
+  std::vector<SectionResult> sections;         ///< of the plan, in its order
   bool knows_calibration = false;              ///< features hold the covariance of the rig
   Conformity verdict = Conformity::Undecided;  ///< about the part, by `verdict_of`
 };

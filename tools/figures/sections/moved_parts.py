@@ -93,7 +93,7 @@ def measure(study, case, seed):
     return {
         "trusted": answer["trustworthy"],
         # A rig that was found to be another one is refined, and the views are registered again.
-        "named": named if answer["refinement"] is None else "rig",
+        "named": named if answer.get("refinement") is None else "rig",
         "left_out": len(answer["registration"]["left_out"]),
         **compared(part, mesh),
     }
