@@ -71,8 +71,8 @@ def write_page(page, results):
     text = page.read_text()
     if BEGIN not in text:
         text += (
-            f"\n## Time of the tests\n\nWall time of the tests of each module in the last whole `./run test`, one more at a time than there "
-            f"are processors; the time of a test therefore counts what ran beside it.\n\n{BEGIN}\n{END}\n"
+            f"\n## Time of the tests\n\nWall time of the tests of each module in the last whole `./run test`. It runs one test more "
+            f"than there are processors at the same time, so a test takes longer than it would alone.\n\n{BEGIN}\n{END}\n"
         )
     temporary = page.with_suffix(".tmp")
     temporary.write_text(text.split(BEGIN)[0] + BEGIN + table(results) + END + text.split(END)[1])

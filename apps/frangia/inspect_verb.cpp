@@ -25,8 +25,8 @@
 namespace frangia {
 namespace {
 
-/// Writes what the arguments ask for and names it in the JSON. The names of the files, in the order
-/// in which they are told.
+/// Writes the files that the arguments ask for and names them in the JSON. Returns their names, in
+/// the order in which the program prints them.
 std::vector<std::string> write_files(const InspectArguments& arguments,
                                      const InspectionPlan& plan,
                                      const Inspection& part,

@@ -281,7 +281,8 @@ void bind_inspection(py::module_& module) {
           py::arg("path"),
           py::kw_only(),
           py::arg("progress") = py::none(),
-          "Writes the report as one page of HTML, and JSON, CSV and sections beside it; the paths.")
+          "Writes the report as HTML, and its JSON, CSV and sections next to it. Returns the "
+          "paths.")
       .def("__repr__", [](const InspectedPart& self) {
         return fmt::format("<frangia.Inspection: {}, {} characteristics>",
                            name_of(self.found.verdict),

@@ -208,7 +208,7 @@ class Inspection:
         """in, out or undecided: the surface and the characteristics together."""
         ...
     def write_report(self, path: str | os.PathLike[str], *, progress: Callable[[float, str], object] | None = None) -> list[str]:
-        """Writes the report as one page of HTML, and JSON, CSV and sections beside it; the paths."""
+        """Writes the report as HTML, and its JSON, CSV and sections next to it. Returns the paths."""
         ...
 
 class InspectionPlan:

@@ -289,3 +289,23 @@ export async function idle(page) {
     await page.evaluate(() => new Promise(requestAnimationFrame));
   }
 }
+
+/** A binary STL of triangles, each of three corners in mm. */
+export function stlOf(triangles) {
+  const bytes = Buffer.alloc(84 + 50 * triangles.length);
+  bytes.writeUInt32LE(triangles.length, 80);
+  triangles.forEach((corners, i) => corners.flat().forEach((value, k) => bytes.writeFloatLE(value, 84 + 50 * i + 12 + 4 * k)));
+  return bytes;
+}
+
+/** Makes a project whose surface is these triangles; returns its folder. */
+export function newProject(program, home, name, triangles) {
+  const folder = path.join(home, 'projects', name);
+  fs.mkdirSync(folder, { recursive: true });
+  fs.writeFileSync(path.join(folder, 'project.json'), '{"format": "frangia-project", "version": 1}\n');
+  const stl = path.join(home, `${name}.stl`);
+  fs.writeFileSync(stl, stlOf(triangles));
+  const made = spawnSync(program, ['edit', stl, '-o', path.join(folder, 'surface.ply')], { encoding: 'utf8' });
+  if (made.status !== 0) throw new Error(made.stderr);
+  return folder;
+}

@@ -7,7 +7,7 @@
 import { spawnSync } from 'node:child_process';
 import fs from 'node:fs';
 import path from 'node:path';
-import { check, expect, launch, look as lookAt, newHome, openPage, passed, PATIENCE, requireChromium, startServer, stateOf, tell } from './harness.mjs';
+import { check, expect, idle as allDone, launch, look as lookAt, newHome, newProject, openPage, passed, requireChromium, startServer, stateOf, stlOf, tell, waitForProject } from './harness.mjs';
 
 const [program, shots] = process.argv.slice(2).map((name) => path.resolve(name));
 requireChromium();
@@ -28,23 +28,11 @@ function ball([x, y, z], radius, rings) {
     }
   return triangles;
 }
-function stlOf(triangles) {
-  const bytes = Buffer.alloc(84 + 50 * triangles.length);
-  bytes.writeUInt32LE(triangles.length, 80);
-  triangles.forEach((corners, i) => corners.flat().forEach((value, k) => bytes.writeFloatLE(value, 84 + 50 * i + 12 + 4 * k)));
-  return bytes;
-}
 // Measured: the small ball is 0.05 mm too large and 0.1 mm too far away.
 const third = ball([18, 30, 6], 6, 30); // beside the others, so that the part fits in one pose only
 const nominal = [...ball([0, 0, 0], 15, 60), ...ball([50, 0, 0], 10, 40), ...third];
 const measured = [...ball([0, 0, 0], 15, 60), ...ball([50.1, 0, 0], 10.025, 40), ...third];
-const folder = path.join(home, 'projects', 'balls');
-fs.mkdirSync(folder, { recursive: true });
-fs.writeFileSync(path.join(folder, 'project.json'), '{"format": "frangia-project", "version": 1}\n');
-const stl = path.join(home, 'part.stl');
-fs.writeFileSync(stl, stlOf(measured));
-const made = spawnSync(program, ['edit', stl, '-o', path.join(folder, 'surface.ply')], { encoding: 'utf8' });
-if (made.status !== 0) throw new Error(made.stderr);
+const folder = newProject(program, home, 'balls', measured);
 const reference = path.join(home, 'balls as designed.stl');
 fs.writeFileSync(reference, stlOf(nominal));
 
@@ -53,23 +41,9 @@ await tell(home, async () => {
   const browser = await launch();
   const page = await openPage(browser, server.url, undefined, { expected: /status of 400/ }); // of a plan with a wrong key
   const look = (name) => lookAt(page, shots, name);
-  const state = () => page.evaluate(async () => {
-    const app = document.querySelector('frangia-app');
-    await app.updateComplete;
-    return app.state.project;
-  });
-  const idle = () => page.waitForFunction(() => !document.querySelector('.foot .bar'));
-  const until = async (what, wanted) => {
-    const end = Date.now() + PATIENCE;
-    for (;;) {
-      const now = await state();
-      if (wanted(now)) return now;
-      const failed = (await stateOf(page)).jobs.at(-1);
-      expect(failed?.state !== 'failed', `${what}: ${failed?.error}`);
-      expect(Date.now() < end, `${what} does not come`);
-      await page.waitForTimeout(60);
-    }
-  };
+  const idle = () => allDone(page);
+  const until = (what, wanted) => waitForProject(page, what, wanted);
+  const state = () => until('the state', () => true);
   const submit = (form) => page.locator(`${form} button`).last().click();
   await page.waitForSelector('#try');
   await page.getByText('balls', { exact: true }).click();

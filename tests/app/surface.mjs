@@ -7,7 +7,7 @@
 import { spawnSync } from 'node:child_process';
 import fs from 'node:fs';
 import path from 'node:path';
-import { check, expect, idle as allDone, lastFailure, launch, look as lookAt, newHome, openPage, passed, requireChromium, startServer, stateOf, tell, waitForProject, waitForState } from './harness.mjs';
+import { check, expect, idle as allDone, lastFailure, launch, look as lookAt, newHome, newProject, openPage, passed, requireChromium, startServer, stateOf, stlOf, tell, waitForProject, waitForState } from './harness.mjs';
 
 const [program, shots] = process.argv.slice(2).map((name) => path.resolve(name));
 requireChromium();
@@ -40,25 +40,13 @@ function slab(keep, lift = () => 0, more = tower()) {
   }
   return triangles;
 }
-function stlOf(triangles) {
-  const bytes = Buffer.alloc(84 + 50 * triangles.length);
-  bytes.writeUInt32LE(triangles.length, 80);
-  triangles.forEach((corners, i) => corners.flat().forEach((value, k) => bytes.writeFloatLE(value, 84 + 50 * i + 12 + 4 * k)));
-  return bytes;
-}
 const within = (x, y, cx, cy, r) => Math.hypot(x + 0.5 - cx, y + 0.5 - cy) < r;
 const edge = (x, y) => x === 0 || y === 0 || x === 60 || y === 40;
 const part = slab(
   (x, y) => !within(x, y, 15, 20, 5) && !within(x, y, 32, 20, 4),
   (x, y) => (edge(x, y) ? 0 : 0.3 * Math.exp(-((x - 48) ** 2 + (y - 20) ** 2) / 30)), // a bump 0.3 mm high
 );
-const folder = path.join(home, 'projects', 'slab');
-fs.mkdirSync(folder, { recursive: true });
-fs.writeFileSync(path.join(folder, 'project.json'), '{"format": "frangia-project", "version": 1}\n');
-const stl = path.join(home, 'part.stl');
-fs.writeFileSync(stl, stlOf(part));
-const made = spawnSync(program, ['edit', stl, '-o', path.join(folder, 'surface.ply')], { encoding: 'utf8' });
-if (made.status !== 0) throw new Error(made.stderr);
+const folder = newProject(program, home, 'slab', part);
 const reference = path.join(home, 'slab as designed.stl');
 fs.writeFileSync(reference, stlOf(slab(() => true)));
 
@@ -73,13 +61,8 @@ fs.writeFileSync(
 );
 
 // A plain box fits in four poses.
-const box = path.join(home, 'projects', 'box');
-fs.mkdirSync(box, { recursive: true });
-fs.writeFileSync(path.join(box, 'project.json'), '{"format": "frangia-project", "version": 1}\n');
+const box = newProject(program, home, 'box', slab(() => true, () => 0, []));
 const plain = path.join(home, 'box.stl');
-fs.writeFileSync(plain, stlOf(slab(() => true, () => 0, [])));
-const copied = spawnSync(program, ['edit', plain, '-o', path.join(box, 'surface.ply')], { encoding: 'utf8' });
-if (copied.status !== 0) throw new Error(copied.stderr);
 
 const server = await startServer(program, home);
 await tell(home, async () => {

@@ -17,7 +17,7 @@ namespace frangia {
 /// as "25.4mm"; none for another text.
 [[nodiscard]] std::optional<double> parse_unit_mm(std::string_view text);
 
-/// What a text that `parse_unit_mm` does not know is told to be.
+/// The units that `parse_unit_mm` accepts, for error messages.
 inline constexpr std::string_view kUnitsKnown = "um, mm, cm, m, in, ft or a length such as 25.4mm";
 
 }  // namespace frangia

@@ -32,7 +32,7 @@ struct ToldView {
 };
 
 /// Decodes a view of a scan from its frames, which may come from the disk or from a camera. Keeps
-/// what is said, with the name of the view before it.
+/// its notes and warnings, each preceded by the name of the view.
 ///
 /// @shape    as decode_view
 /// @errors   as decode_view

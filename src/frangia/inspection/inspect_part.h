@@ -94,7 +94,8 @@ struct Inspection {
 /// the deviations, measures walls and cuts sections.
 ///
 /// `reference` is null where nothing is measured against; the plan's own `reference` and `unit_mm`
-/// are for whoever reads it. The same input gives the same bytes with any number of threads.
+/// are not used here: the caller reads the reference by them. The same input gives the same bytes
+/// with any number of threads.
 /// @units    mm, degrees
 /// @missing  NaN, and empty members for what was not asked for
 /// @errors   Error(Input) as align_part, find_features, state_nominals and inspect_surface, and

@@ -100,7 +100,7 @@ std::optional<RimOffset> rim_at(const SilhouetteEdge& edge,
     const Eigen::Vector3d direction = object_from_rig.linear() * ray.homogeneous();
     const auto hit = surface.first_hit(object_from_rig.translation(), direction);
     if (!hit) continue;
-    if (out > kOutside_px - kStep_px) return std::nullopt;  // another part of the surface beside it
+    if (out > kOutside_px - kStep_px) return std::nullopt;  // another part of the surface
     // Between two rays; the direction has a depth of 1, so that the distance is the depth.
     const double px = out + 0.5 * kStep_px;
     const double pixel_mm = hit->distance / camera.focal_px.x();

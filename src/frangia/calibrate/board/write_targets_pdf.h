@@ -16,7 +16,7 @@ struct PrintedTargets {
 };
 
 /// Writes targets as a PDF that prints at true scale, each with a circle to cut along: discs, and
-/// markers with their codes beside them.
+/// markers with their codes printed next to them.
 ///
 /// @errors   Error(Input) when a target does not fit on the paper, or the dictionary has fewer
 /// codes;
