@@ -11,6 +11,7 @@
 #include "frangia/acceptance/acceptance_result.h"
 #include "frangia/acceptance/certificate.h"
 #include "frangia/core/sha256.h"
+#include "frangia/core/write_text_file.h"
 #include "frangia/dataset/scan_folder.h"
 #include "frangia/files/ply.h"
 #include "frangia/reconstruct/reconstruct.h"
@@ -168,9 +169,9 @@ void accept(const AcceptArguments& arguments, Terminal& terminal) {
   facts.warnings = terminal.warnings();
   const Json json = json_of_result(result, arrangements, facts);
   const fs::path certificate = arguments.output / "certificate.html";
-  write_report_text(arguments.output / "frames.sha256", checksums);
-  write_report_text(arguments.output / "certificate.json", json.dump(2) + "\n");
-  write_report_text(certificate, certificate_html(plan, arrangements, result, facts));
+  write_text_file(arguments.output / "frames.sha256", checksums);
+  write_text_file(arguments.output / "certificate.json", json.dump(2) + "\n");
+  write_text_file(certificate, certificate_html(plan, arrangements, result, facts));
   if (arguments.fail_out_of_tolerance && result.conformity == Conformity::Out)
     terminal.exit_code = OutOfTolerance;
   terminal.finish();

@@ -20,7 +20,7 @@ namespace {
 
 struct BoardArguments {
   std::filesystem::path output;
-  std::string kind = "checkerboard";
+  BoardKind kind = BoardKind::Checkerboard;
   std::string paper = "a4";
   std::vector<int> corners = {10, 7};
   double square_mm = 0.0;
@@ -30,19 +30,14 @@ struct BoardArguments {
   bool legacy_layout = false;
 };
 
-BoardKind board_kind(const std::string& name) {
-  if (name == "circles") return BoardKind::Circles;
-  return name == "charuco" ? BoardKind::Charuco : BoardKind::Checkerboard;
-}
-
 void calibrate_board_verb(const BoardArguments& arguments, Terminal& terminal) {
   require(lowercase_extension(arguments.output) == ".pdf",
           "a board is written as .pdf, which prints at true scale; give a file name that ends with "
           ".pdf");
-  const bool circles = arguments.kind == "circles";
-  const bool charuco = arguments.kind == "charuco";
+  const bool circles = arguments.kind == BoardKind::Circles;
+  const bool charuco = arguments.kind == BoardKind::Charuco;
   const Board board = write_board_pdf(arguments.output,
-                                      {.kind = board_kind(arguments.kind),
+                                      {.kind = arguments.kind,
                                        .columns = arguments.corners.at(0),
                                        .rows = arguments.corners.at(1),
                                        .square_mm = arguments.square_mm,
@@ -53,7 +48,7 @@ void calibrate_board_verb(const BoardArguments& arguments, Terminal& terminal) {
                                       paper_size(arguments.paper));
   if (terminal.json) {
     const nlohmann::ordered_json result{{"file", arguments.output.string()},
-                                        {"kind", arguments.kind},
+                                        {"kind", name_of(arguments.kind)},
                                         {"corners", {board.columns, board.rows}},
                                         {"square_mm", board.square_mm},
                                         {"marker_mm", marker_side_mm(board)},
@@ -65,7 +60,7 @@ void calibrate_board_verb(const BoardArguments& arguments, Terminal& terminal) {
     print_text(
         "# for scan.toml, once the ruler on the print measures 100 mm\n[board]\n"
         "kind = \"{}\"\n{} = [{}, {}]\n{} = {:g}\n",
-        arguments.kind,
+        name_of(arguments.kind),
         circles ? "circles" : "corners",
         board.columns,
         board.rows,
@@ -88,9 +83,8 @@ void add_calibrate_board_verb(CLI::App& calibrate, Terminal& terminal) {
       calibrate.add_subcommand("board", "write a board to print at true scale, with a ruler");
   verb->footer("Example:\n  frangia calibrate board --paper a4 -o board.pdf");
   verb->add_option("-o,--output", arguments->output, "PDF to write")->required();
-  verb->add_option("--kind", arguments->kind, "checkerboard, charuco or circles")
-      ->check(one_of({"checkerboard", "charuco", "circles"}))
-      ->capture_default_str();
+  verb->add_option("--kind", arguments->kind, "checkerboard (default), charuco or circles")
+      ->transform(named<BoardKind>());
   verb->add_option("--paper", arguments->paper, "a4, a3 or letter")
       ->check(one_of({"a4", "a3", "letter"}))
       ->capture_default_str();

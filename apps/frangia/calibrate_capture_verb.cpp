@@ -29,7 +29,6 @@ namespace {
 struct CapturePosesArguments {
   std::filesystem::path rig;
   std::filesystem::path output;
-  std::string kind = "checkerboard";
   std::vector<int> corners = {10, 7};
   Board board;
   bool table = false;
@@ -40,11 +39,7 @@ struct CapturePosesArguments {
 };
 
 Board board_wanted(const CapturePosesArguments& arguments) {
-  static const std::map<std::string, BoardKind> kKinds = {{"checkerboard", BoardKind::Checkerboard},
-                                                          {"charuco", BoardKind::Charuco},
-                                                          {"circles", BoardKind::Circles}};
   Board board = arguments.board;
-  board.kind = kKinds.at(arguments.kind);
   board.columns = arguments.corners.at(0);
   board.rows = arguments.corners.at(1);
   check_board(board);
@@ -193,9 +188,8 @@ void add_calibrate_capture_verb(CLI::App& calibrate, Terminal& terminal) {
       ->required();
   verb->add_option("-o,--output", arguments->output, "scan folder to write or to continue")
       ->required();
-  verb->add_option("--board", arguments->kind, "checkerboard, charuco or circles")
-      ->check(one_of({"checkerboard", "charuco", "circles"}))
-      ->capture_default_str();
+  verb->add_option("--board", arguments->board.kind, "checkerboard (default), charuco or circles")
+      ->transform(named<BoardKind>());
   verb->add_option("--corners", arguments->corners, "inner corners, or circles, along x and y")
       ->delimiter(',')
       ->expected(2)

@@ -11,9 +11,9 @@
 
 #include "frangia/calibrate/check/calibrate_check.h"
 #include "frangia/calibrate/check/drift_log.h"
-#include "frangia/core/atomic_file.h"
 #include "frangia/core/error.h"
 #include "frangia/core/lowercase_extension.h"
+#include "frangia/core/write_text_file.h"
 #include "frangia/dataset/capture_times.h"
 #include "frangia/rig/read_rig.h"
 
@@ -64,9 +64,7 @@ std::vector<DriftEntry> logged(const CheckArguments& arguments,
 /// Draws the log as the user asked for.
 void plot_log(const std::filesystem::path& path, const std::vector<DriftEntry>& entries) {
   if (path.empty()) return;
-  AtomicFile file(path);
-  file.stream() << drift_plot(entries);
-  file.commit();
+  write_text_file(path, drift_plot(entries));
 }
 
 nlohmann::ordered_json json_of_check(const RigCheck& check) {

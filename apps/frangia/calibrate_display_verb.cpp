@@ -7,8 +7,8 @@
 #include <nlohmann/json.hpp>
 
 #include "frangia/acquisition/with_display.h"
-#include "frangia/core/atomic_file.h"
 #include "frangia/core/read_text_file.h"
+#include "frangia/core/write_text_file.h"
 #include "frangia/rig/read_rig.h"
 
 #include "check_can_write.h"
@@ -79,9 +79,7 @@ void calibrate_display(const DisplayArguments& arguments, Terminal& terminal) {
   }
   if (!arguments.output.empty()) {
     const std::string text = with_display(read_text_file(arguments.rig), rig, found);
-    AtomicFile file(arguments.output);
-    file.stream() << text;
-    file.commit();
+    write_text_file(arguments.output, text);
   }
   for (const std::string& finding : found.findings)
     run.warn(finding);

@@ -150,19 +150,13 @@ void add_import_subcommand(CLI::App& calibrate, Terminal& terminal) {
 struct ExportArguments {
   std::filesystem::path rig;
   std::filesystem::path output;
-  std::string layout;
+  std::optional<CalibrationLayout> layout;  ///< of the ending without one
 };
 
 void export_calibration(const ExportArguments& arguments, Terminal& terminal) {
   check_can_write(arguments.output);
-  const std::map<std::string, CalibrationLayout> layouts{{"opencv", CalibrationLayout::OpenCv},
-                                                         {"slstudio", CalibrationLayout::SlStudio},
-                                                         {"scan3d", CalibrationLayout::Scan3d},
-                                                         {"matlab", CalibrationLayout::Matlab},
-                                                         {"colmap", CalibrationLayout::Colmap}};
   const CalibrationLayout by_ending = layout_of(arguments.output);
-  const CalibrationLayout layout =
-      arguments.layout.empty() ? by_ending : layouts.at(arguments.layout);
+  const CalibrationLayout layout = arguments.layout.value_or(by_ending);
   const bool storage = layout != CalibrationLayout::Matlab && layout != CalibrationLayout::Colmap;
   const bool fits = storage ? by_ending == CalibrationLayout::OpenCv : by_ending == layout;
   require_usage(
@@ -189,7 +183,7 @@ void add_export_subcommand(CLI::App& calibrate, Terminal& terminal) {
           arguments->layout,
           "names of the values: opencv, slstudio, scan3d, matlab or colmap; default: by the "
           "ending")
-      ->check(one_of({"opencv", "slstudio", "scan3d", "matlab", "colmap"}));
+      ->transform(named<CalibrationLayout>());
   verb->callback([arguments, &terminal] { export_calibration(*arguments, terminal); });
 }
 

@@ -12,7 +12,7 @@
 
 #include "frangia/acquisition/sweep_piezo.h"
 #include "frangia/core/angles.h"
-#include "frangia/core/atomic_file.h"
+#include "frangia/core/write_text_file.h"
 #include "frangia/rig/read_rig.h"
 
 #ifdef FRANGIA_WITH_CALIBRATION
@@ -80,9 +80,7 @@ void calibrate_piezo(const PiezoArguments& arguments, Terminal& terminal) {
   run.stage("sweep");
   const PiezoSweep sweep = sweep_piezo(open.devices(), rig, arguments.options, run);
   if (!arguments.output.empty()) {
-    AtomicFile file(arguments.output);
-    file.stream() << with_curve(arguments.rig, sweep.curve);
-    file.commit();
+    write_text_file(arguments.output, with_curve(arguments.rig, sweep.curve));
   }
   terminal.finish();
   if (terminal.json) {

@@ -32,8 +32,7 @@ Json json_of(const DecodePlan& plan) {
     Json maps = Json::array();
     for (const Pattern& map : direction.maps)
       maps.push_back(map.name);
-    json.push_back({{"direction",
-                     direction.direction == FringeDirection::Vertical ? "vertical" : "horizontal"},
+    json.push_back({{"direction", name_of(direction.direction)},
                     {"maps", maps},
                     {"orders", name_of(direction.orders)},
                     {"text", describe(direction)}});

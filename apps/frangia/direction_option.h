@@ -14,13 +14,10 @@ namespace frangia {
 inline void add_direction_option(CLI::App& verb, PatternPlan& plan) {
   verb.add_option_function<std::string>(
           "--direction",
-          [&plan](const std::string& name) {
-            plan.direction =
-                name == "horizontal" ? FringeDirection::Horizontal : FringeDirection::Vertical;
-          },
+          [&plan](const std::string& name) { plan.direction = find_named<FringeDirection>(name); },
           "digital projector: vertical or horizontal fringes; by default those that measure depth, "
           "as the projector stands to the camera")
-      ->check(one_of({"vertical", "horizontal"}));
+      ->check(one_of(all_names<FringeDirection>()));
 }
 
 }  // namespace frangia

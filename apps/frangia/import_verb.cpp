@@ -38,7 +38,6 @@ struct ImportArguments {
   std::string projector;
   std::string raw;
   std::string color;
-  std::string orientation;
   double white_level = 0.0;
   bool yes = false;
 };
@@ -55,8 +54,6 @@ ImportOptions options_of(const ImportArguments& arguments) {
   if (!arguments.projector.empty()) options.projector_px = projector_size_of(arguments.projector);
   if (!arguments.raw.empty()) options.files.raw = parse_raw_format(arguments.raw);
   if (!arguments.color.empty()) options.color = parse_color_choice(arguments.color);
-  if (arguments.orientation == "stored") options.orientation = FrameOrientation::Stored;
-  if (arguments.orientation == "shown") options.orientation = FrameOrientation::Shown;
   options.float_white = arguments.white_level;
   if (arguments.white_level > 0.0) {
     options.white_level =
@@ -188,10 +185,10 @@ void add_pattern_options(CLI::App& verb, ImportArguments& arguments) {
                   "fringes");
   verb.add_option(
           "--orientation",
-          arguments.orientation,
+          arguments.options.orientation,
           "of frames with an EXIF orientation: stored, as in the file, or shown, turned; by "
           "default as fits the rig")
-      ->check(one_of({"stored", "shown"}));
+      ->transform(named<FrameOrientation>());
   verb.add_option("--skip",
                   arguments.options.skip,
                   "numbers of frames, as the names state them, that are left out, such as 0,13")

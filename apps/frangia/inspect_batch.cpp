@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "frangia/core/lowercase_extension.h"
+#include "frangia/core/write_text_file.h"
 #include "frangia/report/batch.h"
 #include "frangia/report/inspection_report.h"
 
@@ -37,7 +38,7 @@ void inspect_batch(const InspectArguments& arguments,
   const std::string csv = batch_csv(parts, characteristics);
   const bool page = lowercase_extension(arguments.batch) == ".html";
   const std::string title = plan.part.empty() ? "Batch" : "Batch: " + plan.part;
-  write_report_text(arguments.batch, page ? batch_html(title, parts, characteristics) : csv);
+  write_text_file(arguments.batch, page ? batch_html(title, parts, characteristics) : csv);
   terminal.finish();
   if (arguments.fail_out_of_tolerance && out) terminal.exit_code = OutOfTolerance;
   if (terminal.json) {

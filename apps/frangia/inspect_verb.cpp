@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "frangia/core/write_text_file.h"
 #include "frangia/report/inspection_json.h"
 #include "frangia/report/qif_results.h"
 #include "frangia/report/write_report.h"
@@ -54,8 +55,8 @@ std::vector<std::string> write_files(const InspectArguments& arguments,
       written.push_back(std::move(path));
   }
   if (!arguments.qif.empty()) {
-    write_report_text(arguments.qif,
-                      qif_of({part.named_features, part.characteristics, part.verdict}));
+    write_text_file(arguments.qif,
+                    qif_of({part.named_features, part.characteristics, part.verdict}));
     written.push_back(arguments.qif.string());
     json["qif"] = arguments.qif.string();
   }

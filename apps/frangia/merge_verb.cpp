@@ -179,13 +179,11 @@ void add_merge_verb(CLI::App& program, Terminal& terminal) {
           "-z, in any format that edit reads; or a .conf that lists scans with their poses")
       ->required();
   add_mesh_outputs(*verb, arguments->outputs);
-  static const std::map<std::string, ScanPoses> kPoses = {
-      {"auto", ScanPoses::Auto}, {"given", ScanPoses::Given}, {"shape", ScanPoses::Shape}};
   verb->add_option("--poses",
                    arguments->options.poses,
                    "poses of the scans: given, as in the files; shape, found from the shape of the "
                    "scans; auto (default), found from the shape if the given ones cannot be right")
-      ->transform(named(kPoses));
+      ->transform(named<ScanPoses>());
   verb->add_option("--units",
                    arguments->unit_mm,
                    "unit of the scans: um, mm (default), cm, m, in, ft, or its length, such as "

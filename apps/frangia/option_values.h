@@ -1,11 +1,12 @@
 #pragma once
 
-#include <map>
 #include <string>
 #include <vector>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+
+#include "frangia/core/enum_names.h"
 
 namespace frangia {
 
@@ -42,16 +43,13 @@ namespace frangia {
 /// option's variable receives bytes.
 [[nodiscard]] CLI::Validator size_above_zero();
 
-/// The name of an enum's value, one of the keys of `values`; for CLI::Option::transform.
-template <typename Enum>
-[[nodiscard]] CLI::Validator named(const std::map<std::string, Enum>& values) {
-  std::vector<std::string> names;
-  names.reserve(values.size());
-  for (const auto& [name, value] : values)
-    names.push_back(name);
-  return {[values, known = one_of(names)](std::string& input) {
+/// The name of an enum's value, see names_of; for CLI::Option::transform.
+template <NamedEnum Enum>
+[[nodiscard]] CLI::Validator named() {
+  return {[known = one_of(all_names<Enum>())](std::string& input) {
             std::string wrong = known(input);
-            if (wrong.empty()) input = fmt::format("{}", static_cast<int>(values.at(input)));
+            if (wrong.empty())
+              input = fmt::format("{}", static_cast<int>(*find_named<Enum>(input)));
             return wrong;
           },
           ""};

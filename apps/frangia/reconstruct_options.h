@@ -1,6 +1,5 @@
 #pragma once
 
-#include <map>
 #include <optional>
 #include <string>
 
@@ -25,16 +24,12 @@ inline void add_decode_options(CLI::App& verb, DecodeOptions& options) {
           },
           "phase-shift algorithm: auto, one of `frangia algorithms`, or a .toml file with yours")
       ->default_str(options.algorithm);
-  static const std::map<std::string, SpatialMethod> kMethods = {
-      {"default", SpatialMethod::RunMerging},
-      {"takeda-abe", SpatialMethod::QualityGuided},
-      {"herraez", SpatialMethod::ReliabilitySorted}};
-  verb.add_option(
-          "--unwrap",
-          options.spatial.method,
-          "spatial phase unwrapping: default (run-merging), takeda-abe (quality-guided, as in "
-          "the 1997 paper) or herraez (reliability-sorted)")
-      ->transform(named(kMethods));
+  verb.add_option("--unwrap",
+                  options.spatial.method,
+                  "spatial phase unwrapping: run-merging (default), quality-guided (as in the 1997 "
+                  "paper) or "
+                  "reliability-sorted")
+      ->transform(named<SpatialMethod>());
   verb.add_flag("--recover-saturated",
                 options.recover_saturated,
                 "recover a pixel that is saturated in one of four frames, 90 degrees apart");
@@ -67,8 +62,6 @@ inline void add_decode_options(CLI::App& verb, DecodeOptions& options) {
       },
       "phase maps of another program: FOLDER/000/PATTERN-phase.tiff and PATTERN-sigma.tiff, rad, "
       "32-bit floating point, NaN where nothing was measured");
-  static const std::map<std::string, PhaseKind> kPhaseKinds = {{"wrapped", PhaseKind::Wrapped},
-                                                               {"absolute", PhaseKind::Absolute}};
   verb.add_option_function<PhaseKind>(
           "--phase-kind",
           [&options](const PhaseKind& kind) {
@@ -77,19 +70,14 @@ inline void add_decode_options(CLI::App& verb, DecodeOptions& options) {
           },
           "what the maps hold: absolute (default; of the finest fringes) or wrapped (one for each "
           "pattern)")
-      ->transform(named(kPhaseKinds))
+      ->transform(named<PhaseKind>())
       ->needs(phase);
-  static const std::map<std::string, DirectionChoice> kDirections = {
-      {"fused", DirectionChoice::Fused},
-      {"best", DirectionChoice::Best},
-      {"vertical", DirectionChoice::Vertical},
-      {"horizontal", DirectionChoice::Horizontal}};
   verb.add_option("--directions",
                   options.directions,
                   "of a scan with vertical and horizontal fringes: fused (default; least squares "
                   "over both), best (at each pixel the one with the smaller sigma), vertical or "
                   "horizontal")
-      ->transform(named(kDirections));
+      ->transform(named<DirectionChoice>());
   verb.add_flag("--accept-inconsistent",
                 options.accept_inconsistent,
                 "triangulate frames that do not fit the patterns of scan.toml or the rig");

@@ -142,15 +142,12 @@ void add_reconstruct_verb(CLI::App& program, Terminal& terminal) {
   add_views_options(*verb, *arguments);
   add_surface_options(*verb, *arguments);
   add_decode_options(*verb, arguments->options.decode);
-  static const std::map<std::string, FrameColors> kColors = {{"linear", FrameColors::Linear},
-                                                             {"encoded", FrameColors::Encoded},
-                                                             {"none", FrameColors::None}};
   verb->add_option("--colors",
                    arguments->options.colors,
                    "colors of the vertices, from the white frames or else the mean of the fringes: "
                    "linear (default; frames proportional to light), encoded (frames coded for a "
                    "screen, as photographs are) or none")
-      ->transform(named(kColors));
+      ->transform(named<FrameColors>());
   verb->callback([arguments, &terminal] {
     arguments->options.register_views = !arguments->no_register;
     arguments->options.indirect_light = !arguments->ignore_indirect_light;

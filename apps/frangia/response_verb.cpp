@@ -11,9 +11,9 @@
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
-#include "frangia/core/atomic_file.h"
 #include "frangia/core/error.h"
 #include "frangia/core/read_text_file.h"
+#include "frangia/core/write_text_file.h"
 #include "frangia/dataset/read_frames.h"
 #include "frangia/dataset/scan_folder.h"
 #include "frangia/phase/waveform/fit_waveform.h"
@@ -129,9 +129,8 @@ void response_verb(const ResponseArguments& arguments, Terminal& terminal) {
   projector.response = uncorrected ? left : compose(*projector.response, left);
   // Waveforms of patterns that a look-up table corrects are not those without it.
   if (uncorrected) projector.waveforms = waveforms;
-  AtomicFile file(arguments.output);
-  file.stream() << with_response(read_text_file(scan.folder / "rig.toml"), projector);
-  file.commit();
+  write_text_file(arguments.output,
+                  with_response(read_text_file(scan.folder / "rig.toml"), projector));
   terminal.finish();
   if (terminal.json) {
     nlohmann::ordered_json result{{"light", projector.response->light}};

@@ -173,14 +173,10 @@ void add_projector_faults(CLI::App& verb, SimulateArguments& arguments) {
             options.flicker,
             "rms relative error of the projector's light, independent per frame, such as 0.02")
       ->check(from_to(0.0, 0.5));
-  static const std::map<std::string, DisplayedWaveform> kWaveforms = {
-      {"sine", DisplayedWaveform::Sine},
-      {"binary", DisplayedWaveform::Binary},
-      {"dithered", DisplayedWaveform::Dithered}};
   verb.add_option("--waveform",
                   options.waveform,
                   "how a digital projector shows fringes: sine (default), binary or dithered")
-      ->transform(named(kWaveforms))
+      ->transform(named<DisplayedWaveform>())
       ->group(kGroup);
   add_fault(verb,
             kGroup,

@@ -147,8 +147,7 @@ void simulate_poses(const SimulateArguments& arguments,
   CalibrationPlan plan;
   plan.folder = arguments.output;
   plan.rig = rig_of(arguments.rig, run);
-  if (arguments.calibration == "circles") plan.board.kind = BoardKind::Circles;
-  if (arguments.calibration == "charuco") plan.board.kind = BoardKind::Charuco;
+  plan.board.kind = find_named<BoardKind>(arguments.calibration).value_or(plan.board.kind);
   plan.board.columns = arguments.corners.at(0);
   plan.board.rows = arguments.corners.at(1);
   plan.board.square_mm = arguments.square_mm;

@@ -26,12 +26,10 @@ namespace frangia {
 
 /// Adds the options that choose variants of a format. `options` must outlive the verb.
 inline void add_write_options(CLI::App& verb, WriteOptions& options) {
-  static const std::map<std::string, DxfVariant> kVariants = {
-      {"faces", DxfVariant::Faces}, {"polyface", DxfVariant::Polyface}, {"mesh", DxfVariant::Mesh}};
   verb.add_option("--dxf",
                   options.dxf.variant,
                   "DXF as faces (3DFACE, the default), polyface (POLYLINE) or mesh (MESH)")
-      ->transform(named(kVariants));
+      ->transform(named<DxfVariant>());
   verb.add_flag("--stl-text", options.stl.ascii, "STL as text instead of binary");
 }
 

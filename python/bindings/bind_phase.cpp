@@ -85,17 +85,6 @@ void require_period(const Pattern& pattern, const char* what) {
                           what));
 }
 
-SpatialMethod method_of(const std::string& name) {
-  if (name == "run-merging") return SpatialMethod::RunMerging;
-  if (name == "quality-guided") return SpatialMethod::QualityGuided;
-  if (name == "reliability-sorted") return SpatialMethod::ReliabilitySorted;
-  throw Error(
-      ErrorKind::Input,
-      fmt::format("there is no unwrapping method \"{}\"; use run-merging, quality-guided or "
-                  "reliability-sorted",
-                  name));
-}
-
 Projector screen_of(int width_px, int height_px) {
   PinholeModel model;
   model.width_px = width_px;
@@ -234,7 +223,7 @@ void bind_phase(py::module_& module) {
       "unwrap_spatial",
       [](WrappedPhase map, const std::string& method) {
         SpatialUnwrapOptions options;
-        options.method = method_of(method);
+        options.method = value_named<SpatialMethod>("method", method);
         return unwrap_spatially(std::move(map), options);
       },
       py::arg("map"),

@@ -29,17 +29,6 @@
 namespace frangia::python {
 namespace {
 
-DirectionChoice directions_of(const std::string& name) {
-  if (name == "fused") return DirectionChoice::Fused;
-  if (name == "best") return DirectionChoice::Best;
-  if (name == "vertical") return DirectionChoice::Vertical;
-  if (name == "horizontal") return DirectionChoice::Horizontal;
-  throw Error(ErrorKind::Input,
-              fmt::format("directions = \"{}\" is not known; use fused, best, vertical or "
-                          "horizontal",
-                          name));
-}
-
 DecodeOptions decode_options(const py::object& algorithm,
                              const std::string& directions,
                              float max_sigma_rad,
@@ -55,7 +44,7 @@ DecodeOptions decode_options(const py::object& algorithm,
   } else {
     options.algorithm = algorithm.cast<std::string>();
   }
-  options.directions = directions_of(directions);
+  options.directions = value_named<DirectionChoice>("directions", directions);
   options.wrap.max_sigma_rad = max_sigma_rad;
   options.undo_own_response = undo_response;
   options.undo_blur = undo_blur;
@@ -165,7 +154,7 @@ void bind_reconstruct(py::module_& module) {
       "plan_decoding",
       [](const Scan& scan, const std::string& directions, float max_sigma_rad) {
         DecodeOptions options;
-        options.directions = directions_of(directions);
+        options.directions = value_named<DirectionChoice>("directions", directions);
         options.wrap.max_sigma_rad = max_sigma_rad;
         return plan_decoding(scan.patterns, scan.rig, options);
       },

@@ -24,15 +24,6 @@
 namespace frangia::python {
 namespace {
 
-RigContent content_of(const std::string& rig) {
-  if (rig == "complete") return RigContent::Complete;
-  if (rig == "start-values") return RigContent::StartValues;
-  if (rig == "phase-only") return RigContent::PhaseOnly;
-  throw Error(
-      ErrorKind::Input,
-      fmt::format("rig = \"{}\" is not known; use complete, start-values or phase-only", rig));
-}
-
 void check_view_number(const Scan& scan, std::size_t view) {
   if (view < scan.views.size()) return;
   throw Error(ErrorKind::Input,
@@ -172,7 +163,7 @@ void bind_scan(py::module_& module) {
   module.def(
       "read_scan",
       [](const std::filesystem::path& folder, const std::string& rig) {
-        const RigContent content = content_of(rig);
+        const RigContent content = value_named<RigContent>("rig", rig);
         return result_of(py::none(),
                          [&](const Run& run) { return read_scan(folder, run, content); });
       },

@@ -169,7 +169,7 @@ TEST_F(Program, NamesTheAllowedValuesOfAnOption) {
          "1.5mm");
   expect("--dxf-faces -1", "--dxf-faces: -1 is not a number of 0 or more");
   expect("--dxf-faces 2.5", "--dxf-faces cannot be 2.5");
-  expect("--unwrap 1", "--unwrap: 1 is not one of default, herraez, takeda-abe");
+  expect("--unwrap 1", "--unwrap: 1 is not one of run-merging, quality-guided, reliability-sorted");
 }
 
 TEST_F(Program, ShowsTheHelpOfAVerbByItsName) {

@@ -129,8 +129,8 @@ TEST(UnwrapSpatially, TheDefaultIsAtLeastAsAccurateAsThePublishedMethods) {
   const double runs = share(SpatialMethod::RunMerging);
   const double grown = share(SpatialMethod::QualityGuided);
   const double sorted = share(SpatialMethod::ReliabilitySorted);
-  EXPECT_LE(runs, std::min(grown, sorted) + 1e-4)
-      << "default " << runs << ", takeda-abe " << grown << ", herraez " << sorted;
+  EXPECT_LE(runs, std::min(grown, sorted) + 1e-4) << "run-merging " << runs << ", quality-guided "
+                                                  << grown << ", reliability-sorted " << sorted;
   EXPECT_LT(sorted, 0.01);
 }
 

@@ -8,13 +8,13 @@
 
 #include <fmt/format.h>
 
-#include "frangia/core/atomic_file.h"
 #include "frangia/core/error.h"
 #include "frangia/core/folder_lock.h"
 #include "frangia/core/make_folder.h"
 #include "frangia/core/open_below.h"
 #include "frangia/core/read_json_below.h"
 #include "frangia/core/sync_to_disk.h"
+#include "frangia/core/write_text_file.h"
 
 #include "batch/batch_inputs.h"
 #include "batch/child_process.h"
@@ -275,9 +275,9 @@ BatchRow run_task(const BatchScan& scan,
     row.message = error.what();  // a file is gone again
     return row;
   }
-  AtomicFile mark(folder / kMark, Durability::Synced);
-  mark.stream() << content.dump(2, ' ', true, Json::error_handler_t::replace) << '\n';
-  mark.commit();
+  write_text_file(folder / kMark,
+                  content.dump(2, ' ', true, Json::error_handler_t::replace) + "\n",
+                  Durability::Synced);
   return row;
 }
 

@@ -5,11 +5,11 @@
 
 #include <fmt/format.h>
 
-#include "frangia/core/atomic_file.h"
 #include "frangia/core/error.h"
 #include "frangia/core/make_folder.h"
 #include "frangia/core/open_below.h"
 #include "frangia/core/read_text_file.h"
+#include "frangia/core/write_text_file.h"
 
 #include "batch/child_process.h"
 #include "shell_quoted.h"
@@ -20,9 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 
 void write_script(const fs::path& path, const std::string& text) {
-  AtomicFile file(path);
-  file.stream() << text;
-  file.commit();
+  write_text_file(path, text);
   fs::permissions(path, fs::perms::owner_exec, fs::perm_options::add);
 }
 

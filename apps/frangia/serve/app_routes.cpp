@@ -164,7 +164,7 @@ HttpApp AppRoutes::app() const {
     if (!json.is_object() || json.value("type", nlohmann::json()) != "show") return std::nullopt;
     const auto layer = json.find("layer");
     if (layer == json.end() || !layer->is_string()) return std::nullopt;
-    const auto known = live_layer_of(layer->get<std::string>());
+    const auto known = find_named<LiveLayer>(layer->get<std::string>());
     return known ? std::optional<int>(static_cast<int>(*known)) : std::nullopt;
   };
   app.picture = [this](int channel, std::uint64_t after) -> HttpPicture {

@@ -10,14 +10,6 @@
 namespace frangia {
 namespace {
 
-AcceptanceSource source_of(TomlReader& top) {
-  const std::string text = top.text("source");
-  if (text != "scans" && text != "devices" && text != "simulation")
-    top.fail("source", fmt::format("is \"{}\"; it must be scans, devices or simulation", text));
-  if (text == "scans") return AcceptanceSource::Scans;
-  return text == "devices" ? AcceptanceSource::Devices : AcceptanceSource::Simulation;
-}
-
 double not_negative(TomlReader& reader, std::string_view key, double fallback) {
   const double value = reader.number_or(key, fallback);
   if (value < 0.0) reader.fail(key, "must be 0 or more");
@@ -118,7 +110,7 @@ AcceptancePlan read_acceptance_plan(const std::filesystem::path& path) {
   top.ignore("format");
   top.ignore("version");
   AcceptancePlan plan;
-  plan.source = source_of(top);
+  plan.source = top.named<AcceptanceSource>("source");
   plan.artifact = artifact_of(top.table("artifact"));
   const bool bar = plan.artifact.diameters_mm.size() == 2;
   if (top.has("limits")) plan.limits = limits_from(top.table("limits"), bar);

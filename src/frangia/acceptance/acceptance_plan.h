@@ -9,6 +9,8 @@
 
 #include <Eigen/Core>
 
+#include "frangia/core/enum_names.h"
+
 namespace frangia {
 
 /// The ball bar, or the single ball, of an acceptance test as its calibration certificate states
@@ -36,6 +38,13 @@ enum class AcceptanceSource {
   Devices,    ///< captured by the rig's devices, with a pause before each arrangement
   Simulation  ///< rendered through the rig
 };
+
+/// What users call them.
+[[nodiscard]] constexpr auto names_of(AcceptanceSource /*any*/) {
+  return EnumNames<AcceptanceSource, 3>{{{AcceptanceSource::Scans, "scans"},
+                                         {AcceptanceSource::Devices, "devices"},
+                                         {AcceptanceSource::Simulation, "simulation"}}};
+}
 
 /// One arrangement of the artifact in the measuring volume.
 struct Arrangement {

@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "frangia/report/html_page.h"
+#include "frangia/page/html_page.h"
 
 namespace frangia {
 namespace {

@@ -6,6 +6,7 @@
 
 #include "frangia/core/atomic_file.h"
 #include "frangia/core/file_descriptor.h"
+#include "frangia/core/write_text_file.h"
 
 namespace frangia {
 
@@ -20,9 +21,7 @@ void write_private_file(const std::filesystem::path& path,
   // AtomicFile writes a private temporary file where one exists, and keeps its permissions.
   if (!fresh.is_open()) static_cast<void>(::chmod(path.c_str(), kOwnerOnly));
   try {
-    AtomicFile file(path, durability);
-    file.stream() << text;
-    file.commit();
+    write_text_file(path, text, durability);
   } catch (...) {
     if (fresh.is_open()) ::unlink(path.c_str());
     throw;

@@ -13,9 +13,9 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "frangia/core/atomic_file.h"
 #include "frangia/core/error.h"
 #include "frangia/core/make_folder.h"
+#include "frangia/core/write_text_file.h"
 #include "frangia/dataset/internal/write_imported_frames.h"
 #include "frangia/dataset/write_scan.h"
 #include "frangia/frames/jpeg_noise.h"
@@ -284,9 +284,7 @@ void write_record(const fs::path& path,
   json["left_out"] = nlohmann::ordered_json::array();
   for (const fs::path& file : plan.left_out)
     json["left_out"].push_back(file.lexically_relative(plan.folder).generic_string());
-  AtomicFile file(path);
-  file.stream() << json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << '\n';
-  file.commit();
+  write_text_file(path, json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
 }
 
 }  // namespace

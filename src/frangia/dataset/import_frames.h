@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "frangia/core/enum_names.h"
 #include "frangia/core/run.h"
 #include "frangia/dataset/import_layout.h"
 #include "frangia/dataset/scan_folder.h"
@@ -26,6 +27,12 @@ enum class FrameOrientation {
   Stored,  ///< the pixels as the file stores them
   Shown    ///< the pixels as programs show them, which turn the image
 };
+
+/// What users call them.
+[[nodiscard]] constexpr auto names_of(FrameOrientation /*any*/) {
+  return EnumNames<FrameOrientation, 2>{
+      {{FrameOrientation::Stored, "stored"}, {FrameOrientation::Shown, "shown"}}};
+}
 
 /// How a folder of images is read as a scan.
 struct ImportOptions {

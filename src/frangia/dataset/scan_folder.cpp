@@ -37,12 +37,7 @@ KnownTargetDistance read_distance(TomlReader reader, const Run& run) {
 TargetSet read_targets(TomlReader reader, const Run& run) {
   TargetSet targets;
   if (reader.has("diameter_mm")) targets.diameter_mm = reader.positive("diameter_mm");
-  if (reader.has("disc")) {
-    const std::string tone = reader.text("disc");
-    if (tone != "dark" && tone != "light")
-      reader.fail("disc", fmt::format(R"(is "{}"; it must be "dark" or "light")", tone));
-    targets.tone = tone == "light" ? TargetTone::Light : TargetTone::Dark;
-  }
+  if (reader.has("disc")) targets.tone = reader.named<TargetTone>("disc");
   if (reader.has("dictionary")) targets.dictionary = reader.text("dictionary");
   if (reader.has("marker_mm")) targets.marker_mm = reader.positive("marker_mm");
   if (reader.has("sticker_mm")) targets.sticker_mm = reader.positive("sticker_mm");

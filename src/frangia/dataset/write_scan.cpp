@@ -98,7 +98,7 @@ void put_targets(TomlWriter& writer, const TargetSet& targets) {
   writer.begin_table("targets");
   if (targets.diameter_mm > 0.0) {
     writer.put("diameter_mm", targets.diameter_mm);
-    writer.put("disc", std::string(targets.tone == TargetTone::Light ? "light" : "dark"));
+    writer.put("disc", std::string(name_of(targets.tone)));
   }
   if (!targets.dictionary.empty()) {
     writer.put("dictionary", targets.dictionary);

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "frangia/core/enum_names.h"
 #include "frangia/decode/own_stages.h"
 #include "frangia/decode/phase_files.h"
 #include "frangia/decode/survey_scan.h"
@@ -29,12 +30,27 @@ enum class DirectionChoice {
   Horizontal  ///< horizontal fringes only
 };
 
+/// What users call them.
+[[nodiscard]] constexpr auto names_of(DirectionChoice /*any*/) {
+  return EnumNames<DirectionChoice, 4>{{{DirectionChoice::Fused, "fused"},
+                                        {DirectionChoice::Best, "best"},
+                                        {DirectionChoice::Vertical, "vertical"},
+                                        {DirectionChoice::Horizontal, "horizontal"}}};
+}
+
 /// Which colors of the pixels are kept, see `view_color`.
 enum class FrameColors {
   None,    ///< none
   Linear,  ///< the frames are proportional to light, as those of machine cameras
   Encoded  ///< the frames are coded for a screen, as photographs are
 };
+
+/// What users call them.
+[[nodiscard]] constexpr auto names_of(FrameColors /*any*/) {
+  return EnumNames<FrameColors, 3>{{{FrameColors::Linear, "linear"},
+                                    {FrameColors::Encoded, "encoded"},
+                                    {FrameColors::None, "none"}}};
+}
 
 /// Options of the stages from frames to absolute phase.
 struct DecodeOptions {

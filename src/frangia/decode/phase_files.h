@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <filesystem>
 
+#include "frangia/core/enum_names.h"
 #include "frangia/dataset/scan_folder.h"
 #include "frangia/decode/own_stages.h"
 
@@ -13,6 +14,12 @@ enum class PhaseKind {
   Wrapped,  ///< modulo 2 pi, one map for each fringe pattern
   Absolute  ///< relative to the projector, of the finest fringes of a direction
 };
+
+/// What users call them.
+[[nodiscard]] constexpr auto names_of(PhaseKind /*any*/) {
+  return EnumNames<PhaseKind, 2>{
+      {{PhaseKind::Wrapped, "wrapped"}, {PhaseKind::Absolute, "absolute"}}};
+}
 
 /// Phase maps of another program that replace the decoding of frames.
 struct PhaseFiles {

@@ -6,10 +6,10 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "frangia/core/atomic_file.h"
 #include "frangia/core/check_nesting.h"
 #include "frangia/core/error.h"
 #include "frangia/core/read_text_file.h"
+#include "frangia/core/write_text_file.h"
 
 namespace frangia {
 namespace {
@@ -86,9 +86,7 @@ void write_edit_script(const std::filesystem::path& path,
                      text.size(),
                      kMaxTextFileBytes));
   }
-  AtomicFile file(path, durability);
-  file.stream() << text;
-  file.commit();
+  write_text_file(path, text, durability);
 }
 
 }  // namespace frangia

@@ -11,9 +11,9 @@
 #include <nlohmann/json.hpp>
 #include <opencv2/core.hpp>
 
-#include "frangia/core/atomic_file.h"
 #include "frangia/core/error.h"
 #include "frangia/core/lowercase_extension.h"
+#include "frangia/core/write_text_file.h"
 
 namespace frangia {
 namespace {
@@ -209,9 +209,7 @@ void write_calibration_file(const std::filesystem::path& file,
                            : layout == CalibrationLayout::Colmap
                                ? colmap_file(rig, *projector)
                                : opencv_file(rig, *projector, layout, file);
-  AtomicFile out(file, durability);
-  out.stream() << text;
-  out.commit();
+  write_text_file(file, text, durability);
 }
 
 }  // namespace frangia

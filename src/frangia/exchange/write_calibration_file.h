@@ -4,6 +4,7 @@
 #include <string>
 
 #include "frangia/core/durability.h"
+#include "frangia/core/enum_names.h"
 #include "frangia/rig/rig.h"
 
 namespace frangia {
@@ -16,6 +17,15 @@ enum class CalibrationLayout {
   Matlab,    ///< .json: the structure of toStruct(stereoParams)
   Colmap     ///< .txt: cameras.txt
 };
+
+/// What users call them.
+[[nodiscard]] constexpr auto names_of(CalibrationLayout /*any*/) {
+  return EnumNames<CalibrationLayout, 5>{{{CalibrationLayout::OpenCv, "opencv"},
+                                          {CalibrationLayout::SlStudio, "slstudio"},
+                                          {CalibrationLayout::Scan3d, "scan3d"},
+                                          {CalibrationLayout::Matlab, "matlab"},
+                                          {CalibrationLayout::Colmap, "colmap"}}};
+}
 
 /// The layout that the ending of a file means: OpenCv for .yml, .yaml and .xml, Matlab for .json,
 /// Colmap for .txt.

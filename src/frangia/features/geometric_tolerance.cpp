@@ -105,17 +105,6 @@ double calibration_u95(const Feature& feature, const Feature& datum, const Value
 using Eigen::Vector3d;
 using Kind = ShapeKind;
 
-constexpr std::array<std::string_view, 10> kCharacteristicNames{"flatness",
-                                                                "roundness",
-                                                                "cylindricity",
-                                                                "parallelism",
-                                                                "perpendicularity",
-                                                                "position",
-                                                                "run-out",
-                                                                "total-run-out",
-                                                                "distance",
-                                                                "angle"};
-
 const Shape& shape_of(const MeasuredFeature& measured) {
   return measured.feature.fit.shape;
 }
@@ -222,20 +211,6 @@ MeasuredValue run_out_of(Characteristic characteristic,
 }
 
 }  // namespace
-
-std::string_view name_of(Characteristic characteristic) {
-  return kCharacteristicNames.at(static_cast<std::size_t>(characteristic));
-}
-
-const std::vector<Characteristic>& all_characteristics() {
-  static const std::vector<Characteristic> all = [] {
-    std::vector<Characteristic> list;
-    for (std::size_t i = 0; i < kCharacteristicNames.size(); ++i)
-      list.push_back(static_cast<Characteristic>(i));
-    return list;
-  }();
-  return all;
-}
 
 bool needs_datum(Characteristic characteristic) {
   return characteristic != Characteristic::Flatness &&

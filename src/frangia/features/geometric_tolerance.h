@@ -3,6 +3,7 @@
 #include <string_view>
 #include <vector>
 
+#include "frangia/core/enum_names.h"
 #include "frangia/features/find_features.h"
 
 namespace frangia {
@@ -21,18 +22,31 @@ enum class Characteristic {
   Angle              ///< between the axes or normals of feature and datum, 0 to 90 degrees
 };
 
+/// What users call them.
+[[nodiscard]] constexpr auto names_of(Characteristic /*any*/) {
+  return EnumNames<Characteristic, 10>{{{Characteristic::Flatness, "flatness"},
+                                        {Characteristic::Roundness, "roundness"},
+                                        {Characteristic::Cylindricity, "cylindricity"},
+                                        {Characteristic::Parallelism, "parallelism"},
+                                        {Characteristic::Perpendicularity, "perpendicularity"},
+                                        {Characteristic::Position, "position"},
+                                        {Characteristic::RunOut, "run-out"},
+                                        {Characteristic::TotalRunOut, "total-run-out"},
+                                        {Characteristic::Distance, "distance"},
+                                        {Characteristic::Angle, "angle"}}};
+}
+
 /// The shape that a form is measured from.
 enum class FormReference {
   LeastSquares,  ///< the shape of least squares
   MinimumZone    ///< the shape with the narrowest zone, the minimum requirement of ISO 1101
 };
 
-/// The name in files: flatness, roundness, cylindricity, parallelism, perpendicularity, position,
-/// run-out, total-run-out, distance, angle.
-[[nodiscard]] std::string_view name_of(Characteristic characteristic);
-
-/// All characteristics, in the order of the enum.
-[[nodiscard]] const std::vector<Characteristic>& all_characteristics();
+/// What users call them.
+[[nodiscard]] constexpr auto names_of(FormReference /*any*/) {
+  return EnumNames<FormReference, 2>{{{FormReference::LeastSquares, "least-squares"},
+                                      {FormReference::MinimumZone, "minimum-zone"}}};
+}
 
 /// Whether a characteristic is relative to a datum.
 [[nodiscard]] bool needs_datum(Characteristic characteristic);

@@ -28,26 +28,6 @@ void require_surface(ShapeKind kind) {
 
 }  // namespace
 
-std::string_view name_of(ShapeKind kind) {
-  switch (kind) {
-    case ShapeKind::Plane:
-      return "plane";
-    case ShapeKind::Line:
-      return "line";
-    case ShapeKind::Circle:
-      return "circle";
-    case ShapeKind::Cylinder:
-      return "cylinder";
-    case ShapeKind::Sphere:
-      return "sphere";
-    case ShapeKind::Cone:
-      return "cone";
-    case ShapeKind::Torus:
-      return "torus";
-  }
-  return "";
-}
-
 bool is_surface(ShapeKind kind) {
   return kind != ShapeKind::Line && kind != ShapeKind::Circle;
 }

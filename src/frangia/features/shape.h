@@ -4,10 +4,23 @@
 
 #include <Eigen/Core>
 
+#include "frangia/core/enum_names.h"
+
 namespace frangia {
 
 /// Kinds of geometrical elements that are found in a mesh.
 enum class ShapeKind { Plane, Line, Circle, Cylinder, Sphere, Cone, Torus };
+
+/// What users call them.
+[[nodiscard]] constexpr auto names_of(ShapeKind /*any*/) {
+  return EnumNames<ShapeKind, 7>{{{ShapeKind::Plane, "plane"},
+                                  {ShapeKind::Line, "line"},
+                                  {ShapeKind::Circle, "circle"},
+                                  {ShapeKind::Cylinder, "cylinder"},
+                                  {ShapeKind::Sphere, "sphere"},
+                                  {ShapeKind::Cone, "cone"},
+                                  {ShapeKind::Torus, "torus"}}};
+}
 
 /// An ideal geometrical element.
 ///
@@ -23,9 +36,6 @@ struct Shape {
   double half_angle_rad = 0.0;                          ///< of a cone, between axis and surface
   double tube_radius_mm = 0.0;                          ///< of a torus
 };
-
-/// The name of a kind in files: plane, line, circle, cylinder, sphere, cone or torus.
-[[nodiscard]] std::string_view name_of(ShapeKind kind);
 
 /// Whether a kind is a surface, which points of a mesh lie on: all but line and circle.
 [[nodiscard]] bool is_surface(ShapeKind kind);

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 
+#include "frangia/core/enum_names.h"
 #include "frangia/core/run.h"
 #include "frangia/files/read_options.h"
 #include "frangia/geometry/mesh.h"
@@ -14,6 +15,13 @@ enum class DxfVariant {
   Polyface,  ///< POLYLINE polyface meshes with shared vertices; smaller files
   Mesh       ///< MESH entities of release 2000; the smallest files, read by few programs
 };
+
+/// What users call them.
+[[nodiscard]] constexpr auto names_of(DxfVariant /*any*/) {
+  return EnumNames<DxfVariant, 3>{{{DxfVariant::Faces, "faces"},
+                                   {DxfVariant::Polyface, "polyface"},
+                                   {DxfVariant::Mesh, "mesh"}}};
+}
 
 /// Options of `write_dxf`.
 struct DxfOptions {

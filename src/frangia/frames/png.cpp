@@ -9,9 +9,9 @@
 #include <fmt/format.h>
 #include <spng.h>
 
-#include "frangia/core/atomic_file.h"
 #include "frangia/core/error.h"
 #include "frangia/core/read_regular_file.h"
+#include "frangia/core/write_text_file.h"
 #include "frangia/frames/encode_picture.h"
 
 namespace frangia {
@@ -114,9 +114,7 @@ std::vector<char> encode(const spng_ihdr& header, const void* pixels, std::size_
 }
 
 void write_atomically(const std::filesystem::path& path, const std::vector<char>& bytes) {
-  AtomicFile file(path);
-  file.stream().write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  file.commit();
+  write_text_file(path, {bytes.data(), bytes.size()});
 }
 
 template <typename T>

@@ -6,6 +6,8 @@
 
 #include <Eigen/Core>
 
+#include "frangia/core/enum_names.h"
+
 namespace frangia {
 
 /// Whether the position of a vertex or triangle was measured. A larger value is farther from a
@@ -15,6 +17,13 @@ enum class Mark : std::uint8_t {
   Displaced,   ///< moved by more than its sigma
   Synthesized  ///< created where nothing was measured
 };
+
+/// What users call them.
+[[nodiscard]] constexpr auto names_of(Mark /*any*/) {
+  return EnumNames<Mark, 3>{{{Mark::Measured, "measured"},
+                             {Mark::Displaced, "displaced"},
+                             {Mark::Synthesized, "synthesized"}}};
+}
 
 /// Red, green and blue from 0 to 255 as a screen shows them (sRGB).
 using VertexColor = std::array<std::uint8_t, 3>;

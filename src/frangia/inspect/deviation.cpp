@@ -186,18 +186,6 @@ class DeviationFinder {
 
 }  // namespace
 
-std::string_view name_of(DeviationStatus status) {
-  constexpr std::array<std::string_view, kDeviationStatuses> kNames{"compared",
-                                                                    "synthesized",
-                                                                    "mesh_edge",
-                                                                    "reference_edge",
-                                                                    "sharp_edge",
-                                                                    "other_side",
-                                                                    "too_far",
-                                                                    "unused"};
-  return kNames.at(static_cast<std::size_t>(status));
-}
-
 void DeviationOptions::check() const {
   require(max_distance_mm > 0.0, "DeviationOptions: max_distance_mm must be above 0");
   require(std::isfinite(expansion_per_k) && expansion_per_k >= 0.0,

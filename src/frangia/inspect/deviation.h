@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "frangia/core/enum_names.h"
 #include "frangia/core/run.h"
 #include "frangia/geometry/exact_surface.h"
 #include "frangia/geometry/mesh.h"
@@ -26,11 +27,19 @@ enum class DeviationStatus : std::uint8_t {
   TooFar,         ///< farther from the reference than the limit
   Unused          ///< no triangle uses it
 };
-inline constexpr std::size_t kDeviationStatuses = 8;  ///< number of values of `DeviationStatus`
 
-/// The name in files: compared, synthesized, mesh_edge, reference_edge, sharp_edge, other_side,
-/// too_far, unused.
-[[nodiscard]] std::string_view name_of(DeviationStatus status);
+/// What users call them.
+[[nodiscard]] constexpr auto names_of(DeviationStatus /*any*/) {
+  return EnumNames<DeviationStatus, 8>{{{DeviationStatus::Compared, "compared"},
+                                        {DeviationStatus::Synthesized, "synthesized"},
+                                        {DeviationStatus::MeshEdge, "mesh_edge"},
+                                        {DeviationStatus::ReferenceEdge, "reference_edge"},
+                                        {DeviationStatus::SharpEdge, "sharp_edge"},
+                                        {DeviationStatus::OtherSide, "other_side"},
+                                        {DeviationStatus::TooFar, "too_far"},
+                                        {DeviationStatus::Unused, "unused"}}};
+}
+inline constexpr std::size_t kDeviationStatuses = 8;  ///< number of values of `DeviationStatus`
 
 /// What is compared, and the uncertainty beside that of the vertices.
 struct DeviationOptions {

@@ -10,6 +10,7 @@
 
 #include <Eigen/Core>
 
+#include "frangia/core/enum_names.h"
 #include "frangia/core/missing.h"
 #include "frangia/inspect/surface_patches.h"
 #include "frangia/uncertainty/conformity.h"
@@ -42,6 +43,16 @@ enum class PatchDecision : std::uint8_t {
   NotMeasured,      ///< nothing was compared
   AtEdge            ///< not judged: in a strip along an edge
 };
+
+/// What users call them.
+[[nodiscard]] constexpr auto names_of(PatchDecision /*any*/) {
+  return EnumNames<PatchDecision, 6>{{{PatchDecision::In, "in"},
+                                      {PatchDecision::Out, "out"},
+                                      {PatchDecision::NearLimit, "near_limit"},
+                                      {PatchDecision::NotWellMeasured, "not_well_measured"},
+                                      {PatchDecision::NotMeasured, "not_measured"},
+                                      {PatchDecision::AtEdge, "at_edge"}}};
+}
 inline constexpr std::size_t kPatchDecisions = 6;  ///< number of values of `PatchDecision`
 
 /// A connected part of the surface whose patches were decided alike.
@@ -115,9 +126,6 @@ struct SurfaceVerdict {
                                            const RayScene& reference,
                                            const SurfaceRule& rule,
                                            const Run& run = {});
-
-/// The name in files: in, out, near_limit, not_well_measured, not_measured, at_edge.
-[[nodiscard]] std::string_view name_of(PatchDecision decision);
 
 /// The verdict in a sentence: "in, over 97.3 % of the nominal area"; of an undecided surface the
 /// reason that matters most, and what to do.

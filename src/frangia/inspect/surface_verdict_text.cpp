@@ -128,12 +128,6 @@ std::string place_text(const Eigen::Vector3d& at_mm) {
   return fmt::format("({}, {}, {}) mm", text(at_mm.x()), text(at_mm.y()), text(at_mm.z()));
 }
 
-std::string_view name_of(PatchDecision decision) {
-  constexpr std::array<std::string_view, kPatchDecisions> kNames{
-      "in", "out", "near_limit", "not_well_measured", "not_measured", "at_edge"};
-  return kNames.at(static_cast<std::size_t>(decision));
-}
-
 std::string sentence_of(const SurfaceVerdict& verdict) {
   return decided_text(verdict) + edges_text(verdict);
 }

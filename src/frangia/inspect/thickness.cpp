@@ -18,9 +18,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr std::array<std::string_view, kThicknessStatuses> kThicknessNames{
-    "measured", "synthesized", "mesh_edge", "no_wall", "oblique", "sharp_edge", "unused"};
-
 ThicknessStatus thickness_status_of(VertexUse use) {
   switch (use) {
     case VertexUse::Measured:
@@ -124,10 +121,6 @@ double weighted_quantile(const std::vector<std::pair<float, double>>& values,
 }
 
 }  // namespace
-
-std::string_view name_of(ThicknessStatus status) {
-  return kThicknessNames.at(static_cast<std::size_t>(status));
-}
 
 void ThicknessOptions::check() const {
   if (!(max_mm > 0.0)) throw Error(ErrorKind::Input, "ThicknessOptions: max_mm must be above 0");

@@ -10,6 +10,7 @@
 #include <Eigen/Core>
 
 #include "frangia/core/angles.h"
+#include "frangia/core/enum_names.h"
 #include "frangia/core/missing.h"
 #include "frangia/core/run.h"
 #include "frangia/geometry/mesh.h"
@@ -27,11 +28,18 @@ enum class ThicknessStatus : std::uint8_t {
   SharpEdge,    ///< its triangles face too differently for one normal
   Unused        ///< no triangle uses it
 };
-inline constexpr std::size_t kThicknessStatuses = 7;  ///< number of values of `ThicknessStatus`
 
-/// The name in files: measured, synthesized, mesh_edge, no_wall, oblique, sharp_edge,
-/// unused.
-[[nodiscard]] std::string_view name_of(ThicknessStatus status);
+/// What users call them.
+[[nodiscard]] constexpr auto names_of(ThicknessStatus /*any*/) {
+  return EnumNames<ThicknessStatus, 7>{{{ThicknessStatus::Measured, "measured"},
+                                        {ThicknessStatus::Synthesized, "synthesized"},
+                                        {ThicknessStatus::MeshEdge, "mesh_edge"},
+                                        {ThicknessStatus::NoWall, "no_wall"},
+                                        {ThicknessStatus::Oblique, "oblique"},
+                                        {ThicknessStatus::SharpEdge, "sharp_edge"},
+                                        {ThicknessStatus::Unused, "unused"}}};
+}
+inline constexpr std::size_t kThicknessStatuses = 7;  ///< number of values of `ThicknessStatus`
 
 /// What counts as the opposite wall.
 struct ThicknessOptions {

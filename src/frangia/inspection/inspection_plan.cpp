@@ -13,14 +13,6 @@
 namespace frangia {
 namespace {
 
-constexpr std::array kPlanKinds{ShapeKind::Plane,
-                                ShapeKind::Line,
-                                ShapeKind::Circle,
-                                ShapeKind::Cylinder,
-                                ShapeKind::Sphere,
-                                ShapeKind::Cone,
-                                ShapeKind::Torus};
-
 Eigen::Vector3d vector_of(TomlReader& reader, std::string_view key) {
   const std::vector<double> values = reader.numbers(key, 3);
   return {values[0], values[1], values[2]};
@@ -33,26 +25,6 @@ std::optional<ToleranceLimits> limits_of(TomlReader& reader, std::string_view ke
   return ToleranceLimits{values[0], values[1]};
 }
 
-ShapeKind shape_kind_of(TomlReader& reader) {
-  const std::string text = reader.text("kind");
-  for (const ShapeKind kind : kPlanKinds)
-    if (name_of(kind) == text) return kind;
-  reader.fail("kind",
-              fmt::format("is \"{}\"; it must be plane, line, circle, cylinder, sphere, cone or "
-                          "torus",
-                          text));
-}
-
-Characteristic characteristic_of(TomlReader& reader) {
-  const std::string text = reader.text("kind");
-  std::string names;
-  for (const Characteristic kind : all_characteristics()) {
-    if (name_of(kind) == text) return kind;
-    names += (names.empty() ? "" : ", ") + std::string(name_of(kind));
-  }
-  reader.fail("kind", fmt::format("is \"{}\"; it must be one of {}", text, names));
-}
-
 PlannedFeature feature_of(TomlReader& reader) {
   PlannedFeature feature;
   feature.name = reader.text("name");
@@ -60,7 +32,7 @@ PlannedFeature feature_of(TomlReader& reader) {
   if (reader.has("face"))
     feature.face = static_cast<std::size_t>(reader.integer("face", 1, 1'000'000));
   if (feature.face == 0) {
-    feature.kind = shape_kind_of(reader);
+    feature.kind = reader.named<ShapeKind>("kind");
     feature.near_mm = vector_of(reader, "near_mm");
   } else {
     for (const char* key : {"kind", "near_mm"}) {
@@ -70,12 +42,7 @@ PlannedFeature feature_of(TomlReader& reader) {
   }
   if (reader.has("diameter_mm")) feature.diameter_mm = reader.positive("diameter_mm");
   feature.tolerance_mm = limits_of(reader, "tolerance_mm");
-  if (reader.has("fit")) {
-    const std::string fit = reader.text("fit");
-    if (fit != "least-squares" && fit != "minimum-zone")
-      reader.fail("fit", fmt::format("is \"{}\"; it must be least-squares or minimum-zone", fit));
-    if (fit == "minimum-zone") feature.form = FormReference::MinimumZone;
-  }
+  if (reader.has("fit")) feature.form = reader.named<FormReference>("fit");
   for (const Characteristic form :
        {Characteristic::Flatness, Characteristic::Roundness, Characteristic::Cylindricity}) {
     const std::string key = std::string(name_of(form)) + "_mm";
@@ -87,7 +54,7 @@ PlannedFeature feature_of(TomlReader& reader) {
 PlannedCharacteristic characteristic_from(TomlReader& reader) {
   PlannedCharacteristic planned;
   planned.name = reader.text("name");
-  planned.kind = characteristic_of(reader);
+  planned.kind = reader.named<Characteristic>("kind");
   planned.feature = reader.text("feature");
   if (needs_datum(planned.kind)) planned.datum = reader.text("datum");
   if (planned.kind == Characteristic::Position)

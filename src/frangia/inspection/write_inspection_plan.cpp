@@ -8,7 +8,7 @@
 #include <fmt/ranges.h>
 #include <toml++/toml.h>
 
-#include "frangia/core/atomic_file.h"
+#include "frangia/core/write_text_file.h"
 
 namespace frangia {
 namespace {
@@ -162,9 +162,7 @@ std::string inspection_plan_json(const InspectionPlan& plan, const std::filesyst
 }
 
 void write_inspection_plan(const std::filesystem::path& path, const InspectionPlan& plan) {
-  AtomicFile file(path);
-  file.stream() << inspection_plan_text(plan, path.parent_path());
-  file.commit();
+  write_text_file(path, inspection_plan_text(plan, path.parent_path()));
 }
 
 }  // namespace frangia

@@ -3,6 +3,8 @@
 #include <string>
 #include <vector>
 
+#include "frangia/core/enum_names.h"
+
 namespace frangia {
 
 /// What the frames of a pattern show.
@@ -20,6 +22,12 @@ enum class FringeDirection {
   Vertical,   ///< the phase varies with the projector's column
   Horizontal  ///< the phase varies with the projector's row
 };
+
+/// What users call them.
+[[nodiscard]] constexpr auto names_of(FringeDirection /*any*/) {
+  return EnumNames<FringeDirection, 2>{
+      {{FringeDirection::Vertical, "vertical"}, {FringeDirection::Horizontal, "horizontal"}}};
+}
 
 /// Which frames of a Gray code are shown inverted as well.
 enum class InvertedFrames {

@@ -2,6 +2,8 @@
 
 #include <array>
 
+#include "frangia/core/enum_names.h"
+
 namespace frangia {
 
 /// How the pixels of a digital projector lie on its chip.
@@ -12,6 +14,12 @@ enum class PixelLayout {
   /// model of the projector count in heights of rows, in which the chip has 1824 x 1140.
   Diamond
 };
+
+/// What users call them.
+[[nodiscard]] constexpr auto names_of(PixelLayout /*any*/) {
+  return EnumNames<PixelLayout, 2>{
+      {{PixelLayout::Square, "square"}, {PixelLayout::Diamond, "diamond"}}};
+}
 
 /// Width and height of the image that such a projector is given, for a chip of `width` x `height`
 /// in the unit of patterns.

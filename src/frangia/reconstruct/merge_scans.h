@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "frangia/core/enum_names.h"
 #include "frangia/core/run.h"
 #include "frangia/files/range_scan.h"
 #include "frangia/fusion/fuse_views.h"
@@ -21,6 +22,12 @@ enum class ScanPoses {
   Given,  ///< the poses of the files
   Shape   ///< pose search by shape alone
 };
+
+/// What users call them.
+[[nodiscard]] constexpr auto names_of(ScanPoses /*any*/) {
+  return EnumNames<ScanPoses, 3>{
+      {{ScanPoses::Auto, "auto"}, {ScanPoses::Given, "given"}, {ScanPoses::Shape, "shape"}}};
+}
 
 /// Options of the registration and fusion of range scans.
 struct MergeScansOptions {

@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 
 #include "frangia/core/error.h"
-#include "frangia/report/html_page.h"
+#include "frangia/page/html_page.h"
 
 namespace frangia {
 namespace {

@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "frangia/core/atomic_file.h"
+#include "frangia/core/write_text_file.h"
 #include "frangia/inspection/inspect_part.h"
 #include "frangia/report/internal/report_sheets.h"
 #include "frangia/report/result_table.h"
@@ -89,12 +89,6 @@ std::string csv_of(const std::vector<MeasuredCharacteristic>& rows) {
                        row.limits ? name_of(row.conformity) : "");
   }
   return csv;
-}
-
-void write_report_text(const std::filesystem::path& path, const std::string& text) {
-  AtomicFile file(path);
-  file.stream() << text;
-  file.commit();
 }
 
 }  // namespace frangia

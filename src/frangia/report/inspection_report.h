@@ -62,9 +62,4 @@ struct InspectionReport {
 /// `name,unit,nominal,lower,upper,value,u95,conformity`.
 [[nodiscard]] std::string csv_of(const std::vector<MeasuredCharacteristic>& rows);
 
-/// Writes a text as a file, which appears when it is complete.
-///
-/// @errors   Error(File) when it cannot be written
-void write_report_text(const std::filesystem::path& path, const std::string& text);
-
 }  // namespace frangia

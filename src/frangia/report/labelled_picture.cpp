@@ -8,7 +8,7 @@
 
 #include "frangia/core/html_escaped.h"
 #include "frangia/frames/encode_picture.h"
-#include "frangia/report/html_page.h"
+#include "frangia/page/html_page.h"
 
 namespace frangia {
 namespace {

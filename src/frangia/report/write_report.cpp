@@ -14,6 +14,7 @@
 
 #include "frangia/core/median.h"
 #include "frangia/core/sha256.h"
+#include "frangia/core/write_text_file.h"
 #include "frangia/report/inspection_json.h"
 #include "frangia/report/report_pictures.h"
 #include "frangia/report/section_drawing.h"
@@ -192,7 +193,7 @@ std::vector<std::string> write_report(const std::filesystem::path& page,
   const InspectionReport report = report_of(part, plan, sources, run);
   std::vector<std::string> written;
   const auto write = [&](const std::filesystem::path& path, const std::string& text) {
-    write_report_text(path, text);
+    write_text_file(path, text);
     written.push_back(path.string());
   };
   const auto beside = [&](const std::string& ending) {

@@ -61,11 +61,6 @@ void check_markers(const Board& board) {
 
 }  // namespace
 
-std::string name_of(BoardKind kind) {
-  constexpr std::array kNames = {"checkerboard", "circles", "charuco"};
-  return kNames.at(static_cast<std::size_t>(kind));
-}
-
 std::vector<Eigen::Vector2d> board_points_mm(const Board& board) {
   std::vector<Eigen::Vector2d> points;
   for (int row = 0; row < board.rows; ++row) {

@@ -5,6 +5,8 @@
 
 #include <Eigen/Core>
 
+#include "frangia/core/enum_names.h"
+
 namespace frangia {
 
 /// Kinds of boards whose points are found in images.
@@ -13,6 +15,13 @@ enum class BoardKind {
   Circles,       ///< centers of the dark circles of a rectangular grid
   Charuco        ///< inner corners of a checkerboard whose white squares hold ArUco markers
 };
+
+/// What users call them.
+[[nodiscard]] constexpr auto names_of(BoardKind /*any*/) {
+  return EnumNames<BoardKind, 3>{{{BoardKind::Checkerboard, "checkerboard"},
+                                  {BoardKind::Charuco, "charuco"},
+                                  {BoardKind::Circles, "circles"}}};
+}
 
 /// A flat target with a grid of points; the `[board]` table of scan.toml.
 struct Board {
@@ -28,9 +37,6 @@ struct Board {
   /// white square.
   bool legacy_layout = false;
 };
-
-/// Name of a kind as scan.toml has it: "checkerboard", "circles" or "charuco".
-[[nodiscard]] std::string name_of(BoardKind kind);
 
 /// Nominal positions of the board's points in its own plane, row by row.
 ///

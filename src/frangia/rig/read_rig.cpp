@@ -172,20 +172,10 @@ std::vector<PosedCamera> read_cameras(TomlReader& reader, RigContent content, co
   return cameras;
 }
 
-PixelLayout read_pixels(TomlReader& reader) {
-  const std::string name = reader.text("pixels");
-  if (name != "square" && name != "diamond")
-    reader.fail("pixels", fmt::format(R"(is "{}"; it must be "square" or "diamond")", name));
-  return name == "square" ? PixelLayout::Square : PixelLayout::Diamond;
-}
-
 FringeWaveform read_waveform(TomlReader& reader, const Run& run) {
   FringeWaveform out;
   out.period_px = reader.positive("period_px");
-  const std::string direction = reader.text("direction");
-  if (direction != "vertical" && direction != "horizontal")
-    reader.fail("direction", R"(must be "vertical" or "horizontal")");
-  out.direction = direction == "vertical" ? FringeDirection::Vertical : FringeDirection::Horizontal;
+  out.direction = reader.named<FringeDirection>("direction");
   const std::vector<double> cosine = reader.numbers("cosine");
   const std::vector<double> sine = reader.numbers("sine", cosine.size());
   for (std::size_t i = 0; i < cosine.size(); ++i)
@@ -242,12 +232,12 @@ Projector read_projector(TomlReader reader, RigContent content, const Run& run) 
   }
   if (projector.is_label) {
     projector.model = read_image_size(reader);
-    if (reader.has("pixels")) projector.pixels = read_pixels(reader);
+    if (reader.has("pixels")) projector.pixels = reader.named<PixelLayout>("pixels");
   } else if (model == "angular") {
     projector.model = read_angular_model(reader);
   } else if (model == "pinhole") {
     projector.model = read_camera_model(reader, content);
-    if (reader.has("pixels")) projector.pixels = read_pixels(reader);
+    if (reader.has("pixels")) projector.pixels = reader.named<PixelLayout>("pixels");
   } else {
     reader.fail("model",
                 fmt::format(R"(is "{}"; it must be "angular", "pinhole" or "label")", model));

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 
+#include "frangia/core/enum_names.h"
 #include "frangia/core/run.h"
 #include "frangia/rig/rig.h"
 
@@ -13,6 +14,13 @@ enum class RigContent {
   StartValues,  ///< what is known before calibration: sizes and the projector's model
   PhaseOnly     ///< what decoding needs: the camera's size; the projector may be missing
 };
+
+/// What users call them.
+[[nodiscard]] constexpr auto names_of(RigContent /*any*/) {
+  return EnumNames<RigContent, 3>{{{RigContent::Complete, "complete"},
+                                   {RigContent::StartValues, "start-values"},
+                                   {RigContent::PhaseOnly, "phase-only"}}};
+}
 
 /// Reads a rig.toml; docs/scan-format.md describes the format. An unknown key is a warning that
 /// names it. With `RigContent::StartValues` focal lengths, principal points and the projector's

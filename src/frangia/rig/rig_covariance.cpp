@@ -13,10 +13,10 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "frangia/core/atomic_file.h"
 #include "frangia/core/error.h"
 #include "frangia/core/open_below.h"
 #include "frangia/core/symmetric_eigen.h"
+#include "frangia/core/write_text_file.h"
 #include "frangia/rig/internal/parameter_names.h"
 #include "frangia/rig/rig.h"
 
@@ -196,9 +196,7 @@ void write_rig_covariance(const std::filesystem::path& path, const RigCovariance
     }
     text += "\n";
   }
-  AtomicFile file(path);
-  file.stream() << text;
-  file.commit();
+  write_text_file(path, text);
 }
 
 Eigen::MatrixXd covariance_factor(const RigCovariance& covariance) {

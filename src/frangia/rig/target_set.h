@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "frangia/core/enum_names.h"
+
 namespace frangia {
 
 /// Tone of the disc of a target against the ground around it.
@@ -11,6 +13,11 @@ enum class TargetTone : std::uint8_t {
   Dark,  ///< on a light part or sticker
   Light  ///< on a dark part or sticker
 };
+
+/// What users call them.
+[[nodiscard]] constexpr auto names_of(TargetTone /*any*/) {
+  return EnumNames<TargetTone, 2>{{{TargetTone::Dark, "dark"}, {TargetTone::Light, "light"}}};
+}
 
 /// A distance between two coded targets that another instrument measured.
 struct KnownTargetDistance {

@@ -16,6 +16,7 @@
 #include <toml++/toml.h>
 
 #include "frangia/core/check_nesting.h"
+#include "frangia/core/enum_names.h"
 #include "frangia/core/error.h"
 #include "frangia/core/nearest_name.h"
 #include "frangia/core/read_text_file.h"
@@ -77,6 +78,13 @@ class TomlReader {
     const auto value = node(key).value_exact<std::string>();
     if (!value) fail(key, "must be a string in quotes");
     return *value;
+  }
+  /// Returns the value that a name stands for; the key is required.
+  template <NamedEnum Enum>
+  [[nodiscard]] Enum named(std::string_view key) {
+    const std::string word = text(key);
+    if (const auto value = find_named<Enum>(word)) return *value;
+    fail(key, fmt::format("is \"{}\"; it must be {}", word, listed_names<Enum>()));
   }
   /// Returns a list of strings, which may be empty; the key is required.
   [[nodiscard]] std::vector<std::string> texts(std::string_view key) {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "frangia/core/angles.h"
-#include "frangia/core/atomic_file.h"
+#include "frangia/core/write_text_file.h"
 #include "frangia/rig/internal/calibration_table.h"
 #include "frangia/rig/rig_covariance.h"
 #include "frangia/rig/toml_reader.h"
@@ -84,8 +84,7 @@ void put_response(TomlWriter& writer, const Projector& projector) {
     }
     writer.begin_table_of_list("projector.response.waveform");
     writer.put("period_px", waveform.period_px);
-    const bool vertical = waveform.direction == FringeDirection::Vertical;
-    writer.put("direction", std::string(vertical ? "vertical" : "horizontal"));
+    writer.put("direction", std::string(name_of(waveform.direction)));
     writer.put("cosine", rounded(cosine));
     writer.put("sine", rounded(sine));
   }
@@ -116,7 +115,8 @@ void put_projector(TomlWriter& writer, const Projector& projector) {
     } else {
       put_camera_model(writer, pinhole);
     }
-    if (projector.pixels == PixelLayout::Diamond) writer.put("pixels", std::string("diamond"));
+    if (projector.pixels != PixelLayout::Square)
+      writer.put("pixels", std::string(name_of(projector.pixels)));
   }
   put_response(writer, projector);
 }
@@ -202,9 +202,7 @@ void write_rig(const std::filesystem::path& path,
     if (name.empty()) name = path.stem().string() + "-covariance.csv";
     write_rig_covariance(path.parent_path() / name, rig.calibration->covariance);
   }
-  AtomicFile file(path, durability);
-  file.stream() << rig_text(named) << devices;
-  file.commit();
+  write_text_file(path, rig_text(named) + devices, durability);
 }
 
 }  // namespace frangia

@@ -13,10 +13,10 @@
 #include "frangia/calibrate/report/residual_maps.h"
 #include "frangia/calibrate/solve/calibrate_rig.h"
 #include "frangia/core/angles.h"
-#include "frangia/core/atomic_file.h"
 #include "frangia/core/error.h"
 #include "frangia/core/folder_lock.h"
 #include "frangia/core/make_folder.h"
+#include "frangia/core/write_text_file.h"
 #include "frangia/dataset/scan_folder.h"
 #include "frangia/rig/read_rig.h"
 #include "frangia/rig/write_rig.h"
@@ -190,9 +190,7 @@ void CalibrationWizard::capture(const Board& board,
 
 /// Keeps what the page and a report show of a calibration.
 void CalibrationWizard::keep(const RigCalibration& result, const Board& board) {
-  AtomicFile file(project_.residuals());
-  file.stream() << residuals_text(result);
-  file.commit();
+  write_text_file(project_.residuals(), residuals_text(result));
   make_folder(project_.exports());
   write_calibration_report(
       project_.exports() / "calibration.html", result, board, state().findings);

@@ -6,9 +6,9 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "frangia/core/atomic_file.h"
 #include "frangia/core/error.h"
 #include "frangia/core/read_json_below.h"
+#include "frangia/core/write_text_file.h"
 #include "frangia/phase/algorithm/published_algorithms.h"
 #include "frangia/simulate/default_patterns.h"
 
@@ -70,9 +70,7 @@ void write_capture_settings(const std::filesystem::path& file, const CaptureSett
                                     {"exposures_ms", settings.exposures_ms},
                                     {"shifts", settings.shifts},
                                     {"algorithm", settings.algorithm}};
-  AtomicFile out(file);
-  out.stream() << json.dump(1) << '\n';
-  out.commit();
+  write_text_file(file, json.dump(1) + "\n");
 }
 
 std::vector<Pattern> patterns_of(const CaptureSettings& settings, const Rig& rig) {

@@ -9,9 +9,9 @@
 
 #include <fmt/format.h>
 
-#include "frangia/core/atomic_file.h"
 #include "frangia/core/error.h"
 #include "frangia/core/missing.h"
+#include "frangia/core/write_text_file.h"
 #include "frangia/devices/device_settings.h"
 #include "frangia/devices/device_table.h"
 #include "frangia/devices/rig_devices.h"
@@ -181,9 +181,7 @@ void choose_devices(const ProjectFolder& project,
   for (const DeviceSettings& device : devices)
     text += fmt::format("\n[devices.{}]\n{}", device.device(), device_table_lines(device));
   keep_rig(project, RigChange::Devices);
-  AtomicFile out(file);
-  out.stream() << text;
-  out.commit();
+  write_text_file(file, text);
 }
 
 }  // namespace frangia

@@ -10,8 +10,8 @@
 
 #include <fmt/format.h>
 
-#include "frangia/core/atomic_file.h"
 #include "frangia/core/error.h"
+#include "frangia/core/write_text_file.h"
 #include "frangia/rig/read_rig.h"
 #include "frangia/service/simulated_rig.h"
 #include "frangia/simulate/parts.h"
@@ -75,9 +75,7 @@ void check_given_devices(std::span<const DeviceSettings> devices) {
 void write_given_rig(const ProjectFolder& project, const GivenRig& given) {
   const std::filesystem::path file = project.rig();
   const auto write = [](const std::filesystem::path& path, const std::string& text) {
-    AtomicFile out(path);
-    out.stream() << text;
-    out.commit();
+    write_text_file(path, text);
   };
   write(file, given.rig);
   const Rig rig = read_rig(file, {}, RigContent::StartValues);  // opens no other file

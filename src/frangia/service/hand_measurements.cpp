@@ -7,9 +7,9 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "frangia/core/atomic_file.h"
 #include "frangia/core/error.h"
 #include "frangia/core/missing.h"
+#include "frangia/core/write_text_file.h"
 
 namespace frangia {
 namespace {
@@ -99,9 +99,7 @@ void write_hand_measurements(const ProjectFolder& project,
                              const std::vector<HandMeasurement>& measurements) {
   const nlohmann::ordered_json json{
       {"format", "frangia-measurements"}, {"version", 1}, {"measurements", json_of(measurements)}};
-  AtomicFile file(project.in_derived(kFile), Durability::Synced);
-  file.stream() << json.dump(1) << '\n';
-  file.commit();
+  write_text_file(project.in_derived(kFile), json.dump(1) + "\n", Durability::Synced);
 }
 
 }  // namespace frangia

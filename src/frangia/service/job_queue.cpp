@@ -25,22 +25,6 @@ bool has_finished(const Job& job) {
 
 }  // namespace
 
-const char* name_of(JobState state) {
-  switch (state) {
-    case JobState::Waiting:
-      return "waiting";
-    case JobState::Running:
-      return "running";
-    case JobState::Done:
-      return "done";
-    case JobState::Failed:
-      return "failed";
-    case JobState::Stopped:
-      return "stopped";
-  }
-  return "failed";
-}
-
 JobQueue::JobQueue(std::function<void()> on_change)
     : on_change_(std::move(on_change)), thread_([this] { serve(); }) {}
 

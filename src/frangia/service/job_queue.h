@@ -13,6 +13,7 @@
 #include <thread>
 #include <vector>
 
+#include "frangia/core/enum_names.h"
 #include "frangia/core/run.h"
 
 namespace frangia {
@@ -25,6 +26,15 @@ enum class JobState {
   Failed,   ///< ended with `Job::error`
   Stopped   ///< ended because its stop was requested
 };
+
+/// What users call them.
+[[nodiscard]] constexpr auto names_of(JobState /*any*/) {
+  return EnumNames<JobState, 5>{{{JobState::Waiting, "waiting"},
+                                 {JobState::Running, "running"},
+                                 {JobState::Done, "done"},
+                                 {JobState::Failed, "failed"},
+                                 {JobState::Stopped, "stopped"}}};
+}
 
 /// A sentence that a job logged.
 struct JobLogLine {
@@ -103,8 +113,5 @@ class JobQueue {
   bool ending_ = false;
   std::thread thread_;  ///< last: starts when everything else exists
 };
-
-/// Name of a state in the protocol: "waiting", "running", "done", "failed" or "stopped".
-[[nodiscard]] const char* name_of(JobState state);
 
 }  // namespace frangia

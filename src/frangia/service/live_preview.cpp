@@ -62,14 +62,6 @@ WrappedPhase finest_map(std::span<const FrameStack> stacks,
 
 }  // namespace
 
-std::optional<LiveLayer> live_layer_of(const std::string& name) {
-  static constexpr std::array kNames = {
-      "none", "camera", "phase", "modulation", "status", "depth", "points"};
-  const auto* found = std::find(kNames.begin(), kNames.end(), name);
-  if (found == kNames.end()) return std::nullopt;
-  return static_cast<LiveLayer>(found - kNames.begin());
-}
-
 LiveDecode decode_live(std::span<const FrameStack> stacks,
                        const Rig& rig,
                        const Image<Eigen::Vector2f>& rays,

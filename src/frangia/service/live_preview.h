@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "frangia/acquisition/preview.h"
+#include "frangia/core/enum_names.h"
 #include "frangia/core/image.h"
 #include "frangia/decode/decode_view.h"
 #include "frangia/frames/frame_stack.h"
@@ -31,9 +32,16 @@ enum class LiveLayer {
   Points       ///< points in the frame of the object
 };
 
-/// The layer of a name in the protocol: "none", "camera", "phase", "modulation", "status", "depth",
-/// "points"; empty for another name.
-[[nodiscard]] std::optional<LiveLayer> live_layer_of(const std::string& name);
+/// What users call them.
+[[nodiscard]] constexpr auto names_of(LiveLayer /*any*/) {
+  return EnumNames<LiveLayer, 7>{{{LiveLayer::None, "none"},
+                                  {LiveLayer::Camera, "camera"},
+                                  {LiveLayer::Phase, "phase"},
+                                  {LiveLayer::Modulation, "modulation"},
+                                  {LiveLayer::Status, "status"},
+                                  {LiveLayer::Depth, "depth"},
+                                  {LiveLayer::Points, "points"}}};
+}
 
 /// What the light pattern is.
 enum class LivePattern {
@@ -41,6 +49,13 @@ enum class LivePattern {
   White,    ///< full light
   Dark      ///< no light
 };
+
+/// What users call them.
+[[nodiscard]] constexpr auto names_of(LivePattern /*any*/) {
+  return EnumNames<LivePattern, 3>{{{LivePattern::Fringes, "fringes"},
+                                    {LivePattern::White, "white"},
+                                    {LivePattern::Dark, "dark"}}};
+}
 
 /// Settings of a live preview.
 struct LiveSettings {

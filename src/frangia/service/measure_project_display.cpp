@@ -3,8 +3,8 @@
 #include <string>
 
 #include "frangia/acquisition/with_display.h"
-#include "frangia/core/atomic_file.h"
 #include "frangia/core/read_text_file.h"
+#include "frangia/core/write_text_file.h"
 #include "frangia/rig/read_rig.h"
 #include "frangia/service/internal/opened_devices.h"
 #include "frangia/service/rig_history.h"
@@ -25,9 +25,7 @@ DisplayMeasurement measure_project_display(const ProjectFolder& project,
   }
   const std::string text = with_display(read_text_file(project.rig()), rig, found);
   keep_rig(project, RigChange::Display);
-  AtomicFile file(project.rig(), Durability::Synced);
-  file.stream() << text;
-  file.commit();
+  write_text_file(project.rig(), text, Durability::Synced);
   return found;
 }
 

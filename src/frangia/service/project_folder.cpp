@@ -6,13 +6,13 @@
 
 #include <fmt/format.h>
 
-#include "frangia/core/atomic_file.h"
 #include "frangia/core/error.h"
 #include "frangia/core/folder_lock.h"
 #include "frangia/core/make_folder.h"
 #include "frangia/core/open_below.h"
 #include "frangia/core/read_json_below.h"
 #include "frangia/core/read_text_file.h"
+#include "frangia/core/write_text_file.h"
 #include "frangia/service/internal/move_folder.h"
 
 namespace frangia {
@@ -259,9 +259,7 @@ ProjectFolder ProjectLibrary::create(const std::string& name) const {
     throw Error(ErrorKind::Input,
                 fmt::format("there is a project {} already; write another name", name));
   }
-  AtomicFile file(folder / kProjectFile);
-  file.stream() << kProjectText;
-  file.commit();
+  write_text_file(folder / kProjectFile, kProjectText);
   return project_in(folder);
 }
 

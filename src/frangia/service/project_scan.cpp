@@ -12,10 +12,10 @@
 #include "frangia/acquisition/capture_scan.h"
 #include "frangia/acquisition/left_table.h"
 #include "frangia/core/angles.h"
-#include "frangia/core/atomic_file.h"
 #include "frangia/core/folder_lock.h"
 #include "frangia/core/image.h"
 #include "frangia/core/make_folder.h"
+#include "frangia/core/write_text_file.h"
 #include "frangia/decode/decode_view.h"
 #include "frangia/decode/triangulate_view.h"
 #include "frangia/range/range_grid.h"
@@ -142,9 +142,7 @@ void enter(const ViewAssessment& found,
   if (found.decoded != nullptr) {
     try {
       const std::string packed = encode_points(clouds.of(*found.decoded, angle_rad), kMostPoints);
-      AtomicFile file(project.cloud(found.view));
-      file.stream() << packed;
-      file.commit();
+      write_text_file(project.cloud(found.view), packed);
       has_cloud = true;
     } catch (const Error&) {  // NOLINT(bugprone-empty-catch): the picture alone lacks these points
     }
@@ -178,20 +176,6 @@ UnknownTableAngle::UnknownTableAngle(std::optional<double> last_deg)
                         last_deg ? fmt::format(" at {:.6g} degrees", *last_deg) : "")),
       last_deg_(last_deg) {}
 
-const char* name_of(StationState state) {
-  switch (state) {
-    case StationState::Waiting:
-      return "waiting";
-    case StationState::Capturing:
-      return "capturing";
-    case StationState::Done:
-      return "done";
-    case StationState::Skipped:
-      return "skipped";
-  }
-  return "waiting";
-}
-
 std::vector<ProjectStation> planned_stations(std::size_t count, int setup) {
   std::vector<ProjectStation> stations(count);
   for (std::size_t i = 0; i < count; ++i) {
@@ -210,9 +194,7 @@ void write_stations(const ProjectFolder& project, const std::vector<ProjectStati
   json["stations"] = nlohmann::ordered_json::array();
   for (const ProjectStation& station : stations)
     json["stations"].push_back(json_of(station));
-  AtomicFile file(project.stations());
-  file.stream() << json.dump(1) << '\n';
-  file.commit();
+  write_text_file(project.stations(), json.dump(1) + "\n");
 }
 
 std::vector<ProjectStation> read_stations(const ProjectFolder& project, const Run& run) {

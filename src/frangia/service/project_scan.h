@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "frangia/acquisition/capture_options.h"
+#include "frangia/core/enum_names.h"
 #include "frangia/core/error.h"
 #include "frangia/core/run.h"
 #include "frangia/dataset/scan_folder.h"
@@ -27,6 +28,14 @@ enum class StationState {
   Done,       ///< all frames are stored
   Skipped     ///< its capture failed; `ProjectStation::verdict` gives the reason
 };
+
+/// What users call them.
+[[nodiscard]] constexpr auto names_of(StationState /*any*/) {
+  return EnumNames<StationState, 4>{{{StationState::Waiting, "waiting"},
+                                     {StationState::Capturing, "capturing"},
+                                     {StationState::Done, "done"},
+                                     {StationState::Skipped, "skipped"}}};
+}
 
 /// A turntable station of a project and what its quality assessment found.
 struct ProjectStation {
@@ -111,8 +120,5 @@ CaptureReport capture_project(
     const std::shared_ptr<DecodedViews>& decoded,
     const std::function<void(const std::vector<ProjectStation>&)>& on_change,
     const Run& run = {});
-
-/// Name of a state in the protocol: "waiting", "capturing", "done" or "skipped".
-[[nodiscard]] const char* name_of(StationState state);
 
 }  // namespace frangia

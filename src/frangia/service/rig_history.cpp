@@ -9,10 +9,10 @@
 
 #include <fmt/format.h>
 
-#include "frangia/core/atomic_file.h"
 #include "frangia/core/error.h"
 #include "frangia/core/make_folder.h"
 #include "frangia/core/read_text_file.h"
+#include "frangia/core/write_text_file.h"
 #include "frangia/devices/device_settings.h"
 #include "frangia/rig/read_rig.h"
 #include "frangia/service/internal/move_folder.h"
@@ -71,9 +71,7 @@ std::string covariance_of(const std::filesystem::path& rig) {
 
 void copy_bytes(const std::filesystem::path& from, const std::filesystem::path& to) {
   constexpr std::uint64_t kMostRigBytes = 64'000'000;
-  AtomicFile file(to, Durability::Synced);
-  file.stream() << read_text_file(from, kMostRigBytes);
-  file.commit();
+  write_text_file(to, read_text_file(from, kMostRigBytes), Durability::Synced);
 }
 
 /// Copies what there is; what the source lacks goes at the destination. rig.toml comes last: it
@@ -165,9 +163,7 @@ void keep_but(const ProjectFolder& project, RigChange before, int spared) {
   const auto unfinished = project.in_derived(std::filesystem::path(kHistory) / "new");
   std::filesystem::remove_all(unfinished);
   copy_rig(present, place_in(unfinished));
-  AtomicFile why(unfinished / kWhy, Durability::Synced);
-  why.stream() << name_of(before);
-  why.commit();
+  write_text_file(unfinished / kWhy, name_of(before), Durability::Synced);
   move_folder(unfinished, project.in_derived(inner_of(number)));
   std::size_t kept = numbers.size() + 1;
   for (std::size_t i = 0; i < numbers.size() && kept > kMostKeptRigs; ++i) {
@@ -179,24 +175,6 @@ void keep_but(const ProjectFolder& project, RigChange before, int spared) {
 }
 
 }  // namespace
-
-const char* name_of(RigChange change) {
-  switch (change) {
-    case RigChange::Geometry:
-      return "geometry";
-    case RigChange::Devices:
-      return "devices";
-    case RigChange::Display:
-      return "display";
-    case RigChange::Calibration:
-      return "calibration";
-    case RigChange::Axis:
-      return "axis";
-    case RigChange::Restored:
-      return "restored";
-  }
-  return "restored";
-}
 
 std::vector<KeptRig> kept_rigs(const ProjectFolder& project) {
   std::vector<KeptRig> kept;

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "frangia/core/enum_names.h"
 #include "frangia/core/missing.h"
 #include "frangia/service/project_folder.h"
 
@@ -20,9 +21,15 @@ enum class RigChange {
   Restored      ///< an earlier one was brought back
 };
 
-/// Name of a change in the protocol: "geometry", "devices", "display", "calibration", "axis" or
-/// "restored".
-[[nodiscard]] const char* name_of(RigChange change);
+/// What users call them.
+[[nodiscard]] constexpr auto names_of(RigChange /*any*/) {
+  return EnumNames<RigChange, 6>{{{RigChange::Geometry, "geometry"},
+                                  {RigChange::Devices, "devices"},
+                                  {RigChange::Display, "display"},
+                                  {RigChange::Calibration, "calibration"},
+                                  {RigChange::Axis, "axis"},
+                                  {RigChange::Restored, "restored"}}};
+}
 
 /// What a list shows of a rig.toml.
 struct RigFigures {

@@ -7,6 +7,7 @@
 
 #include "frangia/core/atomic_file.h"
 #include "frangia/core/error.h"
+#include "frangia/core/write_text_file.h"
 #include "frangia/rig/write_rig.h"
 #include "frangia/simulate/parts.h"
 #include "frangia/simulate/rig_presets.h"
@@ -33,9 +34,7 @@ void write_simulated_rig(const std::filesystem::path& path, const std::string& p
   const SimulateOptions camera;
   constexpr double kWhite = 255.0;
   rig.reference().noise = NoiseModel::from_camera(camera.full_well_e / kWhite, camera.read_e);
-  AtomicFile truth(true_rig_beside(path));
-  truth.stream() << rig_text(rig);
-  truth.commit();
+  write_text_file(true_rig_beside(path), rig_text(rig));
   AtomicFile file(path);
   file.stream() << rig_text(rig)
                 << fmt::format(R"(

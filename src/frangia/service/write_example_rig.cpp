@@ -4,8 +4,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "frangia/core/atomic_file.h"
 #include "frangia/core/error.h"
+#include "frangia/core/write_text_file.h"
 #include "frangia/service/example_rigs.h"
 #include "frangia/service/simulated_rig.h"
 
@@ -17,12 +17,6 @@ const ExampleRig* find_example(const std::string& name) {
   const auto found =
       std::find_if(all.begin(), all.end(), [&](const ExampleRig& one) { return one.name == name; });
   return found == all.end() ? nullptr : &*found;
-}
-
-void write_text(const std::filesystem::path& path, const std::string& text) {
-  AtomicFile file(path);
-  file.stream() << text;
-  file.commit();
 }
 
 }  // namespace
@@ -56,9 +50,9 @@ void write_example_rig(const std::filesystem::path& path, const std::string& nam
     const std::size_t at = text.find(named);
     if (at == std::string::npos) continue;
     text.replace(at, named.size(), fmt::format("true_rig = \"{}\"", truth.filename().string()));
-    write_text(truth, other.text);
+    write_text_file(truth, other.text);
   }
-  write_text(path, text);
+  write_text_file(path, text);
 }
 
 }  // namespace frangia

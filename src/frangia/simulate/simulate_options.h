@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "frangia/core/enum_names.h"
 #include "frangia/rig/artifact.h"
 #include "frangia/rig/board.h"
 #include "frangia/rig/target_set.h"
@@ -38,6 +39,13 @@ enum class DisplayedWaveform {
   Binary,   ///< black and white stripes
   Dithered  ///< black and white pixels, by an ordered dither of 8 x 8 pixels
 };
+
+/// What users call them.
+[[nodiscard]] constexpr auto names_of(DisplayedWaveform /*any*/) {
+  return EnumNames<DisplayedWaveform, 3>{{{DisplayedWaveform::Sine, "sine"},
+                                          {DisplayedWaveform::Binary, "binary"},
+                                          {DisplayedWaveform::Dithered, "dithered"}}};
+}
 
 /// Brightness and faults of the simulated rig. All faults except camera noise are off by default.
 struct SimulateOptions {

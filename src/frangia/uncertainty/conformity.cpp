@@ -35,9 +35,4 @@ double guard_band_of_many(std::size_t count) {
   return 0.5 * (low + high);
 }
 
-std::string_view name_of(Conformity conformity) {
-  if (conformity == Conformity::In) return "in";
-  return conformity == Conformity::Out ? "out" : "undecided";
-}
-
 }  // namespace frangia

@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <string_view>
 
+#include "frangia/core/enum_names.h"
+
 namespace frangia {
 
 /// Whether a value conforms to its tolerance when its uncertainty counts.
@@ -12,6 +14,12 @@ enum class Conformity : std::uint8_t {
   Out,       ///< proven to be beyond a limit
   Undecided  ///< within the uncertainty of a limit
 };
+
+/// What users call them.
+[[nodiscard]] constexpr auto names_of(Conformity /*any*/) {
+  return EnumNames<Conformity, 3>{
+      {{Conformity::In, "in"}, {Conformity::Out, "out"}, {Conformity::Undecided, "undecided"}}};
+}
 
 /// Limits of a value.
 struct ToleranceLimits {
@@ -42,8 +50,5 @@ inline constexpr double kGuardBand = 1.6448536269514722;
 ///
 /// @source   Bonferroni's inequality
 [[nodiscard]] double guard_band_of_many(std::size_t count);
-
-/// in, out or undecided.
-[[nodiscard]] std::string_view name_of(Conformity conformity);
 
 }  // namespace frangia

@@ -11,7 +11,6 @@
 #include <fmt/format.h>
 
 #include "frangia/acquisition/internal/capture_manifest.h"
-#include "frangia/core/atomic_file.h"
 #include "frangia/core/crc32.h"
 #include "frangia/core/error.h"
 #include "frangia/core/folder_lock.h"
@@ -19,6 +18,7 @@
 #include "frangia/core/open_below.h"
 #include "frangia/core/read_text_file.h"
 #include "frangia/core/sync_to_disk.h"
+#include "frangia/core/write_text_file.h"
 #include "frangia/dataset/write_scan.h"
 #include "frangia/rig/write_rig.h"
 
@@ -97,12 +97,6 @@ std::string stored_text(const std::filesystem::path& path) {
   }
 }
 
-void write_durably(const std::filesystem::path& path, const std::string& text) {
-  AtomicFile file(path, Durability::Synced);
-  file.stream() << text;
-  file.commit();
-}
-
 /// Writes the plan under another name first, so that `capture/` is complete or missing.
 void store_plan(const std::filesystem::path& folder, const PlanFiles& files) {
   const std::filesystem::path fresh = folder / "capture.new";
@@ -117,7 +111,7 @@ void store_plan(const std::filesystem::path& folder, const PlanFiles& files) {
   make_folder(fresh, Durability::Synced);
   CaptureManifest::PlanChecksums checksums;
   for (const PlanFile& file : files) {
-    write_durably(fresh / file.name, file.text);
+    write_text_file(fresh / file.name, file.text, Durability::Synced);
     checksums[file.name] = crc32(identity_of(file.text));
   }
   CaptureManifest::begin(fresh / CaptureManifest::kFileName, checksums);
@@ -134,7 +128,7 @@ void extend_plan(const Scan& plan, int setup, const std::string& text) {
   if (before.views.empty() || identity_of(stored_text(path)) != identity_of(scan_text(before)))
     return;
   CaptureManifest(plan.folder).change_plan("scan.toml", crc32(identity_of(text)));
-  write_durably(path, text);
+  write_text_file(path, text, Durability::Synced);
 }
 
 /// Checks that a plan equals the stored one. A stored file that is damaged is replaced.
@@ -151,7 +145,7 @@ void compare_plan(const std::filesystem::path& folder, const PlanFiles& files, c
     if (!known && !std::filesystem::exists(path)) continue;
     if (known && stored->second == crc32(now)) {
       run.warn(fmt::format("{}: was damaged and is replaced", path.string()));
-      write_durably(path, file.text);
+      write_text_file(path, file.text, Durability::Synced);
       continue;
     }
     throw Error(ErrorKind::Input,

@@ -9,11 +9,11 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "frangia/core/atomic_file.h"
 #include "frangia/core/crc32.h"
 #include "frangia/core/error.h"
 #include "frangia/core/open_below.h"
 #include "frangia/core/read_regular_file.h"
+#include "frangia/core/write_text_file.h"
 
 namespace frangia {
 namespace {
@@ -146,9 +146,7 @@ void CaptureManifest::store(const std::string& file,
                             ManifestFrame frame) {
   frame.checksum = crc32(bytes);
   frame.bytes = bytes.size();
-  AtomicFile out(path_below(folder_, file), Durability::Synced);
-  out.stream().write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  out.commit();
+  write_text_file(path_below(folder_, file), bytes, Durability::Synced);
   append(file, frame);
 }
 

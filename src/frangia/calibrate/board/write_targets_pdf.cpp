@@ -67,9 +67,8 @@ void draw_cut(HPDF_Page page, double x_mm, double y_mm, double diameter_mm) {
 std::string table_text(const TargetSet& targets) {
   std::string text = "[targets]";
   if (targets.diameter_mm > 0.0) {
-    text += fmt::format("   diameter_mm = {:g}   disc = \"{}\"",
-                        targets.diameter_mm,
-                        targets.tone == TargetTone::Light ? "light" : "dark");
+    text += fmt::format(
+        "   diameter_mm = {:g}   disc = \"{}\"", targets.diameter_mm, name_of(targets.tone));
   }
   if (!targets.dictionary.empty()) {
     text += fmt::format(

@@ -9,10 +9,12 @@
 #include <fmt/ranges.h>
 
 #include "frangia/calibrate/internal/artifact_distances.h"
-#include "frangia/calibrate/report/internal/report_page.h"
+#include "frangia/calibrate/report/internal/residual_figure.h"
 #include "frangia/calibrate/solve/calibrate_rig.h"
 #include "frangia/core/angles.h"
 #include "frangia/core/html_escaped.h"
+#include "frangia/core/write_text_file.h"
+#include "frangia/page/html_page.h"
 
 namespace frangia {
 namespace {
@@ -26,7 +28,7 @@ std::string signed_color(double share) {
 
 void add_rig_summary(const ArtifactCalibration& result, std::string& html) {
   const Calibration& calibration = *result.rig.calibration;
-  html += fmt::format("<h1>Calibration</h1><p>By {}, {}, in {} views.</p>\n",
+  html += fmt::format("<p>By {}, {}, in {} views.</p>\n",
                       html_escaped(calibration.board),
                       calibration.date,
                       calibration.poses);
@@ -170,14 +172,17 @@ void add_table(const ArtifactCalibration& result, std::string& html) {
 void write_artifact_report(const std::filesystem::path& path,
                            const ArtifactCalibration& result,
                            std::span<const std::string> warnings) {
-  std::string html = report_head();
+  HtmlPage page("Calibration");
+  std::string html;
   add_rig_summary(result, html);
+  page.html(html);
   for (const std::string& warning : warnings)
-    html += fmt::format("<p class=\"warning\">{}</p>\n", html_escaped(warning));
+    page.verdict("open", warning);
+  html.clear();
   if (result.camera) add_screen(result, html);
   if (result.table) add_table(result, html);
-  html += "</body></html>\n";
-  write_report(path, html);
+  page.html(html);
+  write_text_file(path, page.text());
 }
 
 }  // namespace frangia

@@ -11,10 +11,13 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "frangia/calibrate/report/internal/report_page.h"
+#include "frangia/calibrate/report/internal/residual_figure.h"
 #include "frangia/calibrate/report/residual_maps.h"
 #include "frangia/core/angles.h"
 #include "frangia/core/html_escaped.h"
+#include "frangia/core/write_text_file.h"
+#include "frangia/frames/png.h"
+#include "frangia/page/html_page.h"
 
 namespace frangia {
 namespace {
@@ -60,7 +63,7 @@ std::string place_of(const std::string& device, const Eigen::Isometry3d& from_ca
 void add_summary(const RigCalibration& result, const Board& board, std::string& html) {
   const RigSolution& solution = result.solution;
   html += fmt::format(
-      "<h1>Calibration</h1><p>{} poses of a {} of {} × {} points, {:g} mm apart{}.</p>\n"
+      "<p>{} poses of a {} of {} × {} points, {:g} mm apart{}.</p>\n"
       "<p>Grade: <b>{}</b>. The calibration adds {:.3f} mm to the uncertainty of a point at {:.0f} "
       "mm, as its covariance predicts, and {:.3f} mm, as the differences between the poses "
       "show.</p>\n",
@@ -217,7 +220,7 @@ void add_boards(const RigCalibration& result, std::string& html) {
         "href=\"{2}\"/>\n",
         width,
         height,
-        picture_data(picture.pixels));
+        data_uri("image/png", encode_png(picture.pixels)));
     for (std::size_t i = 0; i < result.views[view].points.size(); ++i) {
       const Eigen::Vector2d pixel =
           (result.views[view].points[i].camera_px.array() + 0.5) / picture.px_per_px;
@@ -240,10 +243,13 @@ void write_calibration_report(const std::filesystem::path& path,
                               const RigCalibration& result,
                               const Board& board,
                               std::span<const std::string> warnings) {
-  std::string html = report_head();
+  HtmlPage page("Calibration");
+  std::string html;
   add_summary(result, board, html);
+  page.html(html);
   for (const std::string& warning : warnings)
-    html += fmt::format("<p class=\"warning\">{}</p>\n", html_escaped(warning));
+    page.verdict("open", warning);
+  html.clear();
   add_poses(result, html);
   html += "<h2>Residuals and coverage</h2><div class=\"row\">\n";
   for (const ResidualMap& map : residual_maps(result))
@@ -251,8 +257,8 @@ void write_calibration_report(const std::filesystem::path& path,
   add_coverage(result, board, html);
   html += "</div>\n";
   add_boards(result, html);
-  html += "</body></html>\n";
-  write_report(path, html);
+  page.html(html);
+  write_text_file(path, page.text());
 }
 
 }  // namespace frangia

@@ -134,14 +134,9 @@ void read_exposures(TomlReader& reader, Pattern& pattern) {
 
 void read_direction(TomlReader& reader, const Rig& rig, Pattern& pattern) {
   if (!reader.has("direction")) return;
-  const std::string direction = reader.text("direction");
-  if (direction == "horizontal" && is_angular(rig, pattern))
+  pattern.direction = reader.named<FringeDirection>("direction");
+  if (pattern.direction == FringeDirection::Horizontal && is_angular(rig, pattern))
     reader.fail("direction", "is \"horizontal\", but an angular projector's fringes are vertical");
-  if (direction != "vertical" && direction != "horizontal") {
-    reader.fail("direction",
-                fmt::format(R"(is "{}"; it must be "vertical" or "horizontal")", direction));
-  }
-  if (direction == "horizontal") pattern.direction = FringeDirection::Horizontal;
 }
 
 }  // namespace

@@ -170,11 +170,9 @@ ViewedOutline edit_outline(const std::string& value) {
 }
 
 Mark edit_mark(const std::string& value) {
-  if (value == "measured") return Mark::Measured;
-  if (value == "displaced") return Mark::Displaced;
-  if (value == "synthesized") return Mark::Synthesized;
+  if (const auto mark = find_named<Mark>(value)) return *mark;
   throw Error(ErrorKind::Input,
-              fmt::format("'{}' is not a mark; write measured, displaced or synthesized", value));
+              fmt::format("'{}' is not a mark; write {}", value, listed_names<Mark>()));
 }
 
 }  // namespace frangia

@@ -10,9 +10,9 @@
 
 #include <fmt/format.h>
 
+#include "frangia/core/base64.h"
 #include "frangia/core/check_nesting.h"
 #include "frangia/core/error.h"
-#include "frangia/files/internal/base64.h"
 #include "frangia/files/internal/read_bytes.h"
 #include "frangia/files/internal/text_reader.h"
 #include "frangia/files/internal/without_percent.h"

@@ -16,7 +16,6 @@
 #include "frangia/files/internal/check_mesh.h"
 #include "frangia/files/internal/gltf.h"
 #include "frangia/files/internal/gltf_document.h"
-#include "frangia/files/internal/mark_names.h"
 #include "frangia/files/internal/mesh_memory.h"
 #include "frangia/geometry/vertex_data.h"
 
@@ -289,7 +288,7 @@ class GltfReader {
   [[nodiscard]] Mark mark_of_material(const json& primitive) const {
     if (!primitive.contains("material")) return Mark::Measured;
     const json& material = document_.item("materials", document_.whole(primitive.at("material")));
-    return mark_of_name(material.value("name", ""));
+    return find_named<Mark>(material.value("name", "")).value_or(Mark::Measured);
   }
 
   /// The corners of a strip or fan as those of triangles.

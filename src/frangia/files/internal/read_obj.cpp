@@ -13,7 +13,6 @@
 #include "frangia/core/plain_text.h"
 #include "frangia/files/internal/check_mesh.h"
 #include "frangia/files/internal/color_of.h"
-#include "frangia/files/internal/mark_names.h"
 #include "frangia/files/internal/obj.h"
 #include "frangia/files/internal/polygon_faces.h"
 #include "frangia/files/internal/read_bytes.h"
@@ -72,7 +71,7 @@ class ObjReader {
       } else if (keyword == "f" || keyword == "fo") {  // `fo` of the first version
         read_face();
       } else if (keyword == "g") {
-        mark_ = mark_of_name(word());
+        mark_ = find_named<Mark>(word()).value_or(Mark::Measured);
       } else if (keyword == "surf" || keyword == "curv" || keyword == "curv2") {
         ++free_forms_;
       } else if (!is_other_statement(keyword)) {

@@ -9,7 +9,6 @@
 
 #include "frangia/core/error.h"
 #include "frangia/files/internal/append_transformed.h"
-#include "frangia/files/internal/mark_names.h"
 #include "frangia/files/internal/mesh_memory.h"
 #include "frangia/files/internal/text_reader.h"
 #include "frangia/geometry/vertex_data.h"
@@ -270,7 +269,8 @@ Mark ThreeMfModel::mark_of_material(std::string_view id, std::string_view index)
       static_cast<std::uint64_t>(*number) >= group->second.size()) {
     return Mark::Measured;
   }
-  return mark_of_name(group->second[static_cast<std::size_t>(*number)]);
+  return find_named<Mark>(group->second[static_cast<std::size_t>(*number)])
+      .value_or(Mark::Measured);
 }
 
 const ThreeMfModel::Object& ThreeMfModel::object_of(const Reference& reference, int depth) const {

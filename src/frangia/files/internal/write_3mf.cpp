@@ -9,7 +9,6 @@
 #include <fmt/ranges.h>
 
 #include "frangia/files/internal/check_mesh.h"
-#include "frangia/files/internal/mark_names.h"
 #include "frangia/files/internal/three_mf.h"
 #include "frangia/files/internal/zip_file.h"
 #include "frangia/geometry/half_edges.h"
@@ -131,9 +130,9 @@ void write_model(ZipWriter& file, const Mesh& mesh) {
       " <metadata name=\"Application\">Frangia</metadata>\n"
       " <resources>\n"
       "  <basematerials id=\"1\">\n");
-  for (const Mark mark : {Mark::Measured, Mark::Displaced, Mark::Synthesized}) {
+  for (const auto& [mark, name] : names_of(Mark{})) {
     file.text(fmt::format("   <base name=\"{}\" displaycolor=\"#{:02X}\"/>\n",
-                          kMarkNames.at(static_cast<std::size_t>(mark)),
+                          name,
                           fmt::join(mark_screen_color(mark), "")));
   }
   file.text("  </basematerials>\n");

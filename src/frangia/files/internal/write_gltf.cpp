@@ -7,14 +7,13 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "frangia/core/base64.h"
 #include "frangia/core/error.h"
 #include "frangia/core/lowercase_extension.h"
 #include "frangia/core/srgb.h"
-#include "frangia/files/internal/base64.h"
 #include "frangia/files/internal/check_mesh.h"
 #include "frangia/files/internal/file_writer.h"
 #include "frangia/files/internal/gltf.h"
-#include "frangia/files/internal/mark_names.h"
 #include "frangia/geometry/mark_colors.h"
 #include "frangia/geometry/vertex_data.h"
 
@@ -118,7 +117,7 @@ class Layout {
       for (const std::uint8_t channel : color)
         sink.number(static_cast<float>(linear_from_srgb(channel)));
     }
-    for (std::size_t mark = 0; mark < kMarkNames.size(); ++mark) {
+    for (std::size_t mark = 0; mark < names_of(Mark{}).size(); ++mark) {
       for (std::size_t i = 0; i < mesh_.triangles.size(); ++i) {
         if (static_cast<std::size_t>(mark_of(mesh_, i)) != mark) continue;
         for (const std::uint32_t corner : mesh_.triangles[i])
@@ -167,7 +166,7 @@ class Layout {
       constexpr std::array<double, 3> kWhite{1.0, 1.0, 1.0};
       const bool own = !mesh_.colors.empty() && mark == 0;
       const auto& [red, green, blue] = own ? kWhite : kMarkColors.at(mark);
-      materials_.push_back({{"name", kMarkNames.at(mark)},
+      materials_.push_back({{"name", name_of(static_cast<Mark>(mark))},
                             {"pbrMetallicRoughness",
                              {{"baseColorFactor", {red, green, blue, 1.0}},
                               {"metallicFactor", 0.0},

@@ -4,7 +4,6 @@
 
 #include "frangia/files/internal/check_mesh.h"
 #include "frangia/files/internal/file_writer.h"
-#include "frangia/files/internal/mark_names.h"
 #include "frangia/files/internal/obj.h"
 #include "frangia/geometry/vertex_data.h"
 
@@ -52,7 +51,7 @@ void write_obj(const std::filesystem::path& path, const Mesh& mesh) {
     if (marked && (i == 0 || mark_of(mesh, i) != group)) {
       group = mark_of(mesh, i);
       file.text("g ");
-      file.text(kMarkNames.at(static_cast<std::size_t>(group)));
+      file.text(name_of(group));
       file.text("\n");
     }
     write_face(file, mesh, i);

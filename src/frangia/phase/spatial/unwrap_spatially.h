@@ -1,5 +1,6 @@
 #pragma once
 
+#include "frangia/core/enum_names.h"
 #include "frangia/phase/spatial/join_regions.h"
 #include "frangia/phase/spatial/split_regions.h"
 #include "frangia/phase/wrap/phase_map.h"
@@ -13,6 +14,13 @@ enum class SpatialMethod {
                      ///< `unwrap_quality_guided`
   ReliabilitySorted  ///< edges sorted by reliability, see `unwrap_reliability_sorted`
 };
+
+/// What users call them.
+[[nodiscard]] constexpr auto names_of(SpatialMethod /*any*/) {
+  return EnumNames<SpatialMethod, 3>{{{SpatialMethod::RunMerging, "run-merging"},
+                                      {SpatialMethod::QualityGuided, "quality-guided"},
+                                      {SpatialMethod::ReliabilitySorted, "reliability-sorted"}}};
+}
 
 /// Method and limits of spatial unwrapping.
 struct SpatialUnwrapOptions {

@@ -18,28 +18,6 @@ std::string clause_of(const SequenceFault& fault) {
 
 }  // namespace
 
-std::string name_of(SequenceFaultKind kind) {
-  switch (kind) {
-    case SequenceFaultKind::Start:
-      return "start";
-    case SequenceFaultKind::Direction:
-      return "direction";
-    case SequenceFaultKind::Order:
-      return "order";
-    case SequenceFaultKind::Period:
-      return "period";
-    case SequenceFaultKind::Exchanged:
-      return "exchanged";
-    case SequenceFaultKind::Inversion:
-      return "inversion";
-    case SequenceFaultKind::Code:
-      return "code";
-    case SequenceFaultKind::Missing:
-      break;
-  }
-  return "missing";
-}
-
 std::string describe(const SequenceCheck& check) {
   if (!check.finding.empty()) return check.finding;
   const std::string names = fmt::format("\"{}\"", fmt::join(check.patterns, "\", \""));

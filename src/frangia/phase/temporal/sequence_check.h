@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "frangia/core/enum_names.h"
+
 namespace frangia {
 
 /// In which respect the frames of a pattern differ from scan.toml.
@@ -18,9 +20,17 @@ enum class SequenceFaultKind {
   Missing     ///< a frame of a Gray code is missing
 };
 
-/// Returns the word for a kind in JSON: "start", "direction", "order", "period", "exchanged",
-/// "inversion", "code" or "missing".
-[[nodiscard]] std::string name_of(SequenceFaultKind kind);
+/// What users call them.
+[[nodiscard]] constexpr auto names_of(SequenceFaultKind /*any*/) {
+  return EnumNames<SequenceFaultKind, 8>{{{SequenceFaultKind::Start, "start"},
+                                          {SequenceFaultKind::Direction, "direction"},
+                                          {SequenceFaultKind::Order, "order"},
+                                          {SequenceFaultKind::Period, "period"},
+                                          {SequenceFaultKind::Exchanged, "exchanged"},
+                                          {SequenceFaultKind::Inversion, "inversion"},
+                                          {SequenceFaultKind::Code, "code"},
+                                          {SequenceFaultKind::Missing, "missing"}}};
+}
 
 /// A declaration that fits the frames where that of scan.toml does not.
 struct SequenceFault {

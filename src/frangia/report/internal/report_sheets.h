@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "frangia/report/html_page.h"
+#include "frangia/page/html_page.h"
 #include "frangia/report/inspection_report.h"
 
 namespace frangia::report {

@@ -10,6 +10,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "frangia/core/enum_names.h"
+
 namespace frangia {
 
 /// What tells a command from others, so that the same one is not carried out twice.
@@ -37,6 +39,15 @@ class CommandArguments {
   [[nodiscard]] std::string text(const char* key);  ///< a string; required
   [[nodiscard]] std::string text_or(const char* key, const std::string& otherwise);
   [[nodiscard]] std::optional<std::string> text_if_given(const char* key);
+  /// The value of an enum that a name stands for.
+  template <NamedEnum Enum>
+  [[nodiscard]] Enum named_or(const char* key, Enum otherwise) {
+    const std::optional<std::string> name = text_if_given(key);
+    if (!name) return otherwise;
+    const std::optional<Enum> value = find_named<Enum>(*name);
+    if (!value) throw Error(ErrorKind::Input, fmt::format("{}: is {}", key, listed_names<Enum>()));
+    return *value;
+  }
   /// A whole number from `least` to `most`; required.
   [[nodiscard]] std::size_t whole(const char* key, std::size_t least, std::size_t most);
   [[nodiscard]] std::size_t whole_or(const char* key,

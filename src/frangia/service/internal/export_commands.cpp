@@ -36,17 +36,13 @@ struct ExportRequest {
 };
 
 ExportRequest export_arguments(CommandArguments& arguments) {
-  static const std::map<std::string, DxfVariant> kVariants = {
-      {"faces", DxfVariant::Faces}, {"polyface", DxfVariant::Polyface}, {"mesh", DxfVariant::Mesh}};
   ExportRequest request;
   request.format = arguments.text("format");
-  const auto variant = kVariants.find(arguments.text_or("dxf", "faces"));
+  request.options.dxf.variant = arguments.named_or("dxf", DxfVariant::Faces);
   const std::string stl = arguments.text_or("stl", "binary");
   request.triangles = arguments.whole_or("triangles", 0, 0, UINT32_MAX);
   arguments.check_all_read();
-  require(variant != kVariants.end(), "dxf: is faces, polyface or mesh");
   require(stl == "binary" || stl == "ascii", "stl: is binary or ascii");
-  request.options.dxf.variant = variant->second;
   request.options.stl.ascii = stl == "ascii";
   require(request.format == "zip" || (request.format.find('/') == std::string::npos &&
                                       find_mesh_format("x." + request.format) != nullptr),

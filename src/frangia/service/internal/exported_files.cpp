@@ -9,10 +9,10 @@
 #include <nlohmann/json.hpp>
 #include <sys/stat.h>
 
-#include "frangia/core/atomic_file.h"
 #include "frangia/core/error.h"
 #include "frangia/core/make_folder.h"
 #include "frangia/core/sync_to_disk.h"
+#include "frangia/core/write_text_file.h"
 
 namespace frangia {
 namespace {
@@ -83,9 +83,9 @@ void write_records(const ProjectFolder& project, const std::vector<ExportRecord>
                              {"bytes", one.stamp.bytes},
                              {"modified_ns", one.stamp.modified_ns}});
   }
-  AtomicFile file(records_file(project), Durability::Synced);
-  file.stream() << json.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) << '\n';
-  file.commit();
+  write_text_file(records_file(project),
+                  json.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n",
+                  Durability::Synced);
 }
 
 /// A file that is removed unless it was renamed.

@@ -8,9 +8,9 @@
 
 #include <fmt/format.h>
 
-#include "frangia/core/atomic_file.h"
 #include "frangia/core/error.h"
 #include "frangia/core/open_below.h"
+#include "frangia/core/write_text_file.h"
 #include "frangia/geometry/transform_mesh.h"
 #include "frangia/inspection/write_inspection_plan.h"
 #include "frangia/report/qif_results.h"
@@ -90,12 +90,6 @@ bool lies_as_scanned(const SurfaceSnapshot& surface) {
          std::none_of(surface.steps.begin(), done, [](const EditStep& step) {
            return step.operation == "align" || step.operation == "mirror";
          });
-}
-
-void write_text(const std::filesystem::path& path, const std::string& text) {
-  AtomicFile file(path);
-  file.stream() << text;
-  file.commit();
 }
 
 }  // namespace
@@ -191,7 +185,7 @@ nlohmann::ordered_json Service::Implementation::start_report(CommandArguments& a
       InspectionPlan plan = now.plan.value_or(usual_plan());
       plan.reference = now.reference.name;
       const auto write = [&](const std::filesystem::path& file) {
-        write_text(file, inspection_plan_text(plan, {}));
+        write_text_file(file, inspection_plan_text(plan, {}));
       };
       return put_export(project, "inspection.toml", std::nullopt, write, run);
     }
@@ -202,9 +196,10 @@ nlohmann::ordered_json Service::Implementation::start_report(CommandArguments& a
                     ? transform_mesh(model.mesh(), part.alignment->pose.reference_from_mesh)
                     : model.mesh();
     const auto write = [&](const std::filesystem::path& file) {
-      if (format == "csv") return write_text(file, csv_of(part.characteristics));
+      if (format == "csv") return write_text_file(file, csv_of(part.characteristics));
       if (format == "qif")
-        return write_text(file, qif_of({part.named_features, part.characteristics, part.verdict}));
+        return write_text_file(file,
+                               qif_of({part.named_features, part.characteristics, part.verdict}));
       InspectionPlan plan = inspection->asked.plan;
       plan.file.clear();
       if (now.plan) {  // the head of the report changes nothing that was measured
@@ -217,7 +212,7 @@ nlohmann::ordered_json Service::Implementation::start_report(CommandArguments& a
                                   .version = "Frangia " + options_.version};
       InspectionReport report = report_of(part, plan, sources, run);
       report.mesh = project.name;
-      write_text(file, html_of(report));
+      write_text_file(file, html_of(report));
     };
     put_export(project, project.name + " report." + format, origin, write, run);
   });

@@ -5,13 +5,12 @@
 #include <string_view>
 #include <vector>
 
-#include <sodium.h>
-
 #include "frangia/cad/read_cad.h"
-#include "frangia/core/atomic_file.h"
+#include "frangia/core/base64.h"
 #include "frangia/core/error.h"
 #include "frangia/core/make_folder.h"
 #include "frangia/core/open_below.h"
+#include "frangia/core/write_text_file.h"
 #include "frangia/dataset/scan_folder.h"
 #include "frangia/files/mesh_formats.h"
 #include "frangia/files/read_mesh.h"
@@ -29,24 +28,12 @@ constexpr std::size_t kMostFileBytes = 512UL * 1024 * 1024;
 
 void put_text(const std::filesystem::path& path, std::string_view text) {
   make_folder(path.parent_path());
-  AtomicFile file(path);
-  file.stream() << text;
-  file.commit();
+  write_text_file(path, text);
 }
 
 /// The bytes of a PNG or JPEG picture in base64.
 std::string thumbnail_of(const std::string& text) {
-  std::string bytes(text.size(), '\0');
-  std::size_t length = 0;
-  const bool decoded = sodium_base642bin(reinterpret_cast<unsigned char*>(bytes.data()),
-                                         bytes.size(),
-                                         text.data(),
-                                         text.size(),
-                                         nullptr,
-                                         &length,
-                                         nullptr,
-                                         sodium_base64_VARIANT_ORIGINAL) == 0;
-  bytes.resize(decoded ? length : 0);
+  std::string bytes = decode_base64(text).value_or("");
   const bool is_picture = bytes.starts_with("\x89PNG\r\n") || bytes.starts_with("\xFF\xD8\xFF");
   require(is_picture && bytes.size() <= kMostThumbnail,
           "picture: is a PNG or JPEG of at most 300 kB, in base64");

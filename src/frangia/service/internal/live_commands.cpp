@@ -32,14 +32,7 @@ CaptureSettings with_arguments(CaptureSettings settings, CommandArguments& argum
 }
 
 LiveSettings live_arguments(LiveSettings settings, CommandArguments& arguments) {
-  static const std::map<std::string, LivePattern> kPatterns = {{"fringes", LivePattern::Fringes},
-                                                               {"white", LivePattern::White},
-                                                               {"dark", LivePattern::Dark}};
-  if (const auto name = arguments.text_if_given("pattern")) {
-    const auto found = kPatterns.find(*name);
-    require(found != kPatterns.end(), "pattern: is fringes, white or dark");
-    settings.pattern = found->second;
-  }
+  settings.pattern = arguments.named_or("pattern", settings.pattern);
   if (const auto angle = arguments.number("table_deg")) settings.table_rad = rad_from_deg(*angle);
   return settings;
 }

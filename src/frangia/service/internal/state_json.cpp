@@ -127,10 +127,8 @@ Json json_of_stations(const std::vector<ProjectStation>& stations) {
 }
 
 Json json_of_live(const LivePreview& live) {
-  static constexpr std::array kPatterns = {"fringes", "white", "dark"};
   const LiveSettings settings = live.settings();
-  return {{"pattern", kPatterns.at(static_cast<std::size_t>(settings.pattern))},
-          {"table_deg", deg_from_rad(settings.table_rad)}};
+  return {{"pattern", name_of(settings.pattern)}, {"table_deg", deg_from_rad(settings.table_rad)}};
 }
 
 Json json_of_capture(const CaptureSettings& settings) {

@@ -7,9 +7,9 @@
 #include <nlohmann/json.hpp>
 
 #include "frangia/core/angles.h"
-#include "frangia/core/atomic_file.h"
 #include "frangia/core/make_folder.h"
 #include "frangia/core/sync_to_disk.h"
+#include "frangia/core/write_text_file.h"
 #include "frangia/files/write_mesh.h"
 #include "frangia/service/encode_arrays.h"
 #include "frangia/service/internal/surface_versions.h"
@@ -62,12 +62,6 @@ std::string summary_of(const Reconstruction& result, const std::vector<std::stri
   return json.dump();
 }
 
-void write_synced(const std::filesystem::path& path, const std::string& bytes) {
-  AtomicFile file(path, Durability::Synced);
-  file.stream() << bytes;
-  file.commit();
-}
-
 }  // namespace
 
 void write_surface_build(const std::filesystem::path& folder,
@@ -76,10 +70,12 @@ void write_surface_build(const std::filesystem::path& folder,
                          const Run& run) {
   write_given_surface(folder, result.mesh, run);
   const VersionFiles files{folder, {}};
-  write_synced(files.summary(), summary_of(result, warnings));
+  write_text_file(files.summary(), summary_of(result, warnings), Durability::Synced);
   if (!result.setup_points.empty()) make_folder(folder / "clouds", Durability::Synced);
   for (std::size_t i = 0; i < result.setup_points.size(); ++i)
-    write_synced(files.setup_cloud(i), encode_points(result.setup_points[i], kPointsOfSetup));
+    write_text_file(files.setup_cloud(i),
+                    encode_points(result.setup_points[i], kPointsOfSetup),
+                    Durability::Synced);
   sync_to_disk(folder);
 }
 

@@ -8,10 +8,10 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "frangia/core/atomic_file.h"
 #include "frangia/core/make_folder.h"
 #include "frangia/core/open_below.h"
 #include "frangia/core/sync_to_disk.h"
+#include "frangia/core/write_text_file.h"
 #include "frangia/editor/edit_script.h"
 
 namespace frangia {
@@ -236,9 +236,7 @@ std::string commit_surface_versions(const ProjectFolder& project, const SurfaceV
               versions.all.back().number <= SurfaceVersions::kMostVersions,
           "this project has been changed too often; begin another one");
   try {
-    AtomicFile file(project.versions(), Durability::Synced);
-    file.stream() << text_of(versions);
-    file.commit();
+    write_text_file(project.versions(), text_of(versions), Durability::Synced);
     return {};
   } catch (...) {
     int found = 0;

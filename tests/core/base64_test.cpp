@@ -1,4 +1,4 @@
-#include "frangia/files/internal/base64.h"
+#include "frangia/core/base64.h"
 
 #include <string>
 #include <utility>

@@ -1,11 +1,11 @@
-#include "frangia/report/html_page.h"
+#include "frangia/page/html_page.h"
 
 #include <algorithm>
-#include <cstdint>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include "frangia/core/base64.h"
 #include "frangia/core/html_escaped.h"
 #include "frangia/frames/encode_picture.h"
 
@@ -48,6 +48,7 @@ figure img,figure svg{width:100%;height:auto;display:block}
 .results .bar{width:13.2%}.results .decision{width:10%}
 .results svg{width:22mm;height:2.75mm;display:block;margin-left:auto}
 .lead{break-after:avoid}
+td.bad{color:#b00020;font-weight:600}
 .small{font-size:8pt;color:#5a6470}
 .labelled{position:relative;width:100%}
 .labelled img{position:absolute;left:16.0377%;top:0;width:67.9245%;height:100%}
@@ -82,23 +83,6 @@ std::string sheet_style(const HtmlPaper& paper) {
       css_string(paper.head),
       css_string(paper.foot),
       kMargin);
-}
-
-std::string base64_text(const std::vector<char>& bytes) {
-  constexpr std::string_view kDigits =
-      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  text.reserve(bytes.size() / 3 * 4 + 4);
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    std::uint32_t block = 0;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const bool has = i + k < bytes.size();
-      block = block << 8U | (has ? static_cast<unsigned char>(bytes[i + k]) : 0U);
-    }
-    for (std::size_t k = 0; k < 4; ++k)
-      text += i + k <= bytes.size() ? kDigits[block >> (18U - 6U * k) & 63U] : '=';
-  }
-  return text;
 }
 
 /// A cell with the class of its decision, so that it is colored.
@@ -187,7 +171,7 @@ std::string HtmlPage::text() const {
 }
 
 std::string data_uri(std::string_view media_type, const std::vector<char>& bytes) {
-  return fmt::format("data:{};base64,{}", media_type, base64_text(bytes));
+  return fmt::format("data:{};base64,{}", media_type, encode_base64({bytes.data(), bytes.size()}));
 }
 
 }  // namespace frangia

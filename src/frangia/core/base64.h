@@ -8,10 +8,12 @@ namespace frangia {
 
 /// Encodes bytes as base64.
 ///
-/// @source   RFC 4648
+/// @source   RFC 4648, section 4
 [[nodiscard]] std::string encode_base64(std::string_view bytes);
 
-/// Decodes base64; nothing when a character is not base64.
+/// Decodes base64, with or without the padding at its end.
+///
+/// @missing  nullopt: a character is not base64
 [[nodiscard]] std::optional<std::string> decode_base64(std::string_view letters);
 
 }  // namespace frangia
