@@ -29,7 +29,6 @@ DurableLog::DurableLog(std::filesystem::path path)
     if (::ftruncate(file_, size) != 0 || ::lseek(file_, size, SEEK_SET) != size) fail(errno);
     if (log.lacks_newline) write("\n");
     lines_ = std::move(log.lines);
-    repaired_ = log.repaired;
     sync_to_disk(folder_of(path_));
   } catch (...) {
     ::close(file_);

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cstddef>
 #include <filesystem>
 #include <mutex>
 #include <string>
@@ -17,12 +16,7 @@ struct LogLine {
 /// A text file that grows by whole lines. Each line ends with its CRC-32, as " crc=1c291ca3", and
 /// is on the disk when `append` returns.
 ///
-/// Opening the file removes an incomplete last line that an interrupted `append` left. A line in
-/// which one bit is wrong is repaired in memory: a CRC-32 locates a single wrong bit in a line of
-/// up to 370 bytes without doubt, because no two valid lines of this length differ in fewer than
-/// five bits.
-/// @source   Koopman 2002, "32-bit cyclic redundancy codes for Internet applications": the Hamming
-///          distance of CRC-32 is 5 up to 2974 bits
+/// Opening the file removes an incomplete last line that an interrupted `append` left.
 /// @errors   Error(File) that names the file, for example when the disk is full
 class DurableLog {
  public:
@@ -36,8 +30,6 @@ class DurableLog {
 
   /// The lines that the file held when it was opened, damaged ones included, in their order.
   [[nodiscard]] const std::vector<LogLine>& lines() const { return lines_; }
-  /// Number of lines that had one wrong bit, or a wrong line end, and were repaired.
-  [[nodiscard]] std::size_t repaired() const { return repaired_; }
   /// Writes a line with its checksum and returns when it is on the disk. Several threads may call
   /// it. `line` must not contain a line end.
   void append(const std::string& line);
@@ -48,7 +40,6 @@ class DurableLog {
 
   std::filesystem::path path_;
   std::vector<LogLine> lines_;
-  std::size_t repaired_ = 0;
   std::mutex mutex_;
   int file_;
 };

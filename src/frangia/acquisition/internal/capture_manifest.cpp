@@ -146,7 +146,7 @@ void CaptureManifest::store(const std::string& file,
                             ManifestFrame frame) {
   frame.checksum = crc32(bytes);
   frame.bytes = bytes.size();
-  write_text_file(path_below(folder_, file), bytes, Durability::Synced);
+  write_text_file(path_below(folder_, file), {bytes.data(), bytes.size()}, Durability::Synced);
   append(file, frame);
 }
 

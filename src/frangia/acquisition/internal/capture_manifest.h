@@ -108,8 +108,6 @@ class CaptureManifest {
 
   /// Number of lines that cannot be read.
   [[nodiscard]] std::size_t damaged_lines() const { return damaged_lines_; }
-  /// Number of lines in which one bit was wrong.
-  [[nodiscard]] std::size_t repaired_lines() const { return log_.repaired(); }
   /// Whether a damaged line may be that of a frame of the set. Lines before the one that rejected
   /// the set do not count.
   [[nodiscard]] bool may_lack_frames_of(const std::string& set) const;

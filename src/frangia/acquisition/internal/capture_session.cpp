@@ -45,8 +45,6 @@ CaptureSession::CaptureSession(Scan plan,
 }
 
 void CaptureSession::check_stored_frames() {
-  if (const std::size_t repaired = manifest_.repaired_lines(); repaired > 0)
-    run_.warn(fmt::format("lines of the manifest with a wrong bit, repaired: {}", repaired));
   if (const std::size_t damaged = manifest_.damaged_lines(); damaged > 0) {
     run_.warn(fmt::format("damaged lines of the manifest: {}, frames recovered from the disk: {}",
                           damaged,

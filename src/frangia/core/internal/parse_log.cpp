@@ -1,7 +1,6 @@
 #include "frangia/core/internal/parse_log.h"
 
-#include <algorithm>
-#include <optional>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -18,61 +17,9 @@ bool is_valid(const std::string& line) {
          with_checksum(line.substr(0, line.size() - kChecksumSize)) == line;
 }
 
-/// The line with its one wrong bit corrected, if that makes it valid.
-std::optional<std::string> repaired_line(std::string line) {
-  constexpr std::size_t kLongest = 370;  // bytes; see DurableLog
-  if (line.size() < kChecksumSize || line.size() > kLongest) return std::nullopt;
-  for (char& letter : line) {
-    const char original = letter;
-    for (unsigned bit = 0; bit < 8U; ++bit) {
-      letter = static_cast<char>(static_cast<unsigned char>(original) ^ (1U << bit));
-      if (is_valid(line)) return line;
-    }
-    letter = original;
-  }
-  return std::nullopt;
+LogLine without_checksum(const std::string& line) {
+  return {line.substr(0, line.size() - kChecksumSize), false};
 }
-
-/// Collects lines and counts the repaired ones.
-class LineCollector {
- public:
-  explicit LineCollector(ParsedLog& log) : log_(log) {}
-
-  /// Accepts the valid lines at the beginning of a piece, which wrong line ends may have joined.
-  /// Returns where the last one ends; 0 without any.
-  std::size_t accept_valid(const std::string& piece) {
-    std::size_t begin = 0;
-    std::size_t end = 0;
-    for (std::size_t key = piece.find(kKey); key != std::string::npos;
-         key = piece.find(kKey, key + 1)) {
-      const std::string line = piece.substr(begin, key + kChecksumSize - begin);
-      if (!is_valid(line)) continue;
-      if (begin > 0) ++log_.repaired;  // the line end between two lines
-      accept(line);
-      end = key + kChecksumSize;
-      begin = end + 1;
-    }
-    return end;
-  }
-
-  /// Accepts a piece of which one bit is wrong.
-  bool accept_repaired(const std::string& piece) {
-    const std::optional<std::string> line = repaired_line(piece);
-    if (!line) return false;
-    accept(*line);
-    ++log_.repaired;
-    return true;
-  }
-
-  void accept_damaged(const std::string& piece) { log_.lines.push_back({piece, true}); }
-
- private:
-  void accept(const std::string& line) {
-    log_.lines.push_back({line.substr(0, line.size() - kChecksumSize), false});
-  }
-
-  ParsedLog& log_;
-};
 
 }  // namespace
 
@@ -82,29 +29,21 @@ std::string with_checksum(const std::string& line) {
 
 ParsedLog parse_log(const std::string& text) {
   ParsedLog log;
-  LineCollector lines(log);
-  std::optional<std::string> held;  // damaged; a wrong bit may have split it from the next piece
   std::size_t begin = 0;
   for (std::size_t end = text.find('\n'); end != std::string::npos; end = text.find('\n', begin)) {
-    const std::string piece = text.substr(begin, end - begin);
+    const std::string line = text.substr(begin, end - begin);
     begin = end + 1;
-    if (held) {
-      const bool joined = lines.accept_repaired(*held + '\n' + piece);
-      if (!joined) lines.accept_damaged(*held);
-      held.reset();
-      if (joined) continue;
-    }
-    const std::size_t valid = lines.accept_valid(piece);
-    if (valid > 0 && valid + 1 >= piece.size()) continue;
-    const std::string rest = piece.substr(valid == 0 ? 0 : valid + 1);
-    if (!lines.accept_repaired(rest)) held = rest;
+    log.lines.push_back(is_valid(line) ? without_checksum(line) : LogLine{line, true});
   }
-  if (held) lines.accept_damaged(*held);
-  // The last line of a file that was cut off, or whose last line end is wrong.
-  const std::size_t valid = lines.accept_valid(text.substr(begin));
-  log.size = begin + valid;
-  log.lacks_newline = valid > 0;
-  if (log.lacks_newline) ++log.repaired;
+  // What follows the last line end was cut off, unless a line lacks nothing but its end.
+  const std::string last = text.substr(begin);
+  const bool damaged_end = last.size() > kChecksumSize && is_valid(last.substr(0, last.size() - 1));
+  log.lacks_newline = is_valid(last) || damaged_end;
+  log.size = begin;
+  if (!log.lacks_newline) return log;
+  const std::string line = damaged_end ? last.substr(0, last.size() - 1) : last;
+  log.lines.push_back(without_checksum(line));
+  log.size += line.size();
   return log;
 }
 
