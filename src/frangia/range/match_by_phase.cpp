@@ -6,14 +6,124 @@
 #include <limits>
 #include <vector>
 
+#include <Eigen/Geometry>
+
 #include "frangia/core/error.h"
+#include "frangia/core/image.h"
 #include "frangia/core/missing.h"
 #include "frangia/core/parallel.h"
-#include "frangia/range/internal/epipolar_rows.h"
+#include "frangia/range/camera_phases.h"
 #include "frangia/range/internal/phase_sample.h"
 
 namespace frangia {
 namespace {
+
+/// The epipolar planes of two cameras. A direction has the angle of its plane about the baseline
+/// and its cotangent to the baseline. A point at the distance r from the baseline has cotangents
+/// in both cameras that differ by `baseline_mm` / r.
+///
+/// Unlike rectification to a common image plane, this holds for cameras in any position, one above
+/// or behind the other too.
+struct EpipolarPlanes {
+  /// In the frame of the first camera: along the baseline to the second camera; towards the field;
+  /// and perpendicular to both.
+  Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();  ///< rows: along, forward, across
+  double baseline_mm = 0.0;                            ///< distance of the centres
+
+  /// Plane angle, rad, and cotangent of a direction in the frame of the first camera.
+  [[nodiscard]] Eigen::Vector2d coordinates_of(const Eigen::Vector3d& direction) const;
+};
+
+/// The phase of one camera on the epipolar planes: a row for each plane, a column for each
+/// cotangent.
+struct EpipolarRows {
+  Image<float> phase_rad;    ///< NaN: not measured
+  double first_angle = 0.0;  ///< of row 0, rad
+  double first_cot = 0.0;    ///< of column 0
+  double step = 0.0;         ///< of both, about the angle of a pixel
+  float jump_rad = 0.0F;     ///< neighbours that differ by more belong to two surfaces
+
+  /// The row of a plane angle, or null.
+  [[nodiscard]] const float* row_at(double angle) const;
+};
+
+/// Directions nearer to the baseline have no useful parallax.
+constexpr double kMaxCot = 10.0;
+
+Eigen::Vector2d EpipolarPlanes::coordinates_of(const Eigen::Vector3d& direction) const {
+  const Eigen::Vector3d along = axes * direction;
+  return {std::atan2(along.z(), along.y()), along.x() / std::hypot(along.y(), along.z())};
+}
+
+/// Returns the epipolar planes of two cameras.
+///
+/// @errors   Error(Input) when both have the same centre
+EpipolarPlanes epipolar_planes(const Eigen::Isometry3d& second_from_first) {
+  EpipolarPlanes out;
+  const Eigen::Vector3d center = second_from_first.inverse().translation();
+  out.baseline_mm = center.norm();
+  require(out.baseline_mm > 0.0, "two cameras have the same centre; correct their positions");
+  const Eigen::Vector3d along = center / out.baseline_mm;
+  const Eigen::Vector3d middle =
+      Eigen::Vector3d::UnitZ() + second_from_first.linear().row(2).transpose();
+  Eigen::Vector3d forward = middle - along * along.dot(middle);
+  constexpr double kLeast = 1e-6;
+  forward =
+      forward.norm() > kLeast ? Eigen::Vector3d(forward.normalized()) : along.unitOrthogonal();
+  out.axes << along.transpose(), forward.transpose(), along.cross(forward).transpose();
+  return out;
+}
+
+const float* EpipolarRows::row_at(double angle) const {
+  const double row = std::round((angle - first_angle) / step);
+  return row >= 0.0 && row < phase_rad.height() ? &phase_rad(0, static_cast<int>(row)) : nullptr;
+}
+
+/// Resamples the first direction's phase of a camera on epipolar planes.
+///
+/// @missing  without rows when no pixel has a phase
+EpipolarRows epipolar_rows(const CameraPhases& camera,
+                           const Eigen::Isometry3d& camera_from_first,
+                           const EpipolarPlanes& planes,
+                           const PhaseSampler& sampler) {
+  const CameraModel& model = camera.rig.reference().model;
+  const Eigen::Matrix3d camera_from_planes = camera_from_first.linear() * planes.axes.transpose();
+  const Image<float>& phase = camera.phases.front()->phase_rad;
+  Eigen::Array2d low = Eigen::Array2d::Constant(std::numeric_limits<double>::infinity());
+  Eigen::Array2d high = -low;
+  for (int y = 0; y < phase.height(); ++y) {
+    for (int x = 0; x < phase.width(); ++x) {
+      if (std::isnan(phase(x, y))) continue;
+      const Eigen::Vector3d ray = camera.rays(x, y).cast<double>().homogeneous();
+      const Eigen::Array2d at =
+          planes.coordinates_of(camera_from_first.linear().transpose() * ray).array();
+      if (!(std::abs(at.y()) < kMaxCot)) continue;
+      low = low.min(at);
+      high = high.max(at);
+    }
+  }
+  EpipolarRows out;
+  if (!(low.x() <= high.x())) return out;
+  // A side of the map has at most as many steps as four of the image's longer sides.
+  const double longer = std::max(model.width_px, model.height_px);
+  out.step = std::max(1.0 / model.focal_px.maxCoeff(), (high - low).maxCoeff() / (4.0 * longer));
+  out.first_angle = low.x();
+  out.first_cot = low.y();
+  out.jump_rad = static_cast<float>(sampler.jump_rad());
+  const auto steps = [&](int i) { return static_cast<int>((high[i] - low[i]) / out.step) + 2; };
+  out.phase_rad = Image<float>(steps(1), steps(0), kMissing);
+  parallel_rows(out.phase_rad.height(), [&](int row) {
+    const double angle = out.first_angle + row * out.step;
+    for (int column = 0; column < out.phase_rad.width(); ++column) {
+      const Eigen::Vector3d direction(
+          out.first_cot + column * out.step, std::cos(angle), std::sin(angle));
+      const Eigen::Vector3d seen = camera_from_planes * direction;
+      if (!(seen.z() > 0.0)) continue;
+      out.phase_rad(column, row) = static_cast<float>(sampler.at(model.project(seen)).phase_rad);
+    }
+  });
+  return out;
+}
 
 /// Crossings at fewer columns from each other are one, which noise has split.
 constexpr int kSameColumns = 3;
