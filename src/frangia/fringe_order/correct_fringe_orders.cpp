@@ -13,6 +13,24 @@
 namespace frangia {
 namespace {
 
+/// Maximum number of passes over all views.
+constexpr int kPasses = 2;
+
+/// Minimum share of free-space violations of a removed patch.
+constexpr double kMinViolations = 0.5;
+
+/// Side of the patches around corrected ones.
+constexpr int kRefinedPatch_px = 3;
+
+/// Patches that a view is divided into, across.
+constexpr int kPatchesAcross = 32;
+
+/// Maximum share that agrees with the present order.
+constexpr double kMaxCurrentAgreement = 0.1;
+
+/// The same for a patch that other views do not contradict because it lies behind their surface.
+constexpr double kMinAgreementHidden = 0.75;
+
 struct Patch {
   FringePixels pixels;
   std::vector<FringeOrderCandidate> candidates;
@@ -83,22 +101,22 @@ int order_correction(const Patch& patch, const FringeOrderCorrectionOptions& opt
   }
   if (current == nullptr || best == nullptr) return 0;
   const auto points = static_cast<double>(best->points_mm.size());
-  if (current->agree > options.max_current_agreement * points) return 0;
+  if (current->agree > kMaxCurrentAgreement * points) return 0;
   // A patch that other views see through is certainly wrong, and the lower agreement suffices. A
   // patch hidden behind their surface is not contradicted and needs the higher one.
   const bool contradicted = current->violations + current->unseen >= points;
-  const double wanted = contradicted ? options.min_agreement : options.min_agreement_hidden;
+  const double wanted = contradicted ? options.min_agreement : kMinAgreementHidden;
   if (best->score() < wanted * points || second > options.max_runner_up * best->score()) return 0;
   return best->order;
 }
 
 /// Whether the patch violates the free space of other views and no view confirms it.
-bool violates_free_space(const Patch& patch, const FringeOrderCorrectionOptions& options) {
+bool violates_free_space(const Patch& patch) {
   for (const FringeOrderCandidate& candidate : patch.candidates) {
     if (candidate.order != 0) continue;
     const auto points = static_cast<double>(candidate.points_mm.size());
-    return candidate.agree <= options.max_current_agreement * points &&
-           candidate.violations >= options.min_violations * points;
+    return candidate.agree <= kMaxCurrentAgreement * points &&
+           candidate.violations >= kMinViolations * points;
   }
   return false;
 }
@@ -168,7 +186,7 @@ std::size_t correct_view(ViewStore& views,
   if (view.range.phase_rad.empty()) return 0;
   const int width = view.range.phase_rad.width();
   const int height = view.range.phase_rad.height();
-  const int side = std::max(options.refined_patch_px + 1, width / options.patches_across);
+  const int side = std::max(kRefinedPatch_px + 1, width / kPatchesAcross);
   const Image<std::uint8_t> everywhere(width, height, 1);
   auto patches = patches_of(view, side, options.min_patch_px, everywhere);
   compare_with_others(views, own, comparison, patches);
@@ -176,11 +194,11 @@ std::size_t correct_view(ViewStore& views,
   if (corrected.empty()) return 0;
   // Patches around the corrected ones hold pixels of both orders: repeat with smaller patches.
   const auto border = around(corrected, width, height, side);
-  auto refined = patches_of(view, options.refined_patch_px, options.min_patch_px, border);
+  auto refined = patches_of(view, kRefinedPatch_px, options.min_patch_px, border);
   compare_with_others(views, own, comparison, refined);
   const auto corrected_too = correct_patches(refined, comparison, options, view);
   for (const Patch& patch : refined) {
-    if (order_correction(patch, options) != 0 || !violates_free_space(patch, options)) continue;
+    if (order_correction(patch, options) != 0 || !violates_free_space(patch)) continue;
     for (const std::uint32_t pixel : patch.pixels.pixel)
       view.range.remove(static_cast<int>(pixel) % width, static_cast<int>(pixel) / width);
   }
@@ -200,7 +218,7 @@ std::size_t correct_fringe_orders(ViewStore& views,
   const FringeComparison comparison{optics, options.tolerance, options.max_samples};
   std::size_t corrected = 0;
   // Each view is compared with already corrected ones; the second pass does so for the first views.
-  for (int pass = 0; pass < options.passes; ++pass) {
+  for (int pass = 0; pass < kPasses; ++pass) {
     const std::size_t before = corrected;
     for (std::size_t own = 0; own < views.size(); ++own) {
       run.check();

@@ -11,18 +11,11 @@ namespace frangia {
 
 /// All shares refer to a patch's compared points.
 struct FringeOrderCorrectionOptions {
-  int patches_across = 32;       ///< patches that a view is divided into, across
-  int refined_patch_px = 3;      ///< side of the patches around corrected ones
   std::size_t min_patch_px = 4;  ///< patches with fewer measured pixels are left unchanged
   int max_samples = 48;          ///< maximum number of compared points of a patch
   double min_agreement = 0.5;    ///< minimum score of the corrected order
-  /// The same for a patch that other views do not contradict because it lies behind their surface.
-  double min_agreement_hidden = 0.75;
-  double max_current_agreement = 0.1;  ///< maximum share that agrees with the present order
-  double max_runner_up = 0.5;   ///< maximum score of the second best order, per score of the best
-  double min_violations = 0.5;  ///< minimum share of free-space violations of a removed patch
-  double tolerance = 0.06;      ///< distance that counts as agreement, per fringe spacing in depth
-  int passes = 2;               ///< maximum number of passes over all views
+  double max_runner_up = 0.5;    ///< maximum score of the second best order, per score of the best
+  double tolerance = 0.06;       ///< distance that counts as agreement, per fringe spacing in depth
   /// Criteria of the mixed pixels that are removed from a corrected view. `reconstruct` replaces
   /// them by those of its own options.
   MixedPixelOptions mixed_pixels{};

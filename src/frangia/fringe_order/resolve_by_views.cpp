@@ -10,6 +10,9 @@
 namespace frangia {
 namespace {
 
+/// Smaller regions are removed without a comparison.
+constexpr std::size_t kMinRegion_px = 30;
+
 struct RegionCandidates {
   const UnresolvedViewRegion* unresolved = nullptr;
   std::vector<FringeOrderCandidate> candidates;
@@ -108,7 +111,7 @@ ResolveByViewsResult resolve_by_views(ViewStore& views,
   std::vector<RegionCandidates> regions;
   for (const UnresolvedViewRegion& one : unresolved) {
     result.removed_points += one.region.pixel.size();
-    if (one.region.pixel.size() < options.min_region_px) continue;
+    if (one.region.pixel.size() < kMinRegion_px) continue;
     const FringePixels pixels{one.region.pixel, one.region.phase_rad};
     regions.push_back(
         {&one, fringe_order_candidates(pixels, views.rig_from_object(one.view), comparison)});

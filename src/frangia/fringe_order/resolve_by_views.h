@@ -18,11 +18,10 @@ struct UnresolvedViewRegion {
 
 /// Criteria for the fringe order that other views confirm.
 struct ResolveByViewsOptions {
-  std::size_t min_region_px = 30;  ///< smaller regions are removed without a comparison
-  int max_samples = 400;           ///< maximum number of compared points of a region
-  double tolerance = 0.06;         ///< distance that counts as agreement, per fringe spacing
-  double min_agreement = 0.15;     ///< minimum score of the best order, per compared point
-  double max_runner_up = 0.5;      ///< maximum score of the second best order, per best score
+  int max_samples = 400;        ///< maximum number of compared points of a region
+  double tolerance = 0.06;      ///< distance that counts as agreement, per fringe spacing
+  double min_agreement = 0.15;  ///< minimum score of the best order, per compared point
+  double max_runner_up = 0.5;   ///< maximum score of the second best order, per best score
 };
 
 /// Numbers of points whose fringe order other views decided.

@@ -16,6 +16,12 @@
 namespace frangia {
 namespace {
 
+/// Minimum number of laser line points on a region.
+constexpr int kMinCrossings = 3;
+
+/// Maximum median distance from that order, in fringes.
+constexpr double kMaxDeparture = 0.25;
+
 /// The order to add to each region, where known.
 using Orders = std::vector<std::optional<int>>;
 
@@ -109,7 +115,7 @@ std::optional<LaserCrossing> crossing_of(const RelativePhase& phase,
 }
 
 std::optional<int> vote(const std::vector<double>& fringes, const FringeOrderOptions& options) {
-  if (fringes.size() < static_cast<std::size_t>(options.min_crossings)) return {};
+  if (fringes.size() < static_cast<std::size_t>(kMinCrossings)) return {};
   std::map<int, int> votes;
   for (const double value : fringes)
     ++votes[static_cast<int>(std::lround(value))];
@@ -119,7 +125,7 @@ std::optional<int> vote(const std::vector<double>& fringes, const FringeOrderOpt
   std::vector<double> departures;
   for (const double value : fringes)
     departures.push_back(std::abs(value - winner->first));
-  if (median_in_place(std::span<double>(departures)) > options.max_departure) return {};
+  if (median_in_place(std::span<double>(departures)) > kMaxDeparture) return {};
   return winner->first;
 }
 

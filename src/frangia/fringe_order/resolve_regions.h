@@ -19,9 +19,7 @@ struct UnresolvedRegion {
 
 /// Criteria for the fringe order that the laser sheet gives a region.
 struct FringeOrderOptions {
-  int min_crossings = 3;        ///< minimum number of laser line points on a region
-  double min_agreement = 0.7;   ///< minimum share of these points that vote for the same order
-  double max_departure = 0.25;  ///< maximum median distance from that order, in fringes
+  double min_agreement = 0.7;  ///< minimum share of these points that vote for the same order
 };
 
 /// The absolute phase and the regions whose fringe order remains unknown.

@@ -15,6 +15,18 @@
 namespace frangia {
 namespace {
 
+/// A view sees a vertex if the depths of the pixels around it differ by less than this many pixel
+/// sizes along the surface, plus as many standard deviations.
+constexpr double kMaxDistance_px = 3.0;
+
+/// Distance from the edge of the measured area over which the weight of a view rises from 0, so
+/// that no seam shows where a view ends; px.
+constexpr int kRamp_px = 24;
+
+/// Cosine of the largest angle between a vertex normal and the ray to the camera: pixels that see
+/// the surface at a steeper angle are stretched over many vertices.
+constexpr double kMinCosine = 0.1;
+
 using Eigen::Vector3d;
 using Eigen::Vector4f;
 
@@ -72,13 +84,11 @@ std::array<float, 256> lights_of_screen_values() {
 /// One view with what blending needs of it.
 class ColoredView {
  public:
-  ColoredView(View view, const CameraModel& camera, const ColorOptions& options)
+  ColoredView(View view, const CameraModel& camera)
       : view_(std::move(view)),
         camera_(camera),
-        options_(options),
         pixel_size_(1.0 / camera.focal_px.mean()),
-        steps_(steps_from_edge(
-            view_.range.depth_mm, static_cast<float>(pixel_size_), options.ramp_px)) {}
+        steps_(steps_from_edge(view_.range.depth_mm, static_cast<float>(pixel_size_), kRamp_px)) {}
 
   /// Weighted light and weight with which the view contributes to a vertex; zero if it does not see
   /// it.
@@ -86,7 +96,7 @@ class ColoredView {
     const Vector3d p = view_.rig_from_object * vertex_mm;
     if (!(p.z() > 0.0)) return Vector4f::Zero();
     const double cosine = -(view_.rig_from_object.linear() * normal).dot(p.normalized());
-    if (!(cosine > options_.min_cosine)) return Vector4f::Zero();
+    if (!(cosine > kMinCosine)) return Vector4f::Zero();
     const Eigen::Vector2d pixel = camera_.project(p);
     const bool inside = pixel.x() >= 0.0 && pixel.y() >= 0.0 &&
                         pixel.x() < view_.color.width() - 1.0 &&
@@ -98,8 +108,7 @@ class ColoredView {
     const auto fy = static_cast<float>(pixel.y() - y);
     const std::array<float, 4> shares{
         (1.0F - fx) * (1.0F - fy), fx * (1.0F - fy), (1.0F - fx) * fy, fx * fy};
-    const auto allowed =
-        static_cast<float>(options_.max_distance_px * pixel_size_ * p.z() / cosine);
+    const auto allowed = static_cast<float>(kMaxDistance_px * pixel_size_ * p.z() / cosine);
     Vector4f sum = Vector4f::Zero();
     float ramp = 0.0F;
     for (int i = 0; i < 4; ++i) {
@@ -107,7 +116,7 @@ class ColoredView {
       const int row = y + (i >> 1);
       const float sigma = view_.range.sigma_mm(column, row);
       const float away = std::abs(view_.range.depth_mm(column, row) - static_cast<float>(p.z()));
-      if (!(away <= allowed + static_cast<float>(options_.max_distance_px) * sigma))
+      if (!(away <= allowed + static_cast<float>(kMaxDistance_px) * sigma))
         return Vector4f::Zero();  // also where the pixel has no point
       const float share = shares.at(static_cast<std::size_t>(i));
       sum += share * light_at(column, row);
@@ -127,7 +136,6 @@ class ColoredView {
 
   View view_;
   const CameraModel& camera_;
-  const ColorOptions& options_;
   double pixel_size_;  ///< at unit distance
   Image<std::uint8_t> steps_;
 };
@@ -168,13 +176,12 @@ void add_views(std::vector<Vector4f>& sums,
                const Mesh& mesh,
                const std::vector<Eigen::Vector3f>& normals,
                const CameraViews& all,
-               const ColorOptions& options,
                const Run& run) {
   for (std::size_t i = 0; i < all.views.size(); ++i) {
     run.check();
     View points = all.views.load_colored_points(i);
     if (points.color.empty()) continue;
-    const ColoredView view(std::move(points), all.camera, options);
+    const ColoredView view(std::move(points), all.camera);
     parallel_chunks(sums.size(), kVerticesPerChunk, [&](std::size_t begin, std::size_t end) {
       for (std::size_t v = begin; v < end; ++v)
         sums[v] += view.sample(mesh.vertices_mm[v].cast<double>(), normals[v].cast<double>());
@@ -184,17 +191,14 @@ void add_views(std::vector<Vector4f>& sums,
 
 }  // namespace
 
-void color_vertices(Mesh& mesh,
-                    std::span<const CameraViews> cameras,
-                    const Run& run,
-                    const ColorOptions& options) {
+void color_vertices(Mesh& mesh, std::span<const CameraViews> cameras, const Run& run) {
   const bool has_color = std::any_of(
       cameras.begin(), cameras.end(), [](const CameraViews& all) { return all.views.has_color(); });
   if (!has_color || mesh.vertices_mm.empty()) return;
   const std::vector<Eigen::Vector3f> normals = vertex_normals(mesh);
   std::vector<Vector4f> sums(mesh.vertices_mm.size(), Vector4f::Zero());
   for (const CameraViews& all : cameras)
-    add_views(sums, mesh, normals, all, options, run);
+    add_views(sums, mesh, normals, all, run);
   spread(mesh, sums);
   mesh.colors.assign(sums.size(), kUnknownColor);
   parallel_chunks(sums.size(), kVerticesPerChunk, [&](std::size_t begin, std::size_t end) {
@@ -208,13 +212,9 @@ void color_vertices(Mesh& mesh,
   });
 }
 
-void color_vertices(Mesh& mesh,
-                    const ViewStore& views,
-                    const CameraModel& camera,
-                    const Run& run,
-                    const ColorOptions& options) {
+void color_vertices(Mesh& mesh, const ViewStore& views, const CameraModel& camera, const Run& run) {
   const std::array<CameraViews, 1> one{{{views, camera}}};
-  color_vertices(mesh, one, run, options);
+  color_vertices(mesh, one, run);
 }
 
 }  // namespace frangia

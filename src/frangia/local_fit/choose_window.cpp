@@ -9,6 +9,18 @@
 namespace frangia {
 namespace {
 
+/// Distance of a pixel from its plane.
+constexpr float kMaxOffSigmas = 4.0F;
+
+/// Of a shifted window's variance to the centered one's.
+constexpr float kMaxShiftedRatio = 0.5F;
+
+/// Of a quadratic with noisy residuals: 3 times the known noise.
+constexpr float kMaxNoisyRatio = 9.0F;
+
+/// Of a quadratic: the surface is curved.
+constexpr float kMaxCurvedRatio = 1.3F;
+
 const ChosenWindow kNoWindow{kNoFit, WindowKind::None, kMissing, kMissing};
 
 /// The fit over the 3 x 3 pixels around (x, y); NaN as in `fit_windows`.
@@ -72,9 +84,9 @@ ChosenWindow curved_window(const Image<float>& image,
                            const WindowChoiceOptions& options) {
   const float expected = noise.variance(patch.window);
   const float residual_variance = patch.window.residual_variance;
-  const float max_ratio = noisy ? options.max_noisy_ratio : options.max_curved_ratio;
+  const float max_ratio = noisy ? kMaxNoisyRatio : kMaxCurvedRatio;
   if (!(residual_variance < max_ratio * expected)) return kNoWindow;  // also for NaN
-  const bool quiet = residual_variance < options.max_curved_ratio * expected;
+  const bool quiet = residual_variance < kMaxCurvedRatio * expected;
   if (!(noisy && quiet) &&
       !(residual_autocorrelation(image, at, patch.window) < options.max_autocorrelation))
     return kNoWindow;
@@ -100,7 +112,7 @@ ChosenWindow choose_window(const Image<float>& image,
   };
   const auto near = [&](const WindowFit& fit) {
     const float off = fit.mean - image(at.x(), at.y());
-    return off * off < options.max_off_sigmas * options.max_off_sigmas * noise.variance(fit);
+    return off * off < kMaxOffSigmas * kMaxOffSigmas * noise.variance(fit);
   };
   const WindowFit centered = fits.at(at.x(), at.y());
   const auto patch = [&]() -> QuadraticFit {
@@ -118,8 +130,8 @@ ChosenWindow choose_window(const Image<float>& image,
   }
   const WindowFit close = small_fit(image, at.x(), at.y());
   if (good(close)) return centered_on(close, 1);
-  const WindowFit large = best_window(
-      at, fits.radius, options.max_shifted_ratio, [&](int x, int y) { return fits.at(x, y); });
+  const WindowFit large =
+      best_window(at, fits.radius, kMaxShiftedRatio, [&](int x, int y) { return fits.at(x, y); });
   // Without a flat window to any side there is no edge: the surface is curved, or noisy.
   if (std::isnan(centered.mean) || !good(large)) {
     const ChosenWindow curved = curved_window(image, at, noise, patch(), true, options);
@@ -131,8 +143,8 @@ ChosenWindow choose_window(const Image<float>& image,
             large.mean,
             corner_variance(fits.radius) * noise.variance(large)};
   }
-  const WindowFit small = best_window(
-      at, 1, options.max_shifted_ratio, [&](int x, int y) { return small_fit(image, x, y); });
+  const WindowFit small =
+      best_window(at, 1, kMaxShiftedRatio, [&](int x, int y) { return small_fit(image, x, y); });
   if (near(small)) return {small, WindowKind::Small, image(at.x(), at.y()), noise.variance(small)};
   return kNoWindow;
 }

@@ -57,13 +57,9 @@ struct ChosenWindow {
 /// (`frangia inspect shaft.ply --reference shaft-scan/truth.ply`: 0.036 mm) by -2 % to +7 %; the
 /// most sensitive one is `max_flat_ratio`.
 struct WindowChoiceOptions {
-  float max_flat_ratio = 2.0F;    ///< of a plane: the window counts as flat
-  float max_curved_ratio = 1.3F;  ///< of a quadratic: the surface is curved
-  float max_noisy_ratio = 9.0F;   ///< of a quadratic with noisy residuals: 3 times the known noise
+  float max_flat_ratio = 2.0F;  ///< of a plane: the window counts as flat
   /// Maximum autocorrelation of residuals that count as noise. That of noise is negative.
   float max_autocorrelation = 0.0F;
-  float max_shifted_ratio = 0.5F;  ///< of a shifted window's variance to the centered one's
-  float max_off_sigmas = 4.0F;     ///< distance of a pixel from its plane
 };
 
 /// Chooses the window whose plane follows the image at a pixel without smoothing across an edge.

@@ -193,9 +193,6 @@ struct LocalPlanes {
 struct WideningOptions {
   /// Maximum residual variance of the wide quadratic, per pixel variance: pixels differ in noise.
   float max_residual_ratio = 2.5F;
-  /// Maximum change of the pixel's value, per standard deviation of its noise: about 2.5 standard
-  /// deviations of the difference between both fits.
-  float max_change = 0.7F;
   float max_autocorrelation = 0.05F;  ///< of the residuals; that of noise is negative
 };
 
@@ -208,9 +205,6 @@ struct LocalPlanesOptions {
   bool widen = false;           ///< smooth over 7 x 7 pixels where the residuals are noise
   WideningOptions widening;     ///< criteria for `widen`
   WindowChoiceOptions windows;  ///< choice of the window around a pixel
-  /// Variance of a pixel next to an edge, per variance that its fit predicts: neither slope nor
-  /// position are as accurate there as in the middle of a face.
-  float off_center_variance_factor = 9.0F;
 };
 
 /// Fits the local plane at each pixel by least squares over a square window.

@@ -13,9 +13,6 @@ struct RemeshOptions {
   double edge_mm = 1.0;                    ///< target length of all edges
   int iterations = 3;                      ///< of splitting, collapsing, flipping and relaxing
   double crease_rad = rad_from_deg(40.0);  ///< edges with a larger dihedral angle stay in place
-  /// Limit of the estimated number of triangles. Remeshing takes about 0.6 kB of memory per
-  /// triangle (`frangia edit sphere.ply --remesh`, 2 million triangles, /usr/bin/time -v).
-  std::size_t max_triangles = 10'000'000;
 };
 
 /// Remeshes a surface into nearly equilateral triangles of one size.

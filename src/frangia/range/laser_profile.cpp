@@ -12,6 +12,18 @@
 namespace frangia {
 namespace {
 
+/// Maximum number of saturated pixels of a peak.
+constexpr int kMaxSaturated_px = 3;
+
+/// Minimum height of the brighter neighbour, per peak height.
+constexpr double kMinNeighbor = 0.1;
+
+/// Added to the minimum height: quantization of dark frames.
+constexpr double kMinHeight_counts = 2.0;
+
+/// Minimum height of a peak above its base, in sigmas of camera noise.
+constexpr double kLaserProfileMinSigmas = 6.0;
+
 struct Peak {
   double center_px;
   double sigma_px;
@@ -119,15 +131,15 @@ std::vector<Peak> peaks_of(const std::vector<double>& counts,
     const auto last = begin + static_cast<std::ptrdiff_t>(std::min(counts.size(), i + reach + 1));
     if (*std::max_element(first, last) > counts[i]) continue;
     const auto saturated = std::count_if(first, last, [&](double c) { return c >= white_level; });
-    if (saturated > options.max_saturated_px) continue;
+    if (saturated > kMaxSaturated_px) continue;
     // The base is the brighter side: the other may be the background beyond the object's edge.
     const double base = std::max(*std::min_element(first, here), *std::min_element(here + 1, last));
     const double height = counts[i] - base;
-    const double noise_height = options.min_sigmas * std::sqrt(noise.variance(counts[i]));
-    if (height < noise_height + options.min_height_counts) continue;
+    const double noise_height = kLaserProfileMinSigmas * std::sqrt(noise.variance(counts[i]));
+    if (height < noise_height + kMinHeight_counts) continue;
     if (height < least_height) continue;
     // A laser line covers at least two pixels; a hot pixel is single.
-    if (std::max(counts[i - 1], counts[i + 1]) < base + options.min_neighbor * height) continue;
+    if (std::max(counts[i - 1], counts[i + 1]) < base + kMinNeighbor * height) continue;
     peaks.push_back(center_of(counts, i, base, noise, options));
   }
   return peaks;

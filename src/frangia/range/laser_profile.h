@@ -19,13 +19,9 @@ struct ProfilePoint {
 
 /// Criteria that a peak must meet to be the laser line.
 struct LaserProfileOptions {
-  double min_sigmas = 6.0;  ///< minimum height of a peak above its base, in sigmas of camera noise
   double min_contrast = 0.5;  ///< minimum height of a peak, as a share of the object's stray light
   int half_width_px = 12;     ///< maximum distance of a peak's pixels from its brightest one
   double threshold = 0.2;     ///< share of a peak's height; pixels below do not enter its centre
-  double min_height_counts = 2.0;  ///< added to the minimum height: quantization of dark frames
-  double min_neighbor = 0.1;       ///< minimum height of the brighter neighbour, per peak height
-  int max_saturated_px = 3;        ///< maximum number of saturated pixels of a peak
 };
 
 /// Locates the laser line in each row to sub-pixel accuracy and triangulates it with the laser

@@ -19,6 +19,13 @@
 namespace frangia {
 namespace {
 
+/// Root mean square of the residuals, as a share of the range of the light, above which the views
+/// contradict each other.
+constexpr double kMaxLightShare = 0.004;
+
+/// Above it the poses of a screen contradict each other.
+constexpr double kMaxCameraRms_px = 2.0;
+
 template <typename Kind>
 bool is_kind(const Scan& scan) {
   return scan.artifact && std::holds_alternative<Kind>(*scan.artifact);
@@ -37,7 +44,7 @@ CameraSolution camera_from_screens(std::span<const Scan> scans,
     const auto& b = std::get<Screen>(*scan.artifact);
     require(a.pixel_mm == b.pixel_mm && a.width_px == b.width_px && a.height_px == b.height_px,
             "the scans of a screen state two sizes; calibrate with one screen");
-    std::vector<ScreenView> more = measure_screen(scan, options, run);
+    std::vector<ScreenView> more = measure_screen(scan, run);
     std::move(more.begin(), more.end(), std::back_inserter(views));
   }
   const CameraModel& model = first->rig.reference().model;
@@ -47,7 +54,7 @@ CameraSolution camera_from_screens(std::span<const Scan> scans,
                                          model.height_px,
                                          options.camera,
                                          run);
-  if (!(solution.residuals.rms_px <= options.max_camera_rms_px)) {
+  if (!(solution.residuals.rms_px <= kMaxCameraRms_px)) {
     throw Error(ErrorKind::Input,
                 fmt::format("{}: the poses of the screen contradict each other: the camera's "
                             "reprojection error is {:.1f} px; check board.size_px, period_px and "
@@ -251,7 +258,7 @@ void calibrate_table(std::span<const Scan> scans,
     calibrate_by_balls(scans, options, run, result);
   result.rig = result.table->rig;
   result.light_range = light_range_of(result.captures);
-  if (result.table->light_rms > options.max_light_share * result.light_range) {
+  if (result.table->light_rms > kMaxLightShare * result.light_range) {
     throw Error(ErrorKind::Input,
                 fmt::format("the views contradict each other: the phases deviate by {:.2g} % of "
                             "their range from plates and balls that turn with the table; check "

@@ -20,15 +20,7 @@ struct CalibrateArtifactsOptions {
   RigSolveOptions camera;      ///< of the camera before a screen
   ArtifactSolveOptions solve;  ///< of projector and turntable
   FindBallsOptions balls;      ///< search for balls
-  int screen_sites = 40;       ///< along the longer side of the image
-  int plate_sites = 64;        ///< likewise, on plates
-  int ball_sites = 128;        ///< likewise, on balls
-  /// Share of the sites that move with the table that must lie on one plane.
-  double min_plate_share = 0.3;
-  double max_camera_rms_px = 2.0;  ///< above it the poses of a screen contradict each other
-  /// Root mean square of the residuals, as a share of the range of the light, above which the views
-  /// contradict each other.
-  double max_light_share = 0.004;
+  int plate_sites = 64;        ///< on plates, along the longer side of the image
 };
 
 /// A rig calibrated by artifacts.

@@ -12,6 +12,9 @@
 namespace frangia {
 namespace {
 
+/// Relative; a rig of unknown scale measures another radius.
+constexpr double kRadiusError = 0.25;
+
 /// The sphere through four points; none where they lie in a plane.
 std::optional<Sphere> sphere_through(const std::array<Eigen::Vector3d, 4>& points) {
   Eigen::Matrix3d across;
@@ -63,7 +66,7 @@ std::optional<FoundBall> best_ball(std::span<const Eigen::Vector3d> points,
     if (chosen < set.size()) continue;
     const auto sphere = sphere_through(set);
     // The far side of a ball is not seen: its center is behind the points.
-    if (!sphere || std::abs(sphere->radius_mm / radius_mm - 1.0) > options.radius_error ||
+    if (!sphere || std::abs(sphere->radius_mm / radius_mm - 1.0) > kRadiusError ||
         sphere->center_mm.norm() < first.norm())
       continue;
     std::vector<std::size_t> found =
@@ -79,7 +82,7 @@ std::optional<FoundBall> best_ball(std::span<const Eigen::Vector3d> points,
     best.points = on_sphere(points, open, best.sphere, options.tolerance * best.sphere.radius_mm);
   }
   if (best.points.size() < options.min_points ||
-      std::abs(best.sphere.radius_mm / radius_mm - 1.0) > options.radius_error)
+      std::abs(best.sphere.radius_mm / radius_mm - 1.0) > kRadiusError)
     return std::nullopt;
   return best;
 }

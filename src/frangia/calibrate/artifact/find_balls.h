@@ -12,7 +12,6 @@ namespace frangia {
 
 /// Limits of `find_balls`.
 struct FindBallsOptions {
-  double radius_error = 0.25;   ///< relative; a rig of unknown scale measures another radius
   double tolerance = 0.02;      ///< distance from the sphere, as a share of its radius
   std::size_t min_points = 60;  ///< on one ball
   int tries = 4000;             ///< random sets of four points

@@ -46,8 +46,6 @@ struct ArtifactSolveOptions {
   /// Standard deviation of the table's angles to begin with; it is then estimated. Rotary stages
   /// have 0.01 to 0.1 degrees.
   double angle_sigma_rad = 1e-3;
-  /// Relative standard deviation of a stated diameter: a matting spray adds 10 um to 40 mm.
-  double diameter_sigma = 5e-4;
   int max_iterations = 200;  ///< of the solver, for each round
 };
 

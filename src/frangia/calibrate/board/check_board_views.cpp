@@ -18,6 +18,30 @@
 namespace frangia {
 namespace {
 
+/// Share of a board's points with projector coordinates.
+constexpr double kMinLit = 0.5;
+
+/// Median distance of the projector pixels from a homography of the board above which the phases of
+/// a pose are wrong; distortion causes 2 px.
+constexpr double kMaxPlane_px = 6.0;
+
+/// Misfit above which the frames are not those of the pattern's shifts; half of what swapped frames
+/// give, and twice that of a gamma of 2.2.
+constexpr double kWrongFrames = 0.7;
+
+/// Likeness of a pattern below which it shows the board in another pose; sound ones have 0.95.
+constexpr double kMinLikeness = 0.5;
+
+/// Motion of the board between patterns above which a pose is left out: the reprojection error of
+/// good poses.
+constexpr double kMaxMotion_px = 0.3;
+
+/// Largest angle between two poses; smaller: parallel.
+constexpr double kMinTilt_deg = 5.0;
+
+/// Poses with the board; Zhang's method needs three.
+constexpr std::size_t kMinViews = 3;
+
 [[noreturn]] void fail(const std::string& sentence) {
   throw Error(ErrorKind::Input, sentence);
 }
@@ -132,9 +156,9 @@ bool is_among(const std::string& name, const std::vector<std::string>& names) {
 }
 
 /// Whether enough points of a pose have projector coordinates.
-bool is_lit(const PoseCapture& pose, const PoseCheckOptions& options) {
+bool is_lit(const PoseCapture& pose) {
   return static_cast<double>(lit_points(pose.view)) >=
-         options.min_lit * static_cast<double>(pose.view.points.size());
+         kMinLit * static_cast<double>(pose.view.points.size());
 }
 
 /// The affine map from camera pixels to projector pixels over one board.
@@ -216,14 +240,14 @@ void check_range(std::span<const PoseCapture> poses, const CameraModel& projecto
   if (unseen.empty()) {
     fail(fmt::format("the scan has {}; capture at least {} poses, each tilted another way",
                      views(found),
-                     options.min_views));
+                     kMinViews));
   }
   fail(
       fmt::format("the board is found in {} of {}, and {} are needed; it is not found in {}: "
                   "show all of it, flat, sharp and lit",
                   found,
                   views(poses.size()),
-                  options.min_views,
+                  kMinViews,
                   list_of(unseen)));
 }
 
@@ -242,16 +266,13 @@ double largest_tilt_rad(std::span<const BoardView> found, const Board& board, co
 }
 
 /// Fails when all poses are nearly parallel.
-void check_tilt(const std::vector<PoseCapture>& seen,
-                const Board& board,
-                const Rig& known,
-                const PoseCheckOptions& options) {
+void check_tilt(const std::vector<PoseCapture>& seen, const Board& board, const Rig& known) {
   std::vector<BoardView> found;
   found.reserve(seen.size());
   for (const PoseCapture& pose : seen)
     found.push_back(pose.view);
   const double tilt_rad = largest_tilt_rad(found, board, known);
-  if (deg_from_rad(tilt_rad) >= options.min_tilt_deg) return;
+  if (deg_from_rad(tilt_rad) >= kMinTilt_deg) return;
   fail(
       fmt::format("all poses of the board are parallel within {:.1f} degrees, which leaves the "
                   "focal lengths open; tilt the board by 20 to 40 degrees, each time another way",
@@ -296,7 +317,7 @@ void check_light(PassedPoses& passed, const PoseCheckOptions& options) {
       names_of(seen, [&](const PoseCapture& pose) { return pose.saturated > options.saturated; });
   passed.leave_out(bright, describe_overexposed(bright, options));
   const auto dark = names_of(seen, [&](const PoseCapture& pose) {
-    return pose.brightness < options.dim && !is_lit(pose, options);
+    return pose.brightness < options.dim && !is_lit(pose);
   });
   passed.leave_out(dark, describe_dark(dark, options));
 }
@@ -306,26 +327,25 @@ void check_frames(PassedPoses& passed, std::size_t count, const PoseCheckOptions
   const std::vector<PoseCapture>& seen = passed.seen;
   // Coarse blur lets the fringes about the points look like those of other frames, or vanish.
   const auto blurred = names_of(seen, [&](const PoseCapture& pose) {
-    const bool unusable = pose.misfit > options.wrong_frames || !is_lit(pose, options);
+    const bool unusable = pose.misfit > kWrongFrames || !is_lit(pose);
     return unusable && is_blurred(pose, options);
   });
   passed.leave_out(blurred, describe_blurred(seen, blurred));
   const auto swapped =
-      names_of(seen, [&](const PoseCapture& pose) { return pose.misfit > options.wrong_frames; });
+      names_of(seen, [&](const PoseCapture& pose) { return pose.misfit > kWrongFrames; });
   // Most poses: not a slip of one capture, and the phases of the others say nothing either.
   if (2 * swapped.size() > count) passed.fail_by(describe_swapped(seen, swapped));
   passed.leave_out(swapped, describe_swapped(seen, swapped));
   const auto exchanged =
-      names_of(seen, [&](const PoseCapture& pose) { return pose.likeness < options.min_likeness; });
+      names_of(seen, [&](const PoseCapture& pose) { return pose.likeness < kMinLikeness; });
   passed.leave_out(exchanged, describe_exchanged(seen, exchanged));
   // The detected position of a blurred corner depends on the fringes around it. Such a pose is not
   // left out: a warning names it.
   const auto moved = names_of(seen, [&](const PoseCapture& pose) {
-    return pose.motion_px > options.max_motion_px && !is_blurred(pose, options);
+    return pose.motion_px > kMaxMotion_px && !is_blurred(pose, options);
   });
   passed.leave_out(moved, describe_moved(seen, moved));
-  const auto without_phase =
-      names_of(seen, [&](const PoseCapture& pose) { return !is_lit(pose, options); });
+  const auto without_phase = names_of(seen, [&](const PoseCapture& pose) { return !is_lit(pose); });
   passed.leave_out(
       without_phase,
       fmt::format("the fringes cannot be measured on the board in {}: light the whole board "
@@ -340,11 +360,11 @@ PoseChecks check_board_views(std::span<const PoseCapture> poses,
                              const Rig& known,
                              const PoseCheckOptions& options) {
   const auto& projector = std::get<PinholeModel>(known.projector.model);
-  PassedPoses passed(poses, options.min_views);
+  PassedPoses passed(poses, kMinViews);
   const std::vector<PoseCapture>& seen = passed.seen;
   check_larger_counts(poses, board);
-  if (seen.size() < options.min_views) fail_too_few(poses, seen.size(), board, options);
-  const auto unfocused = blurred_unseen(poses, options);
+  if (seen.size() < kMinViews) fail_too_few(poses, seen.size(), board, options);
+  const auto unfocused = blurred_unseen(poses);
   if (!unfocused.empty()) {
     passed.checks.warnings.push_back(
         fmt::format("the image is out of focus or moving in {}, so that the board is not found "
@@ -356,7 +376,7 @@ PoseChecks check_board_views(std::span<const PoseCapture> poses,
   check_handedness(seen);
   check_range(seen, projector);
   const auto uneven = names_of(seen, [&](const PoseCapture& pose) {
-    return plane_misfit_px(board, pose.view) > options.max_plane_px;
+    return plane_misfit_px(board, pose.view) > kMaxPlane_px;
   });
   passed.leave_out(
       uneven,
@@ -364,7 +384,7 @@ PoseChecks check_board_views(std::span<const PoseCapture> poses,
                   "swapped, missing or out of step, or shifts_deg or period_px are wrong",
                   list_of(uneven)));
   warn_of_quality(seen, options, passed.checks);
-  check_tilt(seen, board, known, options);
+  check_tilt(seen, board, known);
   return std::move(passed.checks);
 }
 

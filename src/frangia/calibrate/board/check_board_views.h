@@ -38,32 +38,15 @@ struct PoseCapture {
 
 /// Limits of the checks before a calibration is solved.
 struct PoseCheckOptions {
-  std::size_t min_views = 3;  ///< poses with the board; Zhang's method needs three
   /// Share of white below which the lightest squares are dark: fringes of 8-bit frames then span
   /// ten counts or fewer.
   double dim = 0.04;
-  double saturated = 0.2;     ///< share of saturated pixels above which phases are lost
-  double min_lit = 0.5;       ///< share of a board's points with projector coordinates
-  double min_tilt_deg = 5.0;  ///< largest angle between two poses; smaller: parallel
+  double saturated = 0.2;  ///< share of saturated pixels above which phases are lost
   /// Blur above which an image is reported as out of focus; corners then lose half their accuracy.
   double max_blur_px = 2.5;
-  /// Blur of an image without the board, relative to images with it, above which it explains why
-  /// the board is not found: a ChArUco board is lost at 2.5 px, and sharp images have 0.7 px.
-  double unseen_blur = 1.7;
-  /// Motion of the board between patterns above which a pose is left out: the reprojection error of
-  /// good poses.
-  double max_motion_px = 0.3;
-  /// Likeness of a pattern below which it shows the board in another pose; sound ones have 0.95.
-  double min_likeness = 0.5;
   /// Misfit of the fringes above which the projector is reported as not linear; a display gamma of
   /// 1.3 reaches it with four frames.
   double max_misfit = 0.1;
-  /// Misfit above which the frames are not those of the pattern's shifts; half of what swapped
-  /// frames give, and twice that of a gamma of 2.2.
-  double wrong_frames = 0.7;
-  /// Median distance of the projector pixels from a homography of the board above which the phases
-  /// of a pose are wrong; distortion causes 2 px.
-  double max_plane_px = 6.0;
 };
 
 /// Outcome of the checks when no fault prevents the calibration.

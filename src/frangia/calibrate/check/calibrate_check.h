@@ -23,8 +23,6 @@ struct CheckRigOptions {
   /// distance from the camera. A rig that is further off has too few of them.
   double match_share = 0.02;
   int part_sites = 200;  ///< along the longer side of the image, on a part
-  /// Views in which several cameras are compared with each other, spread over the scan.
-  std::size_t compared_views = 3;
 };
 
 /// One figure of a check.

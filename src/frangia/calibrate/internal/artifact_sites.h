@@ -15,9 +15,7 @@ namespace frangia {
 /// Measures all poses of a screen.
 ///
 /// @errors   Error(Input) when a direction is missing or a pattern is not one of the screen
-[[nodiscard]] std::vector<ScreenView> measure_screen(const Scan& scan,
-                                                     const CalibrateArtifactsOptions& options,
-                                                     const Run& run);
+[[nodiscard]] std::vector<ScreenView> measure_screen(const Scan& scan, const Run& run);
 
 /// Finds a plate in all views of a scan, by the phase alone, and its approximate surface by the
 /// rig.

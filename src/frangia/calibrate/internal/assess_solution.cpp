@@ -13,6 +13,12 @@
 namespace frangia {
 namespace {
 
+/// Reprojection error below which a pose is never named: corners of sharp images have up to this.
+constexpr double kOutlierFloor_px = 0.3;
+
+/// Poses whose error exceeds this multiple of the median are named.
+constexpr double kOutlierRms = 3.0;
+
 double median_rms_px(const std::vector<ResidualSummary>& by_view) {
   std::vector<double> errors;
   for (const ResidualSummary& summary : by_view)
@@ -23,10 +29,9 @@ double median_rms_px(const std::vector<ResidualSummary>& by_view) {
 void warn_of_poses(const std::vector<BoardView>& views,
                    const std::vector<ResidualSummary>& by_view,
                    const std::string& device,
-                   const CalibrateRigOptions& options,
                    const Run& run) {
   const double typical = median_rms_px(by_view);
-  for (const std::size_t i : outlier_views(by_view, options)) {
+  for (const std::size_t i : outlier_views(by_view)) {
     run.warn(fmt::format(
         "{}: the reprojection error of {} is {:.2f} px, {:.1f} times the median of all poses; "
         "the board or the camera moved during its capture, or its corners are blurred or badly lit",
@@ -109,10 +114,8 @@ bool compare_distance(const char* device,
 
 }  // namespace
 
-std::vector<std::size_t> outlier_views(const std::vector<ResidualSummary>& by_view,
-                                       const CalibrateRigOptions& options) {
-  const double limit =
-      std::max(options.outlier_rms * median_rms_px(by_view), options.outlier_floor_px);
+std::vector<std::size_t> outlier_views(const std::vector<ResidualSummary>& by_view) {
+  const double limit = std::max(kOutlierRms * median_rms_px(by_view), kOutlierFloor_px);
   std::vector<std::size_t> outliers;
   for (std::size_t i = 0; i < by_view.size(); ++i)
     if (by_view[i].rms_px > limit) outliers.push_back(i);
@@ -121,14 +124,13 @@ std::vector<std::size_t> outlier_views(const std::vector<ResidualSummary>& by_vi
 
 void warn_of_outliers(const std::vector<BoardView>& views,
                       const RigSolution& solution,
-                      const CalibrateRigOptions& options,
                       const Run& run) {
   for (const SolvedCamera& camera : solution.cameras) {
     const std::string device = in_words(camera);
     const std::string projector =
         camera.name.empty() ? "the projector" : "the projector, seen by " + device + ",";
-    warn_of_poses(views, camera.by_view, device, options, run);
-    warn_of_poses(views, camera.projector_by_view, projector, options, run);
+    warn_of_poses(views, camera.by_view, device, run);
+    warn_of_poses(views, camera.projector_by_view, projector, run);
   }
 }
 

@@ -19,13 +19,11 @@ void check_solution(const RigSolution& solution,
 void warn_of_scale(const Scan& scan, const RigSolution& solution, double max_error, const Run& run);
 
 /// The views whose reprojection error is far above the median of all views.
-[[nodiscard]] std::vector<std::size_t> outlier_views(const std::vector<ResidualSummary>& by_view,
-                                                     const CalibrateRigOptions& options);
+[[nodiscard]] std::vector<std::size_t> outlier_views(const std::vector<ResidualSummary>& by_view);
 
 /// Names the poses whose reprojection error is far above that of the others.
 void warn_of_outliers(const std::vector<BoardView>& views,
                       const RigSolution& solution,
-                      const CalibrateRigOptions& options,
                       const Run& run);
 
 }  // namespace frangia

@@ -12,6 +12,10 @@
 namespace frangia {
 namespace {
 
+/// Blur of an image without the board, relative to images with it, above which it explains why the
+/// board is not found: a ChArUco board is lost at 2.5 px, and sharp images have 0.7 px.
+constexpr double kUnseenBlur = 1.7;
+
 /// The first of some poses.
 const PoseCapture& pose_named(std::span<const PoseCapture> poses, const std::string& name) {
   return *std::find_if(
@@ -136,8 +140,7 @@ std::string describe_copies(const std::vector<std::string>& names) {
       names.size() == 1 ? "holds" : "hold");
 }
 
-std::vector<std::string> blurred_unseen(std::span<const PoseCapture> poses,
-                                        const PoseCheckOptions& options) {
+std::vector<std::string> blurred_unseen(std::span<const PoseCapture> poses) {
   std::vector<double> blurs;
   std::vector<double> contrasts;
   for (const PoseCapture& pose : poses) {
@@ -146,7 +149,7 @@ std::vector<std::string> blurred_unseen(std::span<const PoseCapture> poses,
     contrasts.push_back(pose.image.contrast);
   }
   if (blurs.empty()) return {};
-  const double most_blur = options.unseen_blur * median(blurs);
+  const double most_blur = kUnseenBlur * median(blurs);
   const double least_contrast = 0.5 * median(contrasts);
   return names_of(poses, [&](const PoseCapture& pose) {
     return pose.view.points.empty() && pose.image.blur_px > most_blur &&

@@ -41,8 +41,7 @@ template <typename Condition>
 [[nodiscard]] std::string describe_copies(const std::vector<std::string>& names);
 
 /// The poses without the board whose images are as bright as the others and less sharp.
-[[nodiscard]] std::vector<std::string> blurred_unseen(std::span<const PoseCapture> poses,
-                                                      const PoseCheckOptions& options);
+[[nodiscard]] std::vector<std::string> blurred_unseen(std::span<const PoseCapture> poses);
 
 /// Whether the board is out of focus, or moved during single frames.
 [[nodiscard]] inline bool is_blurred(const PoseCapture& pose, const PoseCheckOptions& options) {

@@ -40,12 +40,11 @@ std::vector<ResidualMap> residual_maps(const RigCalibration& result) {
   return maps;
 }
 
-std::vector<PoseResiduals> pose_residuals(const RigCalibration& result,
-                                          const CalibrateRigOptions& options) {
+std::vector<PoseResiduals> pose_residuals(const RigCalibration& result) {
   const RigSolution& solution = result.solution;
   std::vector<PoseResiduals> poses(result.views.size());
   const auto mark = [&](const std::vector<ResidualSummary>& by_view) {
-    for (const std::size_t i : outlier_views(by_view, options))
+    for (const std::size_t i : outlier_views(by_view))
       poses[i].is_outlier = true;
   };
   for (const SolvedCamera& camera : solution.cameras) {

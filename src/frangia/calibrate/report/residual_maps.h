@@ -42,7 +42,6 @@ struct PoseResiduals {
 
 /// The poses of a calibration in the order of its views. Outliers are those that `calibrate_rig`
 /// warns of with the same options.
-[[nodiscard]] std::vector<PoseResiduals> pose_residuals(const RigCalibration& result,
-                                                        const CalibrateRigOptions& options = {});
+[[nodiscard]] std::vector<PoseResiduals> pose_residuals(const RigCalibration& result);
 
 }  // namespace frangia

@@ -27,6 +27,9 @@
 namespace frangia {
 namespace {
 
+/// Reprojection error above which the poses contradict each other.
+constexpr double kMaxRms_px = 5.0;
+
 /// The poses as one camera sees them.
 std::vector<PoseCapture> measure_poses(const Scan& scan,
                                        const PoseOptions& options,
@@ -279,9 +282,9 @@ RigCalibration calibrate_rig(const Scan& scan, const CalibrateRigOptions& option
   RigCalibration result = collect_board_views(scan, options, run);
   run.stage("adjustment");
   result.solution = solve_rig(*scan.board, result.views, scan.rig, options.solve, run);
-  check_solution(result.solution, result.views, options.max_rms_px);
+  check_solution(result.solution, result.views, kMaxRms_px);
   warn_of_scale(scan, result.solution, options.max_scale_error, run);
-  warn_of_outliers(result.views, result.solution, options, run);
+  warn_of_outliers(result.views, result.solution, run);
   result.rig = calibrated(scan.rig, *scan.board, result.solution);
   return result;
 }

@@ -14,13 +14,9 @@ namespace frangia {
 
 /// Options of a calibration from captured poses of a board.
 struct CalibrateRigOptions {
-  PoseOptions pose;          ///< how each pose is measured
-  PoseCheckOptions check;    ///< limits of the checks before solving
-  RigSolveOptions solve;     ///< bundle adjustment and order of the models
-  double max_rms_px = 5.0;   ///< reprojection error above which the poses contradict each other
-  double outlier_rms = 3.0;  ///< poses whose error exceeds this multiple of the median are named
-  /// Reprojection error below which a pose is never named: corners of sharp images have up to this.
-  double outlier_floor_px = 0.3;
+  PoseOptions pose;        ///< how each pose is measured
+  PoseCheckOptions check;  ///< limits of the checks before solving
+  RigSolveOptions solve;   ///< bundle adjustment and order of the models
   /// Relative difference of the baseline from that of rig.toml above which the board's square is
   /// questioned; a baseline measured by hand is this accurate.
   double max_scale_error = 0.02;

@@ -51,6 +51,16 @@ Eigen::Vector3i cell_of(const Quad& quad, std::size_t corner) {
   return cell;
 }
 
+/// Returns the axis normal to the face between the cells of corners i and i + 1.
+int face_axis(const Quad& quad, std::size_t side) {
+  return (quad.axis + (side % 2 == 0 ? 1 : 2)) % 3;
+}
+
+/// Returns the lowest corner of that face.
+Eigen::Vector3i face_low(const Quad& quad, std::size_t side) {
+  return cell_of(quad, side).cwiseMax(cell_of(quad, side + 1));
+}
+
 /// Whether the quad's side needs an additional vertex on its face. Of the two strands of surface
 /// through a pinched face, the one around the inside corner that is lower along the face's first
 /// axis gets it.
@@ -111,16 +121,6 @@ void add_quads(std::vector<Quad>& quads,
       ++quad.crossing;
     }
   }
-}
-
-/// Returns the axis normal to the face between the cells of corners i and i + 1.
-int face_axis(const Quad& quad, std::size_t side) {
-  return (quad.axis + (side % 2 == 0 ? 1 : 2)) % 3;
-}
-
-/// Returns the lowest corner of that face.
-Eigen::Vector3i face_low(const Quad& quad, std::size_t side) {
-  return cell_of(quad, side).cwiseMax(cell_of(quad, side + 1));
 }
 
 /// Returns the quads around all supported crossings whose four cells have surface.

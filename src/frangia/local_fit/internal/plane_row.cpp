@@ -12,6 +12,14 @@
 namespace frangia {
 namespace {
 
+/// Variance of a pixel next to an edge, per variance that its fit predicts: neither slope nor
+/// position are as accurate there as in the middle of a face.
+constexpr float kOffCenterVarianceFactor = 9.0F;
+
+/// Maximum change of the pixel's value, per standard deviation of its noise: about 2.5 standard
+/// deviations of the difference between both fits.
+constexpr float kMaxChange = 0.7F;
+
 /// A row of window fits and of the pixels' noise.
 struct WindowRow {
   const float* noise;
@@ -136,7 +144,7 @@ void PlaneRow::widen(const LinkedPixels& grid,
     const float off = wide_value[i] - value_[i];
     const bool is_noise = autocorrelation[i] < options.max_autocorrelation &&
                           residual_variance[i] < options.max_residual_ratio * expected &&
-                          off * off < options.max_change * options.max_change * expected;
+                          off * off < kMaxChange * kMaxChange * expected;
     wide_[i] = is_noise ? 1 : 0;
     if (wide_[i] == 0) continue;
     if (kind_[i] == WindowKind::None) mean_[i] = value_[i];
@@ -197,7 +205,7 @@ void PlaneRow::choose(const LinkedPixels& grid,
     slope_y_[i] = chosen.fit.slope_y;
     value_[i] = chosen.value;
     const bool centered = chosen.kind == WindowKind::Centered;
-    variance_[i] = (centered ? 1.0F : options_.off_center_variance_factor) * chosen.variance;
+    variance_[i] = (centered ? 1.0F : kOffCenterVarianceFactor) * chosen.variance;
   }
 }
 

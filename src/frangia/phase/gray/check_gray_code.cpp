@@ -16,9 +16,19 @@
 namespace frangia {
 namespace {
 
+/// Shares that differ by less are equal.
+constexpr double kTie = 0.03;
+
+/// The same for three frames, which harmonics affect more.
+constexpr double kMaxStartThree_rad = 0.45;
+
+/// Start of the fringes at the borders of the stripes that a sound code may show: blur and
+/// harmonics move borders and phases. Half a projector pixel is 0.2 for fringes of 16 px.
+constexpr double kMaxStart_rad = 0.25;
+
 /// Largest start of the fringes at the borders of the stripes that a sound code may show.
-double max_start_of(const Pattern& fringes, const GrayCodeCheckOptions& options) {
-  return fringes.shifts_rad.size() <= 3 ? options.max_start_three_rad : options.max_start_rad;
+double max_start_of(const Pattern& fringes) {
+  return fringes.shifts_rad.size() <= 3 ? kMaxStartThree_rad : kMaxStart_rad;
 }
 
 /// Whether code and fringes pass the check with another declaration: they agree, and the fringes
@@ -29,7 +39,7 @@ bool passes(const GrayCodeSample& sample,
             const GrayCodeCheckOptions& options) {
   const GrayCodeSample::Start start = sample.start_offset(trial);
   return !start.scattered &&
-         std::abs(wrap_rad(start.offset_rad - trial.start_rad)) <= max_start_of(fringes, options) &&
+         std::abs(wrap_rad(start.offset_rad - trial.start_rad)) <= max_start_of(fringes) &&
          sample.score(trial) >= options.min_agreement;
 }
 
@@ -134,7 +144,7 @@ SequenceCheck check_gray_code(const FrameStack& gray,
     return out;
   }
   if (agrees && !start.scattered) {
-    if (!(std::abs(start.offset_rad) > max_start_of(shown, options))) return out;
+    if (!(std::abs(start.offset_rad) > max_start_of(shown))) return out;
     out.consistent = false;
     GrayTrial later = as_declared;
     later.start_rad = start.offset_rad;
@@ -155,7 +165,7 @@ SequenceCheck check_gray_code(const FrameStack& gray,
   }
   if (!agrees) {
     for (auto& [score, fault] : found)
-      if (score >= best - options.tie) out.fits.push_back(std::move(fault));
+      if (score >= best - kTie) out.fits.push_back(std::move(fault));
   }
   constexpr double kWhole = 0.9;  // less leaves stripes that the declaration does not explain
   if (!missing.empty() && (out.fits.empty() || best < kWhole)) out.fits = std::move(missing);

@@ -10,13 +10,6 @@ namespace frangia {
 /// Where the phase is cut into regions.
 struct SplitOptions {
   JumpOptions jumps;  ///< limits of smooth phase differences
-  /// A connection narrower than twice this radius beside a cut does not join two regions, px. A
-  /// depth step of varying height looks smooth where it crosses a whole number of fringes; the
-  /// faster its height varies, the shorter that part. At 0.03 rad of noise 6 px are enough where
-  /// the height changes by 0.05 rad per pixel
-  /// (`UnwrapSpatially.NeverJoinsAcrossAStepOfMoreThanHalfAFringe`; 3 px fail), and 24 px where it
-  /// changes by 0.02. A step that changes more slowly is not detected.
-  int neck_radius_px = 12;
 };
 
 /// Regions within which the phase is smooth and unwrapping is unambiguous.

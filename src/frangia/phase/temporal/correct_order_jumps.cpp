@@ -15,6 +15,17 @@
 namespace frangia {
 namespace {
 
+/// A region of more than this share of the size of its neighbour is discarded instead of corrected,
+/// because either may be wrong.
+constexpr double kMaxSize = 0.5;
+
+/// Least number of these pairs for each pair at which the surface has a step.
+constexpr double kMinRatio = 2.0;
+
+/// Least number of pixel pairs at a border at which only the order jumps. A wrong order by noise
+/// concerns single pixels, which have at most four.
+constexpr std::size_t kMinPairs = 8;
+
 /// Two neighbouring pixels between which the absolute phase jumps and the wrapped one does not.
 struct Jump {
   std::uint32_t from;
@@ -113,8 +124,7 @@ struct OrderBorder {
 /// Joins regions across the borders at which only the order jumps, from the longest.
 FringeForest join_over_jumps(const std::vector<Jump>& jumps,
                              const std::vector<Cause>& causes,
-                             const JumplessRegions& regions,
-                             const OrderJumpOptions& options) {
+                             const JumplessRegions& regions) {
   struct Key {
     std::int32_t larger;
     std::int32_t smaller;
@@ -135,9 +145,8 @@ FringeForest join_over_jumps(const std::vector<Jump>& jumps,
   }
   std::vector<std::pair<Key, OrderBorder>> safe;
   for (const auto& [key, border] : borders) {
-    if (border.wrong_order >= options.min_pairs &&
-        static_cast<double>(border.wrong_order) >=
-            options.min_ratio * static_cast<double>(border.step))
+    if (border.wrong_order >= kMinPairs &&
+        static_cast<double>(border.wrong_order) >= kMinRatio * static_cast<double>(border.step))
       safe.emplace_back(key, border);
   }
   std::stable_sort(safe.begin(), safe.end(), [](const auto& a, const auto& b) {
@@ -164,12 +173,12 @@ OrderJumpResult correct_order_jumps(const CoarsePhases& coarse,
                                     const OrderJumpOptions& options) {
   OrderJumpResult out;
   const std::vector<Jump> jumps = find_jumps(phase.phase_rad, options.smooth);
-  if (jumps.size() < options.min_pairs) return out;
+  if (jumps.size() < kMinPairs) return out;
   const std::vector<Cause> causes = causes_of(jumps, phase, coarse);
   const auto wrong = std::count(causes.begin(), causes.end(), Cause::WrongOrder);
-  if (static_cast<std::size_t>(wrong) < options.min_pairs) return out;
+  if (static_cast<std::size_t>(wrong) < kMinPairs) return out;
   const JumplessRegions regions = find_jumpless_regions(phase.phase_rad);
-  FringeForest forest = join_over_jumps(jumps, causes, regions, options);
+  FringeForest forest = join_over_jumps(jumps, causes, regions);
   std::size_t measured = 0;
   std::size_t changed = 0;
   for (std::size_t region = 0; region < regions.size.size(); ++region) {
@@ -183,7 +192,7 @@ OrderJumpResult correct_order_jumps(const CoarsePhases& coarse,
     const auto [root, fringes] = forest.root(region);
     if (fringes == 0) continue;
     if (static_cast<double>(regions.size[region]) >
-        options.max_size * static_cast<double>(regions.size[root])) {
+        kMaxSize * static_cast<double>(regions.size[root])) {
       discard(i, phase);
       ++out.discarded;
     } else {

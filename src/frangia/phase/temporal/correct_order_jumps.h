@@ -20,14 +20,6 @@ using CoarsePhases = std::function<std::vector<WrappedPhase>(std::span<const std
 /// When the fringe orders of a region are taken as wrong.
 struct OrderJumpOptions {
   JumpOptions smooth;  ///< limits of a smooth difference of the wrapped phase
-  /// Least number of pixel pairs at a border at which only the order jumps. A wrong order by noise
-  /// concerns single pixels, which have at most four.
-  std::size_t min_pairs = 8;
-  /// Least number of these pairs for each pair at which the surface has a step.
-  double min_ratio = 2.0;
-  /// A region of more than this share of the size of its neighbour is discarded instead of
-  /// corrected, because either may be wrong.
-  double max_size = 0.5;
   /// Largest share of the measured pixels whose order may be wrong. Where there are more, something
   /// else is wrong, such as the order of the frames, and nothing is changed.
   double max_share = 0.1;

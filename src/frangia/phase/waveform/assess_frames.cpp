@@ -17,6 +17,14 @@
 namespace frangia {
 namespace {
 
+/// A pixel's squared residual counts up to this multiple of its expectation, so that the few pixels
+/// on depth edges do not decide: (5 sigma)^2.
+constexpr double kMaxPixelRatio = 25.0;
+
+/// Share of the excess residual that harmonics and gains may leave unexplained: their amplitude
+/// varies over the image with blur and ambient light.
+constexpr double kMaxUnexplainedShare = 0.1;
+
 /// The fringe model of one pattern with what its frames add to it.
 class ResidualModel {
  public:
@@ -112,9 +120,7 @@ ResidualRatios residual_ratios(const FrameStack& stack,
     }
     const double expected =
         freedom * noise.variance(static_cast<double>(map.mean_counts.pixels()[i]));
-    const auto limited = [&](double square) {
-      return std::min(square / expected, options.max_pixel_ratio);
-    };
+    const auto limited = [&](double square) { return std::min(square / expected, kMaxPixelRatio); };
     out.all += limited(model.squared_residual(counts));
     if (explains) out.unexplained += limited(model.unexplained_residual(counts));
     count += 1.0;
@@ -184,7 +190,7 @@ FrameAssessment assess_frames(const FrameStack& stack,
   const ResidualRatios ratios = residual_ratios(stack, fitted, map, noise, options);
   assessment.residual_ratio = ratios.all;
   assessment.unexplained_ratio = ratios.unexplained;
-  const double left = options.max_unexplained_share * (ratios.all - ratios.unexplained);
+  const double left = kMaxUnexplainedShare * (ratios.all - ratios.unexplained);
   assessment.exceeds_noise = ratios.unexplained > options.max_residual_ratio + left;
   assessment.harmonic = fitted.waveform.largest_harmonic();
   assessment.harmonic_share = fitted.waveform.waveform.amplitude(assessment.harmonic);

@@ -46,12 +46,6 @@ struct AssessmentOptions {
   /// Unexplained residual ratio above which the frames differ beyond their noise. The residuals of
   /// good frames give 1 with a noise model that is accurate to about 10 %, as an estimated one is.
   double max_residual_ratio = 1.6;
-  /// Share of the excess residual that harmonics and gains may leave unexplained: their
-  /// amplitude varies over the image with blur and ambient light.
-  double max_unexplained_share = 0.1;
-  /// A pixel's squared residual counts up to this multiple of its expectation, so that the few
-  /// pixels on depth edges do not decide: (5 sigma)^2.
-  double max_pixel_ratio = 25.0;
   /// Approximate number of sampled pixels. The mean ratio then has a standard error below 0.5 %.
   std::size_t samples = 100'000;
 };

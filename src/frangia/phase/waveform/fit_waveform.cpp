@@ -15,6 +15,15 @@
 namespace frangia {
 namespace {
 
+/// Least rms of significant gains.
+constexpr double kMinFlicker = 0.003;
+
+/// Least rms of significant gains, in sigmas.
+constexpr double kMinFlickerSigmas = 6.0;
+
+/// Least amplitude of a significant harmonic, in sigmas.
+constexpr double kWaveformMinHarmonicSigmas = 5.0;
+
 constexpr int kHighest = 13;  // beyond it a tenth of a pixel of blur leaves nothing
 constexpr double kLeastThird = 0.02;
 constexpr double kMostEven = 0.2;    // second over third harmonic of a square wave
@@ -30,6 +39,14 @@ constexpr std::size_t index_of(int order) {
 std::complex<double> harmonic_of(const WaveformFit& fit, int order) {
   const std::size_t i = index_of(order);
   return i < fit.waveform.harmonics.size() ? fit.waveform.harmonics[i] : 0.0;
+}
+
+/// Harmonic n of a square wave relative to its fundamental, after a blur with a sigma of `blur_rad`
+/// of its phase.
+double square_harmonic(int order, double blur_rad) {
+  const double n = order;
+  const double sign = order % 4 == 3 ? -1.0 : 1.0;
+  return order % 2 == 0 ? 0.0 : sign / n * std::exp(-0.5 * (n * n - 1.0) * blur_rad * blur_rad);
 }
 
 /// The third harmonic that the fits find in N frames of a blurred square wave. Its harmonics shift
@@ -156,14 +173,6 @@ void add_power_law(const std::optional<std::complex<double>>& measured_third, Wa
   fit.sigma[index_of(4)] = 1.5 * std::hypot(kLeastShare * second, kDeparture * departure);
 }
 
-/// Harmonic n of a square wave relative to its fundamental, after a blur with a sigma of `blur_rad`
-/// of its phase.
-double square_harmonic(int order, double blur_rad) {
-  const double n = order;
-  const double sign = order % 4 == 3 ? -1.0 : 1.0;
-  return order % 2 == 0 ? 0.0 : sign / n * std::exp(-0.5 * (n * n - 1.0) * blur_rad * blur_rad);
-}
-
 /// Adds the harmonics that few frames do not tell from those that are found: harmonic N + 1 of N
 /// frames changes the contrast as N - 1 does and shifts the phase the other way.
 ///
@@ -216,14 +225,14 @@ std::optional<std::complex<double>> add_contrast_fit(const FringeBins& bins,
   out.sigma[i] = fit.harmonic_sigma;
   const double amplitude = std::abs(fit.harmonic);
   if (amplitude > std::max(options.min_harmonic, kMinContrastHarmonic) &&
-      amplitude > options.min_harmonic_sigmas * fit.harmonic_sigma)
+      amplitude > kWaveformMinHarmonicSigmas * fit.harmonic_sigma)
     out.waveform.harmonics[i] = fit.harmonic;
   if (!with_gains) return fit.third;
   // Light that differed between the frames changes the contrast once per fringe, whatever residual
   // it leaves. Motion may do so, too, and shifts the phase alike.
   const double offset = std::abs(fit.offset);
   out.offset_sigma = fit.offset_sigma;
-  if (offset > kMinContrastHarmonic && offset > options.min_flicker_sigmas * fit.offset_sigma)
+  if (offset > kMinContrastHarmonic && offset > kMinFlickerSigmas * fit.offset_sigma)
     out.flicker_error_rad = offset / std::numbers::sqrt2;
   // Three frames leave no residual.
   out.is_flicker =
@@ -233,10 +242,8 @@ std::optional<std::complex<double>> add_contrast_fit(const FringeBins& bins,
 
 /// The effect of flicker on frames whose contrast does not show it, as on a small part: their
 /// residual shows some combinations of the gains, and the others are as large.
-void add_flicker_by_residual(const ResidualFit& residuals,
-                             const WaveformOptions& options,
-                             WaveformFit& out) {
-  if (residuals.gain_chi2 < std::pow(options.min_flicker_sigmas, 2)) return;
+void add_flicker_by_residual(const ResidualFit& residuals, WaveformFit& out) {
+  if (residuals.gain_chi2 < std::pow(kMinFlickerSigmas, 2)) return;
   const auto frames = static_cast<double>(residuals.gains.size());
   double square = 0.0;
   for (const double gain : residuals.gains)
@@ -295,13 +302,13 @@ WaveformFit fit_waveform(const FrameStack& stack,
   for (std::size_t i = 0; i < residuals.harmonics.size(); ++i) {
     const double amplitude = std::abs(residuals.harmonics[i]);
     if (residuals.observable[i] && amplitude > options.min_harmonic &&
-        amplitude > options.min_harmonic_sigmas * residuals.sigma[i])
+        amplitude > kWaveformMinHarmonicSigmas * residuals.sigma[i])
       out.waveform.harmonics[i] = residuals.harmonics[i];
   }
   const auto third = add_contrast_fit(bins, shifts_rad, residuals, options, with_gains, out);
   if (with_gains && frames > 3 && out.flicker_error_rad == 0.0 &&
       !(out.offset_sigma < kMaxOffsetSigma))
-    add_flicker_by_residual(residuals, options, out);
+    add_flicker_by_residual(residuals, out);
   if (with_gains && are_even(shifts_rad)) add_hidden_harmonics(frames, third, out);
   if (!with_gains || frames < kMinGainFrames || !residuals.gains_explain) return out;
   if (std::any_of(residuals.gains.begin(), residuals.gains.end(), [](double gain) {
@@ -310,8 +317,7 @@ WaveformFit fit_waveform(const FrameStack& stack,
     return out;
   out.gains = residuals.gains;
   const double flicker = out.flicker();
-  if (flicker < options.min_flicker ||
-      flicker < options.min_flicker_sigmas * residuals.gain_sigma) {
+  if (flicker < kMinFlicker || flicker < kMinFlickerSigmas * residuals.gain_sigma) {
     out.gains.clear();
   } else {
     out.flicker_error_rad = 0.0;  // is compensated

@@ -44,9 +44,6 @@ struct WaveformOptions {
   /// Least amplitude of a significant harmonic, relative to the fundamental. The sound scans of
   /// `./run figures harmonics` stay below 0.002.
   double min_harmonic = 0.004;
-  double min_harmonic_sigmas = 5.0;  ///< least amplitude of a significant harmonic, in sigmas
-  double min_flicker = 0.003;        ///< least rms of significant gains
-  double min_flicker_sigmas = 6.0;   ///< least rms of significant gains, in sigmas
 };
 
 /// Fits the harmonics of the fringes and, for a digital projector, the gains of the frames.

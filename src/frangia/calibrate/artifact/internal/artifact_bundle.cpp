@@ -20,6 +20,9 @@
 namespace frangia {
 namespace {
 
+/// Relative standard deviation of a stated diameter: a matting spray adds 10 um to 40 mm.
+constexpr double kDiameterSigma = 5e-4;
+
 /// Information about camera, projector, pose and pitch from an earlier calibration.
 class RigPrior final : public ceres::CostFunction {
  public:
@@ -162,7 +165,7 @@ void add_capture_blocks(const ArtifactProblem& problem,
         names[i] = fmt::format("surface.{}.{}.{}", c, s, i);
       add_block(out, surface, names, blocks);
       if (balls == nullptr) continue;
-      const double weight = 1.0 / problem.options.diameter_sigma;
+      const double weight = 1.0 / kDiameterSigma;
       out.AddResidualBlock(
           cost_function(NumberPrior{3, 0.0, weight}, 1, std::array{4}), nullptr, surface);
     }

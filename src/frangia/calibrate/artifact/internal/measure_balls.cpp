@@ -12,6 +12,9 @@
 namespace frangia {
 namespace {
 
+/// Sites on balls, along the longer side of the image.
+constexpr int kBallSites = 128;
+
 /// Centers in the order of those of an earlier view.
 void order_balls(const std::vector<Eigen::Vector3d>& before,
                  const Eigen::Isometry3d& to_zero,
@@ -47,7 +50,7 @@ ArtifactCapture measure_balls(const Scan& scan,
       (rig.turntable ? rig.turntable->point_mm.z() : kFarOff * balls.diameter_mm);
   const int step = std::max(2,
                             std::min(static_cast<int>(std::lround(0.1 * apparent_px)),
-                                     site_step(rig.reference().model, options.ball_sites)));
+                                     site_step(rig.reference().model, kBallSites)));
   const auto measured = measure_sites(scan, rig, site_options(step), run);
   ArtifactCapture capture{balls, {}, {}};
   std::vector<Eigen::Vector3d> before;

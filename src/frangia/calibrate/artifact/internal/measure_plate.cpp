@@ -17,6 +17,9 @@
 namespace frangia {
 namespace {
 
+/// Share of the sites that move with the table that must lie on one plane.
+constexpr double kMinPlateShare = 0.3;
+
 /// Removes sites that are the same at all angles: the top of the turntable and what stands behind.
 void remove_static(std::vector<std::vector<LightSite>>& views) {
   constexpr double kStill = 0.002;  // of the range of the light
@@ -113,9 +116,9 @@ ArtifactCapture measure_plate(const Scan& scan,
     for (std::size_t k = 0; k < flags.size(); ++k)
       if (flags[k]) view.sites.push_back(measured[i][k]);
     view.surface.assign(view.sites.size(), 0);
-    const bool found = view.sites.size() >= kFewestSites &&
-                       static_cast<double>(view.sites.size()) >
-                           options.min_plate_share * static_cast<double>(seen);
+    const bool found =
+        view.sites.size() >= kFewestSites &&
+        static_cast<double>(view.sites.size()) > kMinPlateShare * static_cast<double>(seen);
     if (!found) {
       capture.left_out.push_back(view.name);
       continue;

@@ -9,10 +9,14 @@
 #include "frangia/calibrate/internal/artifact_sites.h"
 
 namespace frangia {
+namespace {
 
-std::vector<ScreenView> measure_screen(const Scan& scan,
-                                       const CalibrateArtifactsOptions& options,
-                                       const Run& run) {
+/// Sites along the longer side of the image.
+constexpr int kScreenSites = 40;
+
+}  // namespace
+
+std::vector<ScreenView> measure_screen(const Scan& scan, const Run& run) {
   const auto& screen = std::get<Screen>(*scan.artifact);
   bool vertical = false;
   bool horizontal = false;
@@ -38,7 +42,7 @@ std::vector<ScreenView> measure_screen(const Scan& scan,
   display.projector = Projector{};
   display.projector.model =
       PinholeModel{.width_px = screen.width_px, .height_px = screen.height_px};
-  const int step = site_step(scan.rig.reference().model, options.screen_sites);
+  const int step = site_step(scan.rig.reference().model, kScreenSites);
   auto measured = measure_sites(scan, display, site_options(step), run);
   std::vector<ScreenView> views;
   for (std::size_t i = 0; i < measured.size(); ++i) {

@@ -13,6 +13,9 @@
 namespace frangia {
 namespace {
 
+/// Views in which several cameras are compared with each other, spread over the scan.
+constexpr std::size_t kComparedViews = 3;
+
 /// Views of one camera, each compared with the same view of another.
 std::vector<PartView> views_of(const Scan& scan,
                                std::size_t camera,
@@ -20,7 +23,7 @@ std::vector<PartView> views_of(const Scan& scan,
                                const Run& run) {
   const Scan own = scan_of_camera(scan, camera);
   const std::size_t count = own.views.size();
-  const std::size_t used = std::min(count, options.compared_views);
+  const std::size_t used = std::min(count, kComparedViews);
   std::vector<PartView> views;
   for (std::size_t i = 0; i < used; ++i) {
     run.check();
