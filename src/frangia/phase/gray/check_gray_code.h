@@ -20,6 +20,11 @@ struct GrayCodeCheckOptions {
   /// for borders at depth edges.
   double min_agreement = 0.75;
   double min_gain = 0.2;  ///< by which another declaration must raise the smaller share
+  double tie = 0.03;      ///< shares that differ by less are equal
+  /// Start of the fringes at the borders of the stripes that a sound code may show: blur and
+  /// harmonics move borders and phases. Half a projector pixel is 0.2 for fringes of 16 px.
+  double max_start_rad = 0.25;
+  double max_start_three_rad = 0.45;  ///< the same for three frames, which harmonics affect more
 };
 
 /// Compares a Gray or binary code with the fringes, and its stripes with their neighbours.

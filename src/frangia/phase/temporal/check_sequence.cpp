@@ -15,13 +15,6 @@
 namespace frangia {
 namespace {
 
-/// Share of the rows in which the ends of the field may meet: at a depth edge that happens to show
-/// both.
-constexpr double kMaxSplitRows = 0.25;
-
-/// The misfit of a declaration that fits, over that of scan.toml.
-constexpr double kMaxFitted = 0.6;
-
 constexpr std::size_t kBlocks = 6;        ///< along each side of the image
 constexpr double kMinBlockPixels = 12.0;  ///< fewer average no noise
 constexpr std::size_t kMinBlocks = 8;     ///< fewer show no scatter
@@ -196,7 +189,7 @@ SequenceCheck check_sequence(std::span<const SequenceFrames> coarse_to_fine,
   }
   const bool disagree = out.decided && out.misfit_rad > options.max_misfit * out.chance_rad;
   if (out.decided && !disagree && determines_orders) out.split_rows = sample.split_lines();
-  if (!disagree && out.split_rows <= kMaxSplitRows) {
+  if (!disagree && out.split_rows <= options.max_split_rows) {
     if (!out.decided || !determines_orders) return out;
     for (SequenceTrial& trial : trials_of_start_offset(sample))
       out.fits.push_back(std::move(trial.fault));
@@ -205,7 +198,7 @@ SequenceCheck check_sequence(std::span<const SequenceFrames> coarse_to_fine,
   }
   out.consistent = false;
   constexpr double kNotWorse = 1.3;  // misfit of a declaration that does not split the surface
-  const double limit = out.misfit_rad * (disagree ? kMaxFitted : kNotWorse);
+  const double limit = out.misfit_rad * (disagree ? options.max_fitted : kNotWorse);
   std::vector<RankedTrial> fits = fitting(sample, all_trials(sample), limit, options);
   if (disagree) fits = ranked(sample, with_free_starts(sample, std::move(fits)), limit, options);
   return with_fits(std::move(out), plausible(sample, std::move(fits), determines_orders));

@@ -20,6 +20,11 @@ struct SequenceCheckOptions {
   /// of 0.2 rad, stay below 0.4; a wrong start of 90 degrees gives 0.55 and more
   /// (`./run figures sequence_faults`).
   double max_misfit = 0.5;
+  /// The misfit of a declaration that fits, over that of scan.toml.
+  double max_fitted = 0.6;
+  /// Share of the rows in which the ends of the field may meet: at a depth edge that happens to
+  /// show both.
+  double max_split_rows = 0.25;
 };
 
 /// Compares the wrapped phases of the fringe patterns of one direction with each other.
