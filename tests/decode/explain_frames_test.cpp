@@ -111,6 +111,15 @@ TEST(ExplainFrames, NamesARepeatedFrame) {
   expect_named(kRepeated, 6, FrameCause::Repeated, "frame 2 repeats frame 1");
 }
 
+TEST(ExplainFrames, NamesARepeatedFrameOfThree) {
+  // All lit pixels are alike in two of three frames: that is no background of one lit frame.
+  for (const RenderedScene& scene : scenes()) {
+    const FrameExplanation found = explained(scene, 3, kRepeated);
+    EXPECT_TRUE(found.has_fault()) << "seed " << scene.seed;
+    EXPECT_EQ(found.best.cause, FrameCause::Repeated) << describe(found.explanation);
+  }
+}
+
 TEST(ExplainFrames, NamesExchangedFrames) {
   expect_named(kExchanged, 6, FrameCause::Exchanged, "frames 0 and 1 are exchanged");
 }
@@ -242,6 +251,17 @@ TEST(JudgeFrames, ReturnsTheShiftsOfUnevenSteps) {
   EXPECT_EQ(verdict.explanation.best.cause, FrameCause::Steps) << verdict.finding;
   ASSERT_EQ(verdict.remedy_rad.size(), shown_deg.size()) << verdict.finding;
   EXPECT_NEAR(deg_from_rad(verdict.remedy_rad[2] - verdict.remedy_rad[1]), 68.0, 1.5);
+}
+
+TEST(JudgeFrames, TakesUnevenStepsOfFiveFramesForNoLamp) {
+  const std::vector<double> shown_deg{0.0, 72.0, 151.0, 212.0, 288.0};
+  RenderedFrames frames({.seed = 27}, shown_deg);
+  FrameStack stack = frames.stack();
+  for (std::size_t k = 0; k < shown_deg.size(); ++k)
+    stack.pattern.shifts_rad[k] = kTwoPi * static_cast<double>(k) / 5.0;
+  const FrameVerdict verdict = judge_frames(stack, frames.noise());
+  EXPECT_EQ(verdict.explanation.best.cause, FrameCause::Steps) << verdict.finding;
+  EXPECT_TRUE(verdict.explanation.has_fault());
 }
 
 TEST(JudgeFrames, TakesNoFrameForExact) {

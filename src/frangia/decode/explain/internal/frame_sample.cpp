@@ -116,6 +116,8 @@ std::vector<bool> changed_by_one_cause(const Eigen::ArrayXXd& counts,
   constexpr double kOverOthers = 3.0;  // square fringes look like each of the causes alike
   if (ordered[0] < least || ordered[0] < kOverOthers * ordered[1])
     return std::vector<bool>(usable.size());
+  constexpr double kAll = 0.9;  // without fringes elsewhere it is the frames that are alike
+  if (ordered[0] > kAll) return std::vector<bool>(usable.size());
   const auto most = std::max_element(shares.begin(), shares.end()) - shares.begin();
   return by_cause[static_cast<std::size_t>(most)];
 }
