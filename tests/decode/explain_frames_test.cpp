@@ -5,6 +5,7 @@
 #include <cmath>
 #include <functional>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -118,6 +119,23 @@ TEST(ExplainFrames, NamesARepeatedFrameOfThree) {
     EXPECT_TRUE(found.has_fault()) << "seed " << scene.seed;
     EXPECT_EQ(found.best.cause, FrameCause::Repeated) << describe(found.explanation);
   }
+}
+
+TEST(ExplainFrames, NamesARepeatedFrameOfFringesThatRepeatWhereverBlocksOfAGridWouldLie) {
+  RenderedFrames frames({.width = 560, .height = 400, .seed = 3}, 4);
+  FrameStack stack = frames.stack();
+  constexpr int kGrid = 40;  // 560 px over 14 blocks, and twice the period
+  for (std::size_t k = 0; k < stack.frames.size(); ++k) {
+    auto& image = std::get<Image<std::uint8_t>>(stack.frames[k]);
+    const double shift = 0.5 * kPi * static_cast<double>(k == 2 ? 1 : k);
+    for (int y = 0; y < image.height(); ++y)
+      for (int x = 0; x < image.width(); ++x)
+        image(x, y) = static_cast<std::uint8_t>(
+            std::lround(100.0 + 80.0 * std::cos(2.0 * kTwoPi * x / kGrid + shift)));
+  }
+  const FrameExplanation found = explain_frames(stack, frames.noise());
+  EXPECT_TRUE(found.decided);
+  EXPECT_EQ(found.best.cause, FrameCause::Repeated) << describe(found.explanation);
 }
 
 TEST(ExplainFrames, NamesExchangedFrames) {
@@ -238,7 +256,14 @@ TEST(ExplainFrames, NamesAPartThatMoved) {
   });
   EXPECT_TRUE(found.has_fault());
   EXPECT_EQ(found.best.cause, FrameCause::Moved) << describe(found.explanation);
-  EXPECT_EQ(found.best.frames, std::vector<std::size_t>{3});
+  ASSERT_EQ(found.best.path.size(), 6U);
+  std::vector<double> steps;  // at once before frame 3, however the path is written
+  for (std::size_t k = 1; k < 6; ++k)
+    steps.push_back(std::abs(found.best.path[k] - found.best.path[k - 1]));
+  const double most = *std::max_element(steps.begin(), steps.end());
+  EXPECT_EQ(steps[2], most);
+  for (const std::size_t k : {0U, 1U, 3U, 4U})
+    EXPECT_LT(steps[k], 0.2 * most) << k;
 }
 
 TEST(JudgeFrames, ReturnsTheShiftsOfUnevenSteps) {
