@@ -88,7 +88,7 @@ CASES = {f"{fault} | {one} | {n}": SEEDS for fault in FRINGE_FAULTS for one in S
 CASES |= {f"Gray code: {fault} | {one} | {n}": SEEDS for fault in GRAY_FAULTS for one, n in GRAY_SETS}
 CASES |= {f"sound: {name} | {one} | {n}": SEEDS for name in SOUND for one in SETS for n in STEPS}
 CASES |= {f"sound: {name} | Gray code alone | 0": SEEDS for name in SOUND}
-PART = 1
+PART = {case: 0 if case.endswith("| 8") else 1 for case in CASES}
 
 
 class Lot:
@@ -294,9 +294,7 @@ def cell(name, results):
 
 
 def add_matrix(text, results, of_set, faults, prefix=""):
-    steps = STEPS if of_set in SETS else [0]
-    if prefix:
-        steps = [n for one, n in GRAY_SETS if one == of_set]
+    steps = [n for n in [0, *STEPS] if any(f"{prefix}{fault} | {of_set} | {n}" in results for fault in faults)]
     text.table(f"fault, {of_set}", *[f"{n} steps" if n else "" for n in steps])
     for fault in faults:
         text.row(fault, *[cell(prefix + fault, results[f"{prefix}{fault} | {of_set} | {n}"]) for n in steps])
@@ -304,10 +302,11 @@ def add_matrix(text, results, of_set, faults, prefix=""):
 
 
 def add_sound(text, results):
-    text.table("sound sets", *[f"{n} steps" for n in STEPS], "Gray code alone")
+    measured = [n for n in STEPS if any(case.startswith("sound") and case.endswith(f"| {n}") for case in results)]
+    text.table("sound sets", *[f"{n} steps" for n in measured], "Gray code alone")
     for name in SOUND:
         cells = []
-        for n in [*STEPS, 0]:
+        for n in [*measured, 0]:
             sets = SETS if n else ["Gray code alone"]
             known = [one for of_set in sets for one in results[f"sound: {name} | {of_set} | {n}"] if "over" in one]
             cells.append(f"{np.sqrt(np.mean([one['over'] ** 2 for one in known])):.2f}" if known else "none kept")
