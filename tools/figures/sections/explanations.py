@@ -88,7 +88,11 @@ CASES = {f"{fault} | {one} | {n}": SEEDS for fault in FRINGE_FAULTS for one in S
 CASES |= {f"Gray code: {fault} | {one} | {n}": SEEDS for fault in GRAY_FAULTS for one, n in GRAY_SETS}
 CASES |= {f"sound: {name} | {one} | {n}": SEEDS for name in SOUND for one in SETS for n in STEPS}
 CASES |= {f"sound: {name} | Gray code alone | 0": SEEDS for name in SOUND}
-PART = {case: 0 if case.endswith("| 8") else 1 for case in CASES}
+# Of the part: sets of which the number of steps differs.
+PART_SETS = [("alone", 4), ("with coarser patterns", 3), ("with coarser patterns", 5), ("with Gray code", 6)]
+PART_SETS += GRAY_SETS
+IN_PART = {f"| {of_set} | {n}" for of_set, n in PART_SETS}
+PART = {case: int(case[case.index("|") :] in IN_PART) for case in CASES}
 
 
 class Lot:
