@@ -90,9 +90,10 @@ CASES |= {f"sound: {name} | {one} | {n}": SEEDS for name in SOUND for one in SET
 CASES |= {f"sound: {name} | Gray code alone | 0": SEEDS for name in SOUND}
 # Of the part: sets of which the number of steps differs.
 PART_SETS = [("alone", 4), ("with coarser patterns", 3), ("with coarser patterns", 5), ("with Gray code", 6)]
-PART_SETS += GRAY_SETS
 IN_PART = {f"| {of_set} | {n}" for of_set, n in PART_SETS}
-PART = {case: int(case[case.index("|") :] in IN_PART) for case in CASES}
+PART = {
+    case: int("Gray code: " in case or "code alone" in case or case[case.index("|") :] in IN_PART) for case in CASES
+}
 
 
 class Lot:
@@ -312,7 +313,9 @@ def add_sound(text, results):
         cells = []
         for n in [*measured, 0]:
             sets = SETS if n else ["Gray code alone"]
-            known = [one for of_set in sets for one in results[f"sound: {name} | {of_set} | {n}"] if "over" in one]
+            known = [
+                one for of_set in sets for one in results.get(f"sound: {name} | {of_set} | {n}", []) if "over" in one
+            ]
             cells.append(f"{np.sqrt(np.mean([one['over'] ** 2 for one in known])):.2f}" if known else "none kept")
         text.row(name, *cells)
 
