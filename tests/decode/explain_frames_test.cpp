@@ -5,6 +5,7 @@
 #include <cmath>
 #include <functional>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -109,6 +110,32 @@ TEST(ExplainFrames, NamesAWhiteFrame) {
 
 TEST(ExplainFrames, NamesARepeatedFrame) {
   expect_named(kRepeated, 6, FrameCause::Repeated, "frame 2 repeats frame 1");
+}
+
+TEST(ExplainFrames, NamesARepeatedFrameOfThree) {
+  // All lit pixels are alike in two of three frames: that is no background of one lit frame.
+  for (const RenderedScene& scene : scenes()) {
+    const FrameExplanation found = explained(scene, 3, kRepeated);
+    EXPECT_TRUE(found.has_fault()) << "seed " << scene.seed;
+    EXPECT_EQ(found.best.cause, FrameCause::Repeated) << describe(found.explanation);
+  }
+}
+
+TEST(ExplainFrames, NamesARepeatedFrameOfFringesThatRepeatWhereverBlocksOfAGridWouldLie) {
+  RenderedFrames frames({.width = 560, .height = 400, .seed = 3}, 4);
+  FrameStack stack = frames.stack();
+  constexpr int kGrid = 40;  // 560 px over 14 blocks, and twice the period
+  for (std::size_t k = 0; k < stack.frames.size(); ++k) {
+    auto& image = std::get<Image<std::uint8_t>>(stack.frames[k]);
+    const double shift = 0.5 * kPi * static_cast<double>(k == 2 ? 1 : k);
+    for (int y = 0; y < image.height(); ++y)
+      for (int x = 0; x < image.width(); ++x)
+        image(x, y) = static_cast<std::uint8_t>(
+            std::lround(100.0 + 80.0 * std::cos(2.0 * kTwoPi * x / kGrid + shift)));
+  }
+  const FrameExplanation found = explain_frames(stack, frames.noise());
+  EXPECT_TRUE(found.decided);
+  EXPECT_EQ(found.best.cause, FrameCause::Repeated) << describe(found.explanation);
 }
 
 TEST(ExplainFrames, NamesExchangedFrames) {
@@ -229,7 +256,14 @@ TEST(ExplainFrames, NamesAPartThatMoved) {
   });
   EXPECT_TRUE(found.has_fault());
   EXPECT_EQ(found.best.cause, FrameCause::Moved) << describe(found.explanation);
-  EXPECT_EQ(found.best.frames, std::vector<std::size_t>{3});
+  ASSERT_EQ(found.best.path.size(), 6U);
+  std::vector<double> steps;  // at once before frame 3, however the path is written
+  for (std::size_t k = 1; k < 6; ++k)
+    steps.push_back(std::abs(found.best.path[k] - found.best.path[k - 1]));
+  const double most = *std::max_element(steps.begin(), steps.end());
+  EXPECT_EQ(steps[2], most);
+  for (const std::size_t k : {0U, 1U, 3U, 4U})
+    EXPECT_LT(steps[k], 0.2 * most) << k;
 }
 
 TEST(JudgeFrames, ReturnsTheShiftsOfUnevenSteps) {
@@ -242,6 +276,17 @@ TEST(JudgeFrames, ReturnsTheShiftsOfUnevenSteps) {
   EXPECT_EQ(verdict.explanation.best.cause, FrameCause::Steps) << verdict.finding;
   ASSERT_EQ(verdict.remedy_rad.size(), shown_deg.size()) << verdict.finding;
   EXPECT_NEAR(deg_from_rad(verdict.remedy_rad[2] - verdict.remedy_rad[1]), 68.0, 1.5);
+}
+
+TEST(JudgeFrames, TakesUnevenStepsOfFiveFramesForNoLamp) {
+  const std::vector<double> shown_deg{0.0, 72.0, 151.0, 212.0, 288.0};
+  RenderedFrames frames({.seed = 27}, shown_deg);
+  FrameStack stack = frames.stack();
+  for (std::size_t k = 0; k < shown_deg.size(); ++k)
+    stack.pattern.shifts_rad[k] = kTwoPi * static_cast<double>(k) / 5.0;
+  const FrameVerdict verdict = judge_frames(stack, frames.noise());
+  EXPECT_EQ(verdict.explanation.best.cause, FrameCause::Steps) << verdict.finding;
+  EXPECT_TRUE(verdict.explanation.has_fault());
 }
 
 TEST(JudgeFrames, TakesNoFrameForExact) {

@@ -184,6 +184,22 @@ TEST(CheckGrayCode, NamesAFrameThatIsRepeated) {
   expect_only_fit(scene.check(), "a missing frame: frame 3 repeats frame 2");
 }
 
+TEST(CheckGrayCode, NamesFramesThatAreLateByOne) {
+  CodedScene scene;
+  for (std::size_t frame = 5; frame > 2; --frame)
+    scene.gray.frames[frame] = scene.gray.frames[frame - 1];
+  expect_only_fit(scene.check(), "frames that are late by one from frame 3 on");
+}
+
+TEST(CheckGrayCode, TakesAnotherPeriodOnASmallPartForNoMissingFrame) {
+  // The part lies within the widest stripes: their frames show no border, as they should.
+  CodedScene scene(
+      InvertedFrames::None, false, [](int x, int y) { return 330.0 + 0.45 * coded_column(x, y); });
+  scene.fringes.pattern.period_px = 17.0;
+  for (const SequenceFault& fault : scene.check().fits)
+    EXPECT_NE(fault.kind, SequenceFaultKind::Missing) << fault.what;
+}
+
 TEST(CheckGrayCode, NamesTheStartOfTheFringes) {
   CodedScene scene;
   for (double& shift : scene.fringes.pattern.shifts_rad)

@@ -98,6 +98,64 @@ void expect_only(const SequenceCheck& found, const std::string& pattern, const s
   EXPECT_EQ(found.fits.front().keys, keys) << describe(found);
 }
 
+/// As `checked` of three frames of a linear projector whose waveform is known.
+SequenceCheck checked_linear(const std::vector<Pattern>& declared,
+                             const std::vector<FrameStack>& stacks) {
+  std::vector<SequenceFrames> maps;
+  for (const FrameStack& stack : stacks) {
+    maps.push_back({&stack, least_squares(stack.pattern.shifts_rad)});
+    maps.back().systematic_rad = 0.0;
+  }
+  return check_sequence(maps,
+                        NoiseModel{1.5 * 1.5 + 1.0 / 12.0, 0.0},
+                        checked_display(),
+                        find_sequence_method(declared, checked_display()).has_value());
+}
+
+TEST(CheckSequence, NamesAStartOfThreeFramesWhoseWaveformIsKnown) {
+  const std::vector<Pattern> declared = whole_counts({1, 9, 53}, 3);
+  std::vector<Pattern> shown = declared;
+  for (double& shift : shown[2].shifts_rad)
+    shift += kPi;
+  std::vector<FrameStack> stacks;
+  for (std::size_t m = 0; m < shown.size(); ++m)
+    stacks.push_back(shown_frames(shown[m], declared[m], 1 + static_cast<unsigned>(m)));
+  const SequenceCheck found = checked_linear(declared, stacks);
+  EXPECT_FALSE(found.consistent);
+  ASSERT_EQ(found.fits.size(), 1U) << describe(found);
+  EXPECT_EQ(found.fits.front().what, "a start of 180 degrees, not 0 degrees");
+}
+
+TEST(CheckSequence, CountsThePhaseErrorOfAFrameAtHalfTheLight) {
+  const std::vector<Pattern> declared = whole_counts({1, 8, 40}, 3);
+  std::vector<FrameStack> stacks;
+  for (std::size_t m = 0; m < declared.size(); ++m)
+    stacks.push_back(shown_frames(declared[m], declared[m], 1 + static_cast<unsigned>(m)));
+  for (const double ripple_rad : checked_linear(declared, stacks).ripples_rad)
+    EXPECT_LT(ripple_rad, 0.02);
+  for (std::uint8_t& counts : std::get<Image<std::uint8_t>>(stacks[2].frames[1]).pixels())
+    counts = static_cast<std::uint8_t>(counts / 2);
+  // The truth: least squares of A + B cos(phi - 120 k) with frame 1 halved.
+  double square = 0.0;
+  constexpr int kPlaces = 360;
+  for (int i = 0; i < kPlaces; ++i) {
+    const double phi = kTwoPi * i / kPlaces;
+    double cosine = 0.0;
+    double sine = 0.0;
+    for (int k = 0; k < 3; ++k) {
+      const double counts =
+          (120.0 + 80.0 * std::cos(phi + kTwoPi * k / 3.0)) * (k == 1 ? 0.5 : 1.0);
+      cosine += counts * std::cos(kTwoPi * k / 3.0);
+      sine -= counts * std::sin(kTwoPi * k / 3.0);
+    }
+    square += std::pow(wrap_rad(std::atan2(sine, cosine) - phi), 2) / kPlaces;
+  }
+  const SequenceCheck found = checked_linear(declared, stacks);
+  ASSERT_EQ(found.ripples_rad.size(), 3U);
+  EXPECT_GT(found.ripples_rad[2], 0.6 * std::sqrt(square));
+  EXPECT_LT(found.ripples_rad[2], 1.2 * std::sqrt(square));
+}
+
 TEST(CheckSequence, BlamesNoSoundSequenceOfADisplayThatIsNotLinear) {
   for (const double gamma : {1.8, 2.2, 2.6}) {
     for (const int frames : {3, 4, 5, 6, 8, 12}) {

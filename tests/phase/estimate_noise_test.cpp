@@ -1,5 +1,6 @@
 #include "frangia/phase/wrap/estimate_noise.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <random>
@@ -155,6 +156,29 @@ TEST(EstimateNoise, IgnoresHarmonicsAndFineFringes) {
     EXPECT_GT(estimate_noise({&stack, 1}).variance(70.0), 0.95) << frames;
     EXPECT_LT(estimate_noise({&stack, 1}).variance(70.0), frames == 3 ? 2.3 : 1.5) << frames;
   }
+}
+
+TEST(EstimateNoise, OfThreeFramesIsThatOfThePartAndNotOfADarkBackground) {
+  // A part of a fifth of the image with fringes of 8 px, in front of 1 count of background.
+  std::mt19937 generator(5);
+  std::normal_distribution<double> normal(0.0, 1.0);
+  FrameStack stack{.pattern = {.shifts_rad = equal_shifts(3, kTwoPi / 3)}, .frames = {}};
+  for (const double shift : stack.pattern.shifts_rad) {
+    Image<std::uint8_t> image(320, 256);
+    for (int y = 0; y < image.height(); ++y) {
+      for (int x = 0; x < image.width(); ++x) {
+        const bool is_part = x >= 80 && x < 220 && y >= 60 && y < 180;
+        const double light =
+            is_part ? (40.0 + 0.4 * x) * (1.0 + 0.8 * std::cos(0.8 * x + shift)) : 1.0;
+        const double counts = light + std::sqrt(0.01 + light / 60.0) * normal(generator);
+        image(x, y) = static_cast<std::uint8_t>(std::lround(std::clamp(counts, 0.0, 255.0)));
+      }
+    }
+    stack.frames.emplace_back(std::move(image));
+  }
+  for (const double counts : {80.0, 120.0})
+    EXPECT_NEAR(estimate_noise({&stack, 1}).variance(counts) / (counts / 60.0 + 0.093), 1.0, 0.25)
+        << counts;
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <complex>
 #include <numeric>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -167,6 +168,28 @@ TEST(FitWaveform, IgnoresSaturatedPixelsAndCountsThoseCutOffAtZero) {
 TEST(FitWaveform, FindsNothingInTooFewPixels) {
   const WaveformFit found = fit({.width = 30, .height = 20, .gamma = 2.2}, 4);
   EXPECT_EQ(found.largest_harmonic(), 0);
+}
+
+TEST(FitWaveform, TakesTheShadingOfAPartOfOneFringeForNoHarmonic) {
+  // A quarter of a fringe over the image, brighter in its middle.
+  const std::vector<double> shifts = equal_shifts(3, kTwoPi / 3);
+  FrameStack stack{.pattern = {.period_px = 1280.0, .shifts_rad = shifts}, .frames = {}};
+  for (const double shift : shifts) {
+    Image<std::uint8_t> image(320, 240);
+    for (int y = 0; y < image.height(); ++y) {
+      for (int x = 0; x < image.width(); ++x) {
+        const double across = (x - 160.0) / 160.0;
+        const double albedo = 100.0 * (1.0 - 0.5 * across * across);
+        const double phase = 2.0 + 1.5 * x / 320.0 + 0.1 * std::sin(0.1 * y);
+        image(x, y) =
+            static_cast<std::uint8_t>(std::lround(albedo * (1.0 + 0.9 * std::cos(phase + shift))));
+      }
+    }
+    stack.frames.emplace_back(std::move(image));
+  }
+  const WaveformFit found = fit_waveform(stack, shifts, NoiseModel{1.0 / 12.0, 0.0});
+  for (const std::complex<double>& harmonic : found.waveform.harmonics)
+    EXPECT_EQ(std::abs(harmonic), 0.0);
 }
 
 }  // namespace

@@ -37,7 +37,7 @@ SECTIONS = {
     "harmonics": Inputs(SCAN + " decode response", case_s=6),
     "indirect_light": Inputs(SCAN + " plan", case_s=40),
     "sequence_faults": Inputs("simulate decode", case_s=1),
-    "explanations": Inputs("simulate decode", case_s=1),
+    "explanations": Inputs("decode", case_s=1),
     "camera_blur": Inputs("reconstruct", case_s=20),
     "two_cameras": Inputs(SCAN, case_s=15),
     "app": Inputs("serve", files="web/src tests/app benchmarks/service_bench.cpp", case_s=60),

@@ -11,8 +11,7 @@
 namespace frangia {
 namespace {
 
-/// Frames from which a lamp that stays on differs from harmonics. A movement and uneven steps
-/// differ from a lost frame with one more.
+/// Frames from which a lamp that stays on, a movement and uneven steps differ from harmonics.
 constexpr std::size_t kMinFramesOfLamp = 5;
 
 FrameHypothesis as_described(const Pattern& pattern) {
@@ -125,7 +124,7 @@ std::vector<FrameHypothesis> frame_hypotheses(const Pattern& pattern) {
     add(FrameCause::Late, k, 0, frames - 2);
     for (std::size_t l = k; l < frames; ++l)
       out.back().shifts_rad[l] = declared.shifts_rad[l - 1];
-    if (frames > kMinFramesOfLamp) {
+    if (frames >= kMinFramesOfLamp) {
       std::vector<double> path(frames, 0.0);
       std::fill(path.begin() + static_cast<std::ptrdiff_t>(k), path.end(), 1.0);
       for (const FrameCause cause : {FrameCause::Steps, FrameCause::Moved}) {
@@ -138,7 +137,7 @@ std::vector<FrameHypothesis> frame_hypotheses(const Pattern& pattern) {
     add(FrameCause::Lamp, k, 0, frames - 3);
     out.back().lamp_on = k;
   }
-  if (frames > kMinFramesOfLamp) {
+  if (frames >= kMinFramesOfLamp) {
     add(FrameCause::Steps, 0, 0, 1);
     out.back().has_free_steps = true;
     out.back().frames.clear();

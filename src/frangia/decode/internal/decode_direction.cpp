@@ -21,6 +21,7 @@
 #include "frangia/frames/frame_stack.h"
 #include "frangia/fringe_order/check_start_by_sheet.h"
 #include "frangia/phase/algorithm/fit_algorithm.h"
+#include "frangia/phase/gray/check_gray_inverses.h"
 #include "frangia/phase/gray/decode_gray_alone.h"
 #include "frangia/phase/gray/decode_gray_code.h"
 #include "frangia/phase/temporal/check_indirect_light.h"
@@ -203,6 +204,7 @@ DecodedDirection decode_from(const FromGrayCodeAlone& /*source*/, const Directio
   Image<float> threshold;
   if (gray.front().pattern.inverted == InvertedFrames::None)
     threshold = gray_threshold(gray.front(), find(PatternKind::White), find(PatternKind::Ambient));
+  out.check = check_gray_inverses(gray.front());
   GrayAloneOptions limits;
   limits.max_wrong_stripe = input.options.temporal.max_wrong_order;
   out.phase = inside_field(input, decode_gray_alone(gray, threshold, out.noise, limits));

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <iterator>
 #include <utility>
 #include <vector>
 
@@ -11,6 +13,26 @@
 #include "frangia/phase/gray/internal/gray_trials.h"
 
 namespace frangia {
+namespace {
+
+/// The declarations that fit best, all of those that fit equally well.
+std::vector<SequenceFault> best_of(const GrayCodeSample& sample,
+                                   std::vector<GrayTrial> trials,
+                                   double least,
+                                   double tie) {
+  std::vector<double> scores;
+  for (const GrayTrial& trial : trials)
+    scores.push_back(sample.score(trial));
+  double best = least;
+  for (const double score : scores)
+    best = std::max(best, score);
+  std::vector<SequenceFault> fits;
+  for (std::size_t i = 0; i < trials.size(); ++i)
+    if (scores[i] >= best - tie) fits.push_back(std::move(trials[i].fault));
+  return fits;
+}
+
+}  // namespace
 
 SequenceCheck check_gray_code(const FrameStack& gray,
                               const WrappedPhase& fringes,
@@ -26,44 +48,27 @@ SequenceCheck check_gray_code(const FrameStack& gray,
   if (sample.pixels.size() < options.min_pixels) return out;
   const Pattern& shown = fringes.pattern;
   const GrayTrial as_declared = declared_trial(code, shown);
-  const double declared = sample.score(as_declared);
   out.decided = true;
-  out.agreement = declared;
-  const bool agrees = declared >= options.min_agreement;
+  out.agreement = sample.score(as_declared);
+  const bool agrees = out.agreement >= options.min_agreement;
   const GrayCodeSample::Start start = sample.start_offset(as_declared);
-  std::vector<SequenceFault> missing = missing_frames(sample, code, shown);
-  if (agrees && !missing.empty()) {
-    out.consistent = false;
-    out.fits = std::move(missing);
-    return out;
-  }
-  if (agrees && !start.scattered) {
-    if (!(std::abs(start.offset_rad) > max_start_of(shown, options))) return out;
-    out.consistent = false;
-    GrayTrial later = as_declared;
-    later.start_rad = start.offset_rad;
-    if (passes(sample, later, shown, options))
-      out.fits.push_back(start_fault(shown, start.offset_rad));
-    return out;
-  }
-  std::vector<SequenceFault> scales = other_scales(sample, code, shown, options);
-  if (agrees && scales.empty()) return out;
+  const bool begins_elsewhere =
+      agrees && !start.scattered && std::abs(start.offset_rad) > max_start_of(shown, options);
+  std::vector<GrayTrial> trials = missing_trials(sample, code, shown);
+  const bool misses = !trials.empty();
+  const auto add = [&](std::vector<GrayTrial> more) {
+    std::move(more.begin(), more.end(), std::back_inserter(trials));
+  };
+  if (begins_elsewhere) add(start_trials(sample, code, shown, start.offset_rad, options));
+  if (!agrees || start.scattered) add(scale_trials(sample, code, shown, options));
+  if (agrees && trials.empty() && !begins_elsewhere) return out;
+  if (!agrees) add(gray_trials(code, shown));
   out.consistent = false;
-  std::vector<GrayTrial> trials = gray_trials(code, shown);
-  double best = std::max(options.min_agreement, declared + options.min_gain);
-  std::vector<std::pair<double, SequenceFault>> found;
-  for (GrayTrial& trial : trials) {
-    const double score = sample.score(trial);
-    best = std::max(best, score);
-    found.emplace_back(score, std::move(trial.fault));
-  }
-  if (!agrees) {
-    for (auto& [score, fault] : found)
-      if (score >= best - options.tie) out.fits.push_back(std::move(fault));
-  }
-  constexpr double kWhole = 0.9;  // less leaves stripes that the declaration does not explain
-  if (!missing.empty() && (out.fits.empty() || best < kWhole)) out.fits = std::move(missing);
-  if (out.fits.empty()) out.fits = std::move(scales);
+  const double gain = agrees ? 0.0 : options.min_gain;
+  const double least = std::max(options.min_agreement, out.agreement + gain);
+  out.fits = best_of(sample, std::move(trials), least, options.tie);
+  // A frame that is missing is no other fault of a code that agrees without it.
+  if (agrees && misses && out.fits.empty()) out.consistent = true;
   return out;
 }
 

@@ -98,13 +98,17 @@ std::vector<SequenceTrial> trials_of_start_offset(const SequenceSample& sample) 
 
 /// Systematic phase error of each pattern, rad RMS, that a sound sequence may have: harmonics of a
 /// display, errors of steps. Three frames are blind to the second harmonic, which is 0.29 of the
-/// first for gamma 2.2.
-std::vector<double> largest_systematic(const std::vector<Pattern>& patterns) {
+/// first for gamma 2.2; where their waveform is known it decides.
+std::vector<double> largest_systematic(std::span<const SequenceFrames> maps) {
   constexpr double kThreeFrames_rad = 0.2;
   constexpr double kMoreFrames_rad = 0.05;
   std::vector<double> out;
-  for (const Pattern& pattern : patterns)
-    out.push_back(pattern.shifts_rad.size() <= 3 ? kThreeFrames_rad : kMoreFrames_rad);
+  for (const SequenceFrames& map : maps) {
+    const double unknown_rad =
+        map.stack->pattern.shifts_rad.size() <= 3 ? kThreeFrames_rad : kMoreFrames_rad;
+    out.push_back(map.systematic_rad ? std::clamp(*map.systematic_rad, kMoreFrames_rad, unknown_rad)
+                                     : unknown_rad);
+  }
   return out;
 }
 
@@ -176,11 +180,13 @@ SequenceCheck check_sequence(std::span<const SequenceFrames> coarse_to_fine,
   const SequenceSample sample(coarse_to_fine, noise, projector, wrap, options);
   if (sample.size() < options.min_pixels) return out;
   if (coarse_to_fine.size() > 1) {
+    for (std::size_t map = 0; map < coarse_to_fine.size(); ++map)
+      out.ripples_rad.push_back(sample.ripple(map));
     out.misfit_rad = sample.misfit();
     out.chance_rad = sample.chance();
-    out.decided = out.misfit_rad <= options.max_misfit * out.chance_rad ||
-                  sample.expected_misfit(largest_systematic(sample.patterns())) <=
-                      kMaxExpected * out.chance_rad;
+    out.decided =
+        out.misfit_rad <= options.max_misfit * out.chance_rad ||
+        sample.expected_misfit(largest_systematic(coarse_to_fine)) <= kMaxExpected * out.chance_rad;
   }
   for (std::size_t map = 0; map < coarse_to_fine.size(); ++map) {
     const auto orders = trials_of(sample, map, coarse_to_fine[map].orders_rad);

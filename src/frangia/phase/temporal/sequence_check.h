@@ -57,6 +57,9 @@ struct SequenceCheck {
   /// Share of the rows of pixels in which the two ends of the field meet on the object.
   double split_rows = 0.0;
   std::vector<std::string> patterns;  ///< names of the patterns that were compared
+  /// By pattern that was compared: phase error that repeats with its own phase and that the coarser
+  /// patterns contradict, RMS; 0 where they tell none.
+  std::vector<double> ripples_rad{};
   /// What is wrong with the frames of one pattern by themselves, as a clause; it takes precedence
   /// over `fits`.
   std::string finding;

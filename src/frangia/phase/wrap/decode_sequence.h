@@ -1,6 +1,8 @@
 #pragma once
 
+#include <optional>
 #include <span>
+#include <vector>
 
 #include "frangia/frames/frame_stack.h"
 #include "frangia/frames/noise_model.h"
@@ -19,6 +21,8 @@ struct SequenceFrames {
   /// Shifts that explain the frames by themselves equally well where those of the pattern do not;
   /// empty where these do.
   std::vector<std::vector<double>> orders_rad{};
+  /// Phase error that the waveform of these frames makes; none if it is unknown.
+  std::optional<double> systematic_rad{};
 };
 
 /// Options of the decoding of a multi-frequency sequence.

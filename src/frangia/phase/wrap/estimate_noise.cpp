@@ -63,8 +63,8 @@ class CombinedHarmonics {
   bool found_ = false;
 };
 
-/// Absolute differences, counts, binned by brightness.
-using NoiseBins = std::array<std::vector<float>, NoiseSamples::kBins>;
+/// Absolute differences, binned by brightness.
+using NoiseBins = std::array<NoiseSamples::Bin, NoiseSamples::kBins>;
 
 /// Gathers the noise in rows of one combination of the frames.
 class NoiseRowGatherer {
@@ -115,11 +115,11 @@ void NoiseRowGatherer::gather(int y, NoiseBins& bins) const {
     const double share = mean[i] / stack_->white_level;
     const auto bin = std::min<std::size_t>(NoiseSamples::kBins - 1,
                                            static_cast<std::size_t>(share * NoiseSamples::kBins));
-    bins[bin].push_back(static_cast<float>(std::abs(difference)));
+    bins[bin].differences_counts.push_back(static_cast<float>(std::abs(difference)));
+    bins[bin].sum_counts += mean[i];
   }
 }
 
-constexpr int kBins = NoiseSamples::kBins;
 constexpr double kMinSigma = 0.3;  ///< counts: quantization, 1 / sqrt(12)
 constexpr std::size_t kMinBinSamples =
     200;  ///< fewest samples of a bin; the variance then has a standard error of 10 %
@@ -207,10 +207,10 @@ bool are_filled(const NoiseBins& bins) {
   double all = 0.0;
   double unused = 0.0;
   double fullest = 0.0;
-  for (const std::vector<float>& bin : bins) {
-    const auto size = static_cast<double>(bin.size());
+  for (const NoiseSamples::Bin& bin : bins) {
+    const auto size = static_cast<double>(bin.differences_counts.size());
     all += size;
-    unused += bin.size() < kMinBinSamples ? size : 0.0;
+    unused += bin.differences_counts.size() < kMinBinSamples ? size : 0.0;
     fullest = std::max(fullest, size);
   }
   return fullest >= static_cast<double>(kMinBinSamples) &&
@@ -218,15 +218,25 @@ bool are_filled(const NoiseBins& bins) {
 }
 
 void append(const NoiseBins& from, NoiseBins& to) {
-  for (std::size_t bin = 0; bin < to.size(); ++bin)
-    to[bin].insert(to[bin].end(), from[bin].begin(), from[bin].end());
+  for (std::size_t bin = 0; bin < to.size(); ++bin) {
+    const std::vector<float>& added = from[bin].differences_counts;
+    to[bin].differences_counts.insert(to[bin].differences_counts.end(), added.begin(), added.end());
+    to[bin].sum_counts += from[bin].sum_counts;
+  }
 }
 
-double pooled_variance(const NoiseBins& bins) {
-  std::vector<float> all;
-  for (const std::vector<float>& bin : bins)
-    all.insert(all.end(), bin.begin(), bin.end());
-  return robust_variance(std::move(all));
+/// The mean over the samples of the variances of their bins. A median over all of them would be
+/// that of the background, which shows neither fringes nor texture.
+double mean_variance(const NoiseBins& bins) {
+  double sum = 0.0;
+  double count = 0.0;
+  for (const NoiseSamples::Bin& bin : bins) {
+    if (bin.differences_counts.size() < kMinBinSamples) continue;
+    const auto size = static_cast<double>(bin.differences_counts.size());
+    sum += size * robust_variance(bin.differences_counts);
+    count += size;
+  }
+  return sum / std::max(count, 1.0);
 }
 
 }  // namespace
@@ -259,19 +269,21 @@ void NoiseSamples::add(const FrameStack& stack) {
       mean_frame.gather(y, mean);
     });
   }
-  append(pooled_variance(mean) < kFineFringes * pooled_variance(single) ? mean : single, bins_);
+  append(mean_variance(mean) < kFineFringes * mean_variance(single) ? mean : single, bins_);
 }
 
 NoiseModel NoiseSamples::model() const {
-  // Weighted straight line through the bins; the weight is samples / variance^2.
+  // Weighted straight line through the bins. The variance of a bin is off by chance, and by
+  // rounding and texture: otherwise the many pixels of a dark background alone would decide.
+  constexpr double kModelError = 0.1;  // relative
   Eigen::Matrix2d normal = Eigen::Matrix2d::Zero();
   Eigen::Vector2d right = Eigen::Vector2d::Zero();
-  for (int bin = 0; bin < kBins; ++bin) {
-    const auto& magnitudes = bins_[static_cast<std::size_t>(bin)];
-    if (magnitudes.size() < kMinBinSamples) continue;
-    const double variance = std::max(robust_variance(magnitudes), 1.0 / 12.0);
-    const Eigen::Vector2d row(1.0, (bin + 0.5) * white_ / kBins);
-    const double weight = static_cast<double>(magnitudes.size()) / (variance * variance);
+  for (const Bin& bin : bins_) {
+    if (bin.differences_counts.size() < kMinBinSamples) continue;
+    const auto size = static_cast<double>(bin.differences_counts.size());
+    const double variance = std::max(robust_variance(bin.differences_counts), 1.0 / 12.0);
+    const Eigen::Vector2d row(1.0, bin.sum_counts / size);
+    const double weight = 1.0 / (variance * variance * (2.0 / size + kModelError * kModelError));
     normal += weight * row * row.transpose();
     right += weight * row * variance;
   }

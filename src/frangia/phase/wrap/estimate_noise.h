@@ -24,12 +24,17 @@ namespace frangia {
 class NoiseSamples {
  public:
   static constexpr int kBins = 24;  ///< bins of brightness
+  /// Absolute differences and the brightness at which they were taken.
+  struct Bin {
+    std::vector<float> differences_counts;  ///< their expected square is the variance
+    double sum_counts = 0.0;                ///< of the brightness
+  };
   /// Adds the samples of one stack. Stacks of other patterns than fringes are ignored.
   void add(const FrameStack& stack);
   [[nodiscard]] NoiseModel model() const;  ///< noise model fitted to all samples
 
  private:
-  std::array<std::vector<float>, kBins> bins_;
+  std::array<Bin, kBins> bins_;
   int white_ = 255;
 };
 

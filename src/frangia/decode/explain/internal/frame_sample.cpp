@@ -6,6 +6,7 @@
 #include <functional>
 
 #include "frangia/core/median.h"
+#include "frangia/core/random.h"
 
 namespace frangia {
 namespace {
@@ -24,12 +25,21 @@ struct Place {
   int block;
 };
 
+/// One block at random in each square of a grid: at equal distances, all blocks would see the same
+/// phase of fringes whose period divides them.
 std::vector<Place> places_in(int width, int height, int blocks) {
   const int step = std::max(kBlock + 1, std::max(width, height) / blocks);
   std::vector<Place> places;
   int block = 0;
-  for (int y = step / 2; y + kBlock <= height; y += step) {
-    for (int x = step / 2; x + kBlock <= width; x += step, ++block) {
+  for (int row = 0; row + kBlock <= height; row += step) {
+    for (int column = 0; column + kBlock <= width; column += step, ++block) {
+      const auto shifted = [&](int from, int size, std::size_t axis) {
+        const int room = std::min(step, size - from) - kBlock;
+        const double share = uniform_from(hash(hash(axis), static_cast<std::size_t>(block)));
+        return from + static_cast<int>(share * (room + 1));
+      };
+      const int x = shifted(column, width, 0);
+      const int y = shifted(row, height, 1);
       for (int dy = 0; dy < kBlock; ++dy)
         for (int dx = 0; dx < kBlock; ++dx)
           places.push_back({x + dx, y + dy, block});
@@ -116,6 +126,8 @@ std::vector<bool> changed_by_one_cause(const Eigen::ArrayXXd& counts,
   constexpr double kOverOthers = 3.0;  // square fringes look like each of the causes alike
   if (ordered[0] < least || ordered[0] < kOverOthers * ordered[1])
     return std::vector<bool>(usable.size());
+  constexpr double kAll = 0.9;  // without fringes elsewhere it is the frames that are alike
+  if (ordered[0] > kAll) return std::vector<bool>(usable.size());
   const auto most = std::max_element(shares.begin(), shares.end()) - shares.begin();
   return by_cause[static_cast<std::size_t>(most)];
 }

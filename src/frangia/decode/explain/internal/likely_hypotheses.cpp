@@ -88,8 +88,9 @@ bool show_whole_fringe(const FrameSample& sample, const FrameHypothesis& hypothe
 }
 
 /// Whether the sample sees the second harmonic of the fringes with both signs. A part that sees one
-/// side of a coarse fringe alone does not tell it from uneven steps, nor, with four frames, from
-/// light in one of them, where a camera's response makes the harmonic differ with the brightness.
+/// side of a coarse fringe alone does not tell it from uneven steps, nor, with six frames or fewer,
+/// from light in some of them, where a camera's response makes the harmonic differ with the
+/// brightness.
 bool sees_both_sides(const FrameSample& sample, const FrameHypothesis& declared) {
   constexpr double kOneSided = 0.3;
   Eigen::ArrayXcd phasor = Eigen::ArrayXcd::Zero(sample.counts.rows());
@@ -171,13 +172,13 @@ std::vector<FrameHypothesis> likely_singles(const FrameSample& sample,
   std::vector<FrameHypothesis> others;  // `rough_score` does not model them
   std::vector<FrameHypothesis> all = frame_hypotheses(pattern);
   const FrameHypothesis declared = all.front();
-  constexpr std::size_t kFourSteps = 4;
+  constexpr std::size_t kFewSteps = 6;  // their residuals are those of the harmonics 2 and 3
   const bool both_sides = sees_both_sides(sample, declared);
   for (FrameHypothesis& one : all) {
     if (one.cause == FrameCause::Gain && !fit_gain(moments, one.frames.front(), one)) continue;
     if (!one.path.empty() || one.has_free_steps || one.lamp_on) {
       const bool like_harmonic =
-          one.lamp_on ? declared.shifts_rad.size() <= kFourSteps : one.has_free_steps;
+          one.lamp_on ? declared.shifts_rad.size() <= kFewSteps : one.cause == FrameCause::Steps;
       if (both_sides || !like_harmonic) others.push_back(std::move(one));
       continue;
     }

@@ -188,15 +188,32 @@ class GrayCodeSample {
     }
     return true;
   }
-  [[nodiscard]] static std::uint32_t stripe_of(const GrayTrial& trial, const CodedPixel& pixel) {
+  [[nodiscard]] static std::uint32_t stripe_of_frames(const GrayTrial& trial,
+                                                      std::uint64_t frames) {
     std::uint32_t code = 0;
     for (int bit = 0; bit < trial.code.bits; ++bit) {
       const auto declared = static_cast<std::size_t>(frame_of_bit(trial.code, bit, false));
       const std::size_t frame = trial.frame_of[declared];
-      const bool bright = ((pixel.bright >> frame & 1U) != 0) != trial.inverted[frame];
+      const bool bright = ((frames >> frame & 1U) != 0) != trial.inverted[frame];
       code = 2 * code + (bright ? 1U : 0U);
     }
     return stripe_of_code(trial.code, code);
+  }
+  [[nodiscard]] static std::uint32_t stripe_of(const GrayTrial& trial, const CodedPixel& pixel) {
+    const std::uint32_t shown = stripe_of_frames(trial, pixel.bright);
+    if (!trial.missing) return shown;
+    const std::uint32_t other =
+        stripe_of_frames(trial, pixel.bright ^ std::uint64_t{1} << *trial.missing);
+    return distance_rad(trial, pixel, other) < distance_rad(trial, pixel, shown) ? other : shown;
+  }
+  /// The distance of the measured phase from that of the middle of a stripe.
+  [[nodiscard]] static double distance_rad(const GrayTrial& trial,
+                                           const CodedPixel& pixel,
+                                           std::uint32_t stripe) {
+    const double column = (stripe + 0.5) * trial.code.stripe_px - 0.5 - trial.code.offset_px;
+    const auto measured = static_cast<double>(pixel.phase_rad);
+    const double phase = (trial.reversed ? -measured : measured) - trial.start_rad;
+    return std::abs(wrap_rad(phase - kTwoPi * column / trial.period_px));
   }
   [[nodiscard]] double fringe_agreement(const GrayTrial& trial,
                                         const std::vector<std::uint32_t>& stripes) const {
@@ -208,12 +225,8 @@ class GrayCodeSample {
   [[nodiscard]] bool agrees_with_fringes(const GrayTrial& trial,
                                          const CodedPixel& pixel,
                                          std::uint32_t stripe) const {
-    const double period = trial.period_px;
-    const double limit = kPi * trial.code.stripe_px / period + options_.margin_rad;
-    const double column = (stripe + 0.5) * trial.code.stripe_px - 0.5 - trial.code.offset_px;
-    const auto measured = static_cast<double>(pixel.phase_rad);
-    const double phase = (trial.reversed ? -measured : measured) - trial.start_rad;
-    return std::abs(wrap_rad(phase - kTwoPi * column / period)) <= limit;
+    return distance_rad(trial, pixel, stripe) <=
+           kPi * trial.code.stripe_px / trial.period_px + options_.margin_rad;
   }
   /// 1 where the number of the stripe rises by one with the phase from pixel `i - 1` to `i`, -1
   /// where it falls, 0 elsewhere.

@@ -18,18 +18,22 @@ namespace frangia {
 
 /// Frames that show no stripes, or those of the frame before, where the others and the fringes say
 /// that they have stripes of their own: they are missing.
-[[nodiscard]] std::vector<SequenceFault> missing_frames(const GrayCodeSample& sample,
-                                                        const Pattern& code,
-                                                        const Pattern& fringes);
+[[nodiscard]] std::vector<GrayTrial> missing_trials(const GrayCodeSample& sample,
+                                                    const Pattern& code,
+                                                    const Pattern& fringes);
 
 /// Widths of the stripes and periods of the fringes with which the fringes lie at the borders of
 /// the stripes where they should.
-[[nodiscard]] std::vector<SequenceFault> other_scales(const GrayCodeSample& sample,
-                                                      const Pattern& code,
-                                                      const Pattern& fringes,
-                                                      const GrayCodeCheckOptions& options);
+[[nodiscard]] std::vector<GrayTrial> scale_trials(const GrayCodeSample& sample,
+                                                  const Pattern& code,
+                                                  const Pattern& fringes,
+                                                  const GrayCodeCheckOptions& options);
 
-/// The fringes began at another phase than declared.
-[[nodiscard]] SequenceFault start_fault(const Pattern& fringes, double start_rad);
+/// The fringes began at another phase than declared, if code and fringes pass with it.
+[[nodiscard]] std::vector<GrayTrial> start_trials(const GrayCodeSample& sample,
+                                                  const Pattern& code,
+                                                  const Pattern& fringes,
+                                                  double start_rad,
+                                                  const GrayCodeCheckOptions& options);
 
 }  // namespace frangia

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "frangia/pattern/pattern.h"
@@ -14,9 +15,11 @@ struct GrayTrial {
   Pattern code;
   std::vector<std::size_t> frame_of;  ///< recorded frame of each declared one
   std::vector<bool> inverted;         ///< recorded frames that show their inverse
-  double start_rad = 0.0;             ///< of the fringes
-  bool reversed = false;              ///< shifts of the fringes
-  double period_px = 0.0;             ///< of the fringes
+  /// A recorded frame without stripes: the fringes decide what it should have shown at each pixel.
+  std::optional<std::size_t> missing{};
+  double start_rad = 0.0;  ///< of the fringes
+  bool reversed = false;   ///< shifts of the fringes
+  double period_px = 0.0;  ///< of the fringes
 };
 
 /// The supposition that code and fringes are as declared.

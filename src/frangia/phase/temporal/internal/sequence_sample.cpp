@@ -14,6 +14,7 @@
 #include "frangia/phase/internal/fringe_curve.h"
 #include "frangia/phase/internal/is_split.h"
 #include "frangia/phase/internal/sample_columns.h"
+#include "frangia/phase/temporal/internal/phase_ripple.h"
 #include "frangia/phase/temporal/unwrap_sequence.h"
 #include "frangia/phase/waveform/frame_samples.h"
 #include "frangia/rig/phase_range.h"
@@ -278,27 +279,51 @@ double SequenceSample::frequency_by_slopes(std::size_t map) const {
   return best;
 }
 
-double SequenceSample::shown_frequency(std::size_t map) const {
-  std::vector<Pattern> others;
-  Phases phases;
+std::vector<double> SequenceSample::places_by(std::span<const std::size_t> maps) const {
+  std::vector<Pattern> patterns;
   std::vector<double> per_unit;
-  const Phases all = phases_of({}, compared_);
-  for (std::size_t m = 0; m < maps_.size(); ++m) {
-    if (m == map) continue;
-    others.push_back(patterns_[m]);
+  for (const std::size_t m : maps) {
+    patterns.push_back(patterns_[m]);
     per_unit.push_back(patterns_[m].fringes_per_unit());
-    phases.push_back(all[m]);
   }
-  if (!find_sequence_method(others, projector_)) return frequency_by_slopes(map);
+  if (patterns.empty() || !find_sequence_method(patterns, projector_)) return {};
   FringeCurve curve(per_unit, first_, last_);
-  std::vector<float> pixel(phases.size());
+  std::vector<float> pixel(maps.size());
   std::vector<double> places;
-  for (std::size_t i = 0; i < compared_.size(); ++i) {
-    for (std::size_t m = 0; m < phases.size(); ++m)
-      pixel[m] = phases[m][i];
+  for (const std::size_t i : compared_) {
+    for (std::size_t m = 0; m < maps.size(); ++m)
+      pixel[m] = maps_[maps[m]].phase_rad.pixels()[i];
     places.push_back(static_cast<double>(curve.nearest(pixel).unit));
   }
-  return best_frequency(places, all[map], patterns_[map].fringes_per_unit(), last_ - first_);
+  return places;
+}
+
+double SequenceSample::ripple(std::size_t map) const {
+  std::vector<std::size_t> coarser;
+  for (std::size_t m = 0; m < map; ++m)
+    coarser.push_back(m);
+  const std::vector<double> places = places_by(coarser);
+  if (places.empty()) return 0.0;
+  const double per_unit = patterns_[map].fringes_per_unit();
+  std::vector<float> phases;
+  std::vector<double> errors;
+  for (std::size_t i = 0; i < compared_.size(); ++i) {
+    phases.push_back(maps_[map].phase_rad.pixels()[compared_[i]]);
+    errors.push_back(wrap_rad(static_cast<double>(phases.back()) - kTwoPi * per_unit * places[i]));
+  }
+  return phase_ripple(phases, errors);
+}
+
+double SequenceSample::shown_frequency(std::size_t map) const {
+  std::vector<std::size_t> others;
+  for (std::size_t m = 0; m < maps_.size(); ++m)
+    if (m != map) others.push_back(m);
+  const std::vector<double> places = places_by(others);
+  if (places.empty()) return frequency_by_slopes(map);
+  std::vector<float> phases;
+  for (const std::size_t pixel : compared_)
+    phases.push_back(maps_[map].phase_rad.pixels()[pixel]);
+  return best_frequency(places, phases, patterns_[map].fringes_per_unit(), last_ - first_);
 }
 
 }  // namespace frangia

@@ -44,6 +44,9 @@ class SequenceSample {
   [[nodiscard]] double split_lines(const SequenceTrial& trial = {}) const;
   /// The residuals of all pixels as declared.
   [[nodiscard]] std::vector<PlacedResiduals> residuals() const;
+  /// The phase error of a map that repeats with its own phase, RMS, by the coarser maps; 0 where
+  /// these do not determine the place in the field, or nothing repeats.
+  [[nodiscard]] double ripple(std::size_t map) const;
   /// The number of fringes per unit that the frames of a map show if the other maps are right; 0
   /// if no number fits. Where the other maps do not determine the place in the field, their slopes
   /// do.
@@ -66,6 +69,8 @@ class SequenceSample {
   /// refined by the misfit.
   [[nodiscard]] double frequency_by_slopes(std::size_t map) const;
   [[nodiscard]] bool is_measured(std::size_t pixel) const;  ///< in all maps
+  /// The places of all pixels in the field by some of the maps; empty if these do not determine it.
+  [[nodiscard]] std::vector<double> places_by(std::span<const std::size_t> maps) const;
   void choose_pixels(const SequenceCheckOptions& options);
 
   const Projector& projector_;

@@ -248,7 +248,10 @@ ContrastFit fit_contrast(const FringeBins& bins,
                          const FringeWaveform& known,
                          int order) {
   ContrastFit out;
-  if (bins.weight.sum() == 0.0) return out;
+  // On part of a fringe, the contrasts of two surfaces pass for a harmonic or an offset.
+  constexpr double kMinCovered = 0.75;
+  out.offset_sigma = std::numeric_limits<double>::infinity();
+  if (bins.weight.sum() == 0.0 || covered_share(bins) < kMinCovered) return out;
   const double mean = (bins.weight * bins.mean_over_modulation).sum() / bins.weight.sum();
   ThirdHarmonic third;
   if (order == 2) third = third_of(bins, mean);
@@ -283,9 +286,7 @@ ContrastFit fit_contrast(const FringeBins& bins,
   out.harmonic_sigma = std::hypot(std::sqrt(0.5 * (variance(0) + variance(1))), third.sigma / mean);
   out.offset = {unknown(2), unknown(3)};
   out.offset_sigma = std::sqrt(0.5 * (variance(2) + variance(3)));
-  // On part of a fringe, the contrasts of two surfaces pass for an offset.
-  constexpr double kMinCovered = 0.75;
-  if (covered_share(bins) < kMinCovered || !std::isfinite(out.offset_sigma)) {
+  if (!std::isfinite(out.offset_sigma)) {
     out.offset = 0.0;
     out.offset_sigma = std::numeric_limits<double>::infinity();
   }

@@ -1,0 +1,94 @@
+#include "frangia/phase/gray/check_gray_inverses.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "frangia/core/error.h"
+#include "frangia/core/median.h"
+#include "frangia/pattern/gray_code.h"
+
+namespace frangia {
+namespace {
+
+constexpr int kMinBits = 3;        ///< of two that differ, none is at fault
+constexpr double kLitShare = 0.2;  ///< least contrast of a lit pixel over that of bright ones
+constexpr double kMinLitContrast = 10.0;  ///< counts: less may be noise
+constexpr std::size_t kMinLit = 300;      ///< pixels; fewer decide nothing
+constexpr double kOff = 0.5;              ///< of the contrast: a wrong stripe is off by all of it
+constexpr double kMaxWrongShare = 0.05;   ///< of the lit pixels: edges of stripes and highlights
+constexpr int kStride = 3;                ///< every third pixel along both axes
+
+/// Light of a bit and its inverse at one pixel: sum and difference of each bit.
+struct BitLight {
+  std::vector<double> sums;
+  double contrast = 0.0;  ///< median over the bits
+};
+
+}  // namespace
+
+SequenceCheck check_gray_inverses(const FrameStack& gray) {
+  const Pattern& code = gray.pattern;
+  require(static_cast<int>(gray.frames.size()) == code.frame_count(),
+          "check_gray_inverses: the number of frames differs from the pattern");
+  SequenceCheck out;
+  out.patterns = {code.name};
+  if (code.inverted == InvertedFrames::None || code.bits < kMinBits) return out;
+  std::vector<BitLight> pixels;
+  std::vector<double> contrasts;
+  for (int y = 0; y < height_of(gray.frames.front()); y += kStride) {
+    for (int x = 0; x < width_of(gray.frames.front()); x += kStride) {
+      BitLight pixel;
+      std::vector<double> differences;
+      for (int bit = 0; bit < code.bits; ++bit) {
+        const auto counts = [&](bool inverted) {
+          const auto frame = static_cast<std::size_t>(frame_of_bit(code, bit, inverted));
+          return counts_at(gray.frames[frame], x, y);
+        };
+        pixel.sums.push_back(counts(false) + counts(true));
+        differences.push_back(std::abs(counts(false) - counts(true)));
+      }
+      pixel.contrast = median_in_place(std::span(differences));
+      contrasts.push_back(pixel.contrast);
+      pixels.push_back(std::move(pixel));
+    }
+  }
+  std::sort(contrasts.begin(), contrasts.end());
+  const double bright = contrasts[contrasts.size() * 99 / 100];
+  const double least = std::max(kMinLitContrast, kLitShare * bright);
+  std::vector<double> wrong(static_cast<std::size_t>(code.bits));
+  std::size_t lit = 0;
+  for (const BitLight& pixel : pixels) {
+    if (pixel.contrast < least) continue;
+    ++lit;
+    std::vector<double> ordered = pixel.sums;
+    const double sum = median_in_place(std::span(ordered));
+    for (std::size_t bit = 0; bit < wrong.size(); ++bit)
+      if (std::abs(pixel.sums[bit] - sum) > kOff * pixel.contrast) wrong[bit] += 1.0;
+  }
+  if (lit < kMinLit) return out;
+  out.decided = true;
+  std::vector<int> frames;
+  for (int bit = 0; bit < code.bits; ++bit) {
+    if (wrong[static_cast<std::size_t>(bit)] > kMaxWrongShare * static_cast<double>(lit))
+      frames.push_back(frame_of_bit(code, bit, false));
+  }
+  out.consistent = frames.empty();
+  if (out.consistent) return out;
+  out.finding = fmt::format(
+      "pattern \"{}\": {} {} and {} not complement each other, so that one of them is lost, "
+      "repeated, inverted or in another place; correct the order of the frames, or capture them "
+      "again",
+      code.name,
+      frames.size() == 1 ? "frame" : "frames",
+      fmt::join(frames, ", "),
+      frames.size() == 1 ? "its inverse do" : "their inverses do");
+  return out;
+}
+
+}  // namespace frangia
