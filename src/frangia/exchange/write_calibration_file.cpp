@@ -76,7 +76,7 @@ struct OpenCvNames {
   std::array<const char*, 4> sizes;  ///< width, height of the camera, then of the projector
 };
 
-OpenCvNames names_of(CalibrationLayout layout) {
+OpenCvNames keys_of(CalibrationLayout layout) {
   if (layout == CalibrationLayout::SlStudio) {
     return {"Kc",
             "kc",
@@ -97,7 +97,7 @@ std::string opencv_file(const Rig& rig,
                         const PinholeModel& projector,
                         CalibrationLayout layout,
                         const std::filesystem::path& file) {
-  const OpenCvNames names = names_of(layout);
+  const OpenCvNames names = keys_of(layout);
   if (layout != CalibrationLayout::OpenCv) {
     const char* program = layout == CalibrationLayout::SlStudio ? "SLStudio" : "scan3d-capture";
     require_coefficients(rig.reference().model, 5, program);

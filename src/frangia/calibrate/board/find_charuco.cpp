@@ -37,6 +37,32 @@ std::vector<SeenMarker> counted_from(std::vector<SeenMarker> markers, int first)
   return markers;
 }
 
+/// How many markers lie where a board has them: those that one homography maps to their squares
+/// within a third of a square.
+std::size_t count_placed(const std::vector<SeenMarker>& markers, const Board& board) {
+  constexpr double kReach = 0.35;  // squares; distortion moves a marker by less
+  const std::vector<Eigen::Vector2i> squares = marker_squares(board);
+  std::vector<cv::Point2f> pixels;
+  std::vector<cv::Point2f> places;
+  int lowest = 0;
+  int highest = 0;
+  for (const SeenMarker& marker : markers) {
+    if (marker.id < 0 || static_cast<std::size_t>(marker.id) >= squares.size()) continue;
+    const Eigen::Vector2i& square = squares[static_cast<std::size_t>(marker.id)];
+    lowest = places.empty() ? square.y() : std::min(lowest, square.y());
+    highest = places.empty() ? square.y() : std::max(highest, square.y());
+    pixels.push_back(
+        0.25F * (marker.corners[0] + marker.corners[1] + marker.corners[2] + marker.corners[3]));
+    places.emplace_back(static_cast<float>(square.x()), static_cast<float>(square.y()));
+  }
+  // Markers of one row or two lie on lines, which many homographies explain.
+  if (places.size() < kFewestMarkers || highest - lowest < 2) return 0;
+  std::vector<unsigned char> inliers;
+  const cv::Mat map = cv::findHomography(pixels, places, cv::RANSAC, kReach, inliers);
+  if (map.empty()) return 0;
+  return static_cast<std::size_t>(std::count(inliers.begin(), inliers.end(), 1));
+}
+
 /// The layout that explains most of the markers: the number of columns, the first id, and which
 /// corner is white. The rows follow from the last id that was seen. None where the expected layout
 /// explains as many.
@@ -66,32 +92,6 @@ void find_layout(const std::vector<SeenMarker>& markers, const Board& expected, 
       }
     }
   }
-}
-
-/// How many markers lie where a board has them: those that one homography maps to their squares
-/// within a third of a square.
-std::size_t count_placed(const std::vector<SeenMarker>& markers, const Board& board) {
-  constexpr double kReach = 0.35;  // squares; distortion moves a marker by less
-  const std::vector<Eigen::Vector2i> squares = marker_squares(board);
-  std::vector<cv::Point2f> pixels;
-  std::vector<cv::Point2f> places;
-  int lowest = 0;
-  int highest = 0;
-  for (const SeenMarker& marker : markers) {
-    if (marker.id < 0 || static_cast<std::size_t>(marker.id) >= squares.size()) continue;
-    const Eigen::Vector2i& square = squares[static_cast<std::size_t>(marker.id)];
-    lowest = places.empty() ? square.y() : std::min(lowest, square.y());
-    highest = places.empty() ? square.y() : std::max(highest, square.y());
-    pixels.push_back(
-        0.25F * (marker.corners[0] + marker.corners[1] + marker.corners[2] + marker.corners[3]));
-    places.emplace_back(static_cast<float>(square.x()), static_cast<float>(square.y()));
-  }
-  // Markers of one row or two lie on lines, which many homographies explain.
-  if (places.size() < kFewestMarkers || highest - lowest < 2) return 0;
-  std::vector<unsigned char> inliers;
-  const cv::Mat map = cv::findHomography(pixels, places, cv::RANSAC, kReach, inliers);
-  if (map.empty()) return 0;
-  return static_cast<std::size_t>(std::count(inliers.begin(), inliers.end(), 1));
 }
 
 /// The ChArUco board that an image shows, if it is clearly another one than the expected one.
