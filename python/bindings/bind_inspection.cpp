@@ -1,5 +1,6 @@
 // Plans of inspections, inspect_part, and what it finds as objects.
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <utility>
@@ -199,11 +200,37 @@ void bind_rows(py::module_& module) {
       .def_readonly("area_mm2", &SurfacePlace::area_mm2, "Of the nominal surface.");
 }
 
+void bind_reasons(py::module_& module) {
+  py::class_<VerdictClause>(module, "VerdictClause", "A part of the sentence about a verdict.")
+      .def_property_readonly(
+          "id",
+          [](const VerdictClause& self) { return std::string(self.id); },
+          "What it says, such as out_at.")
+      .def_property_readonly(
+          "values",
+          [](const VerdictClause& self) {
+            std::map<std::string, ClauseValue> values;
+            for (const auto& [name, value] : self.values)
+              values.emplace(name, value);
+            return values;
+          },
+          "Its parameters by name; NaN where one is not known.")
+      .def_readonly("text", &VerdictClause::text, "In English.");
+  py::class_<VerdictReason>(module, "VerdictReason", "A reason of the verdict about a part.")
+      .def_property_readonly(
+          "about",
+          [](const VerdictReason& self) { return std::string(self.about); },
+          "surface or characteristics.")
+      .def_readonly("clauses", &VerdictReason::clauses, "What is said about it.")
+      .def("__str__", &VerdictReason::text);
+}
+
 }  // namespace
 
 void bind_inspection(py::module_& module) {
   bind_plan(module);
   bind_rows(module);
+  bind_reasons(module);
   py::class_<InspectedPart> part(
       module, "Inspection", "What an inspection found. Missing values are NaN, empty or None.");
   part.def_property_readonly(
@@ -216,6 +243,10 @@ void bind_inspection(py::module_& module) {
             return self.found.surface ? sentence_of(self.found.surface->verdict) : std::string();
           },
           "The verdict about the surface in words; empty without a reference.")
+      .def_property_readonly(
+          "reasons",
+          [](const InspectedPart& self) { return self.found.reasons; },
+          "Why the verdict is what it is, what decided first.")
       .def_property_readonly(
           "mesh",
           [](const InspectedPart& self) -> const Mesh& { return self.found.mesh; },

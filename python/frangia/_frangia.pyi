@@ -185,6 +185,10 @@ class Inspection:
         """Of the surface that are out or undecided, the worst first."""
         ...
     @property
+    def reasons(self) -> list[VerdictReason]:
+        """Why the verdict is what it is, what decided first."""
+        ...
+    @property
     def reference_from_mesh(self) -> NDArray[np.float64] | None:
         """4 x 4; None: the plan says nothing about an alignment."""
         ...
@@ -615,6 +619,32 @@ class SurfacePlace:
     @property
     def u95_mm(self) -> float:
         """Of the deviation."""
+        ...
+
+class VerdictClause:
+    """A part of the sentence about a verdict."""
+    @property
+    def id(self) -> str:
+        """What it says, such as out_at."""
+        ...
+    @property
+    def text(self) -> str:
+        """In English."""
+        ...
+    @property
+    def values(self) -> dict[str, float | NDArray[np.float64] | str]:
+        """Its parameters by name; NaN where one is not known."""
+        ...
+
+class VerdictReason:
+    """A reason of the verdict about a part."""
+    @property
+    def about(self) -> str:
+        """surface or characteristics."""
+        ...
+    @property
+    def clauses(self) -> list[VerdictClause]:
+        """What is said about it."""
         ...
 
 class ViewSummary:

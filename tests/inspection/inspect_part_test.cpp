@@ -8,6 +8,7 @@
 #include <stop_token>
 #include <utility>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "frangia/core/angles.h"
@@ -115,6 +116,16 @@ TEST(InspectPart, DecidesByTheSurfaceAndTheCharacteristicsTogether) {
   }());
   EXPECT_EQ(size_out.surface->verdict.conformity, Conformity::In);
   EXPECT_EQ(size_out.verdict, Conformity::Out);
+  // What decided stands first, with the name of the worst row.
+  ASSERT_EQ(size_out.reasons.size(), 2U);
+  EXPECT_EQ(size_out.reasons[0].about, "characteristics");
+  EXPECT_EQ(size_out.reasons[0].text(),
+            fmt::format("characteristics: 0 of 1 in, 1 out; the worst is ball diameter: {:.4f} mm, "
+                        "U95 {:.4f}",
+                        size_out.characteristics[0].value,
+                        size_out.characteristics[0].u95));
+  EXPECT_EQ(size_out.reasons[1].text(), "surface: " + sentence_of(size_out.surface->verdict));
+  EXPECT_EQ(good.reasons[0].about, "surface");
   plan.tolerance_mm = ToleranceLimits{-0.005, 0.005};
   const Inspection surface_out = inspect_part(large_ball(), &reference, plan);
   EXPECT_EQ(surface_out.characteristics[0].conformity, Conformity::In);

@@ -25,6 +25,7 @@
 #include "frangia/inspection/inspection_plan.h"
 #include "frangia/inspection/inspection_reference.h"
 #include "frangia/inspection/measured_characteristics.h"
+#include "frangia/inspection/verdict_reasons.h"
 #include "frangia/uncertainty/conformity.h"
 
 namespace frangia {
@@ -83,12 +84,8 @@ struct Inspection {
   std::vector<SectionResult> sections;         ///< of the plan, in its order
   bool knows_calibration = false;              ///< features hold the covariance of the rig
   Conformity verdict = Conformity::Undecided;  ///< about the part, by `verdict_of`
+  std::vector<VerdictReason> reasons;          ///< of the verdict, what decided first
 };
-
-/// The decision about a part: out when the deviations or a characteristic are out, in when all are
-/// in. `surface` is null without a reference.
-[[nodiscard]] Conformity verdict_of(const SurfaceVerdict* surface,
-                                    const std::vector<MeasuredCharacteristic>& characteristics);
 
 /// Inspects a part by a plan: aligns its mesh to the reference, finds and measures features, judges
 /// the deviations, measures walls and cuts sections.
