@@ -1,4 +1,5 @@
 // Plans of inspections, inspect_part, and what it finds as objects.
+#include <algorithm>
 #include <filesystem>
 #include <map>
 #include <optional>
@@ -7,6 +8,7 @@
 #include <vector>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <pybind11/eigen.h>
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
@@ -24,6 +26,7 @@ namespace frangia::python {
 namespace {
 
 using Limits = std::pair<double, double>;
+using Pairs = std::vector<std::pair<Eigen::Vector3d, Eigen::Vector3d>>;
 
 /// An inspection, and what its report states besides.
 struct InspectedPart {
@@ -46,17 +49,25 @@ std::optional<Limits> pair_of(const std::optional<ToleranceLimits>& limits) {
 }
 
 void set_align(InspectionPlan& plan, const std::string& align) {
-  for (const char* known : {"", "best-fit", "datum", "none"}) {
-    if (align != known) continue;
-    plan.align = align;
-    return;
+  if (!align.empty() &&
+      std::find(kAlignments.begin(), kAlignments.end(), align) == kAlignments.end()) {
+    throw Error(
+        ErrorKind::Input,
+        fmt::format(
+            "align = \"{}\" is not known; use {} or \"\"", align, fmt::join(kAlignments, ", ")));
   }
-  throw Error(ErrorKind::Input,
-              fmt::format("align = \"{}\" is not known; use best-fit, datum, none or \"\"", align));
+  plan.align = align;
+}
+
+void set_points(InspectionPlan& plan, const Pairs& points) {
+  plan.points.clear();
+  for (const auto& [scan_mm, reference_mm] : points)
+    plan.points.push_back({scan_mm, reference_mm});
 }
 
 InspectionPlan make_plan(const std::string& align,
                          const std::optional<Limits>& tolerance_mm,
+                         const Pairs& points,
                          std::size_t start,
                          double min_feature_mm,
                          const std::optional<double>& edge_mm,
@@ -66,6 +77,7 @@ InspectionPlan make_plan(const std::string& align,
   InspectionPlan plan;
   set_align(plan, align);
   plan.tolerance_mm = limits_of(tolerance_mm);
+  set_points(plan, points);
   plan.start = start;
   plan.surface.min_feature_mm = min_feature_mm;
   plan.surface.edge_mm = edge_mm;
@@ -116,14 +128,16 @@ void bind_plan(py::module_& module) {
            py::kw_only(),
            py::arg("align") = "",
            py::arg("tolerance_mm") = std::optional<Limits>(),
+           py::arg("points") = Pairs(),
            py::arg("start") = std::size_t{0},
            py::arg("min_feature_mm") = 0.0,
            py::arg("edge_mm") = std::optional<double>(),
            py::arg("min_coverage") = SurfaceRule{}.min_coverage,
            py::arg("max_gap_mm") = 0.0,
            py::arg("thickness") = false,
-           "As the keys of inspection.toml. align: best-fit, datum, none, or empty; tolerance_mm: "
-           "lower and upper; 0: the default. Features and characteristics are read from a file by "
+           "As the keys of inspection.toml. align: best-fit, datum, points, none, or empty; "
+           "tolerance_mm: lower and upper; points: pairs of the same place on mesh and reference; "
+           "0: the default. Features and characteristics are read from a file by "
            "read_inspection_plan.");
   plan.def_readonly("part", &InspectionPlan::part, "Name of the part; may be empty.")
       .def_readonly("reference", &InspectionPlan::reference, "Path; empty: none is stated.")
@@ -131,7 +145,17 @@ void bind_plan(py::module_& module) {
           "align",
           [](const InspectionPlan& self) { return self.align; },
           &set_align,
-          "best-fit, datum, none, or empty.")
+          "best-fit, datum, points, none, or empty.")
+      .def_property(
+          "points",
+          [](const InspectionPlan& self) {
+            Pairs pairs;
+            for (const PointPair& pair : self.points)
+              pairs.emplace_back(pair.scan_mm, pair.reference_mm);
+            return pairs;
+          },
+          &set_points,
+          "Pairs of the same place on mesh and reference, mm.")
       .def_readwrite("start", &InspectionPlan::start, "Of poses that fit alike, from 1; 0: none.")
       .def_property(
           "tolerance_mm",

@@ -135,6 +135,7 @@ void align_mesh(Inspection& found,
   PartAlignment fit = align_part(found.mesh, reference, plan, options.mesh_name, run);
   found.alignment = std::move(fit.alignment);
   found.datums = std::move(fit.datums);
+  found.points_mm = std::move(fit.points_mm);
   found.mesh = transform_mesh(std::move(found.mesh), found.alignment->pose.reference_from_mesh);
 }
 

@@ -21,6 +21,7 @@
 #include "frangia/inspect/surface_error.h"
 #include "frangia/inspect/surface_validity.h"
 #include "frangia/inspect/thickness.h"
+#include "frangia/inspection/align_part.h"
 #include "frangia/inspection/cut_sections.h"
 #include "frangia/inspection/inspection_plan.h"
 #include "frangia/inspection/inspection_reference.h"
@@ -72,6 +73,7 @@ struct Inspection {
   std::optional<ReferenceSummary> reference;            ///< none: no reference
   std::optional<Alignment> alignment;                   ///< none: the plan says nothing about it
   std::vector<DatumResidual> datums;                    ///< of an alignment to datums
+  std::vector<double> points_mm;                        ///< see `PartAlignment`
   bool searched = false;                                ///< features were looked for
   std::vector<Feature> features;                        ///< that were found
   std::vector<std::optional<NominalFace>> nominals;     ///< of the features, by a CAD reference

@@ -175,6 +175,7 @@ void add_alignment(Json& json, const Inspection& part) {
   json["alignment_details"] = {{"iterations", alignment.pose.iterations},
                                {"free_directions", alignment.free_directions},
                                {"poses", poses}};
+  if (!part.points_mm.empty()) json["alignment_details"]["points_mm"] = part.points_mm;
   if (part.datums.empty()) return;
   Json& datums = json["alignment_details"]["datums"];
   datums = Json::array();
