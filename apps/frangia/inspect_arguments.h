@@ -17,6 +17,8 @@ namespace frangia {
 struct InspectArguments {
   std::vector<std::filesystem::path> meshes;  ///< more than one for a batch
   std::filesystem::path plan;
+  std::filesystem::path plan_from;   ///< CAD file whose PMI becomes the plan
+  std::filesystem::path write_plan;  ///< file for the plan, as it is inspected by
   std::filesystem::path report;
   std::filesystem::path qif;
   std::filesystem::path batch;

@@ -47,6 +47,10 @@ void check_alignment(const InspectArguments& arguments, const InspectionPlan& pl
 }  // namespace
 
 void check_inspect_arguments(const InspectArguments& arguments, const InspectionPlan& plan) {
+  require_usage(!arguments.meshes.empty() || !arguments.write_plan.empty(),
+                "MESH is required: name the measured mesh, or a file for --write-plan");
+  if (!arguments.write_plan.empty()) check_can_write(arguments.write_plan);
+  if (arguments.meshes.empty()) return;
   if (!arguments.report.empty() && !plan.report.logo.empty())
     static_cast<void>(read_logo(plan.report.logo));
   const bool drawn = !arguments.picture.empty();
@@ -177,11 +181,20 @@ void add_picture_options(CLI::App& verb, InspectArguments& arguments) {
 }  // namespace
 
 void add_inspect_options(CLI::App& verb, InspectArguments& arguments) {
-  verb.add_option("MESH", arguments.meshes, "the measured mesh; several for --batch")->required();
-  verb.add_option("--plan",
-                  arguments.plan,
-                  "inspection.toml: reference, alignment, tolerances, features and sections of a "
-                  "part");
+  verb.add_option("MESH", arguments.meshes, "the measured mesh; several for --batch");
+  auto* plan =
+      verb.add_option("--plan",
+                      arguments.plan,
+                      "inspection.toml: reference, alignment, tolerances, features and sections of "
+                      "a part");
+  verb.add_option("--plan-from",
+                  arguments.plan_from,
+                  "make the plan of the dimensions and tolerances (PMI) of this STEP AP242 file")
+      ->excludes(plan);
+  verb.add_option("--write-plan",
+                  arguments.write_plan,
+                  "write the plan, with what else the options state, as inspection.toml; needs no "
+                  "MESH");
   verb.add_option("--report",
                   arguments.report,
                   "write a report as one .html page, and .json and .csv files of the same name");

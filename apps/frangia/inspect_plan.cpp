@@ -1,9 +1,13 @@
 #include "inspect_plan.h"
 
+#include <algorithm>
+#include <utility>
+
 #include <fmt/format.h>
 
 #include "frangia/core/error.h"
 #include "frangia/core/parse_length.h"
+#include "frangia/inspection/plan_from_pmi.h"
 
 namespace frangia {
 namespace {
@@ -25,11 +29,34 @@ PlannedSection section_named(const std::string& text, bool blade) {
   return section;
 }
 
+/// The plan that a CAD file asks for; what is left out of it is warned of.
+InspectionPlan plan_of_pmi(const InspectArguments& arguments, const Run& run) {
+  constexpr std::size_t kWarnings = 20;
+  run.stage("plan");
+  const CadOptions options{.units = arguments.unit_mm,
+                           .allow_memory = arguments.read.allow_memory_bytes,
+                           .allow_time_s = arguments.allow_time_s,
+                           .pmi = true};
+  const auto model = read_cad(arguments.plan_from, options, run);
+  PmiPlan found = plan_from_pmi(*model, std::filesystem::absolute(arguments.plan_from));
+  for (std::size_t i = 0; i < std::min(found.left_out.size(), kWarnings); ++i) {
+    run.warn(fmt::format(
+        "{}: left out of the plan: {}", arguments.plan_from.string(), found.left_out[i]));
+  }
+  if (found.left_out.size() > kWarnings) {
+    run.warn(fmt::format("{}: left out of the plan besides: {}",
+                         arguments.plan_from.string(),
+                         found.left_out.size() - kWarnings));
+  }
+  return std::move(found.plan);
+}
+
 }  // namespace
 
-InspectionPlan plan_of(const InspectArguments& arguments) {
+InspectionPlan plan_of(const InspectArguments& arguments, const Run& run) {
   InspectionPlan plan;
   if (!arguments.plan.empty()) plan = read_inspection_plan(arguments.plan);
+  if (!arguments.plan_from.empty()) plan = plan_of_pmi(arguments, run);
   for (const std::string& text : arguments.sections)
     plan.sections.push_back(section_named(text, arguments.blade));
   if (!arguments.reference.empty()) {
