@@ -38,6 +38,29 @@ std::string list_of(const std::vector<AlignmentPose>& poses) {
   return list;
 }
 
+/// The last fit, to some of the samples until it converges, and to all of them from there. A pose
+/// with a free direction wanders along it, and only the most iterations end that.
+PoseFit refined_fit(const FitProblem& problem,
+                    const FindFoot& exact,
+                    const PoseFit& near,
+                    const Run& run) {
+  constexpr std::size_t kSome = 4000;
+  constexpr int kLastIterations = 10;
+  PoseFitOptions fit{.gate_mm = std::max(4.0 * near.gate_mm, 1e-4 * problem.size_mm),
+                     .least_gate_mm = 1e-6 * problem.size_mm,
+                     .least_cosine = 0.5,
+                     .max_iterations = 40};
+  const std::span<const MeasuredSample> some(problem.samples.data(),
+                                             std::min(problem.samples.size(), kSome));
+  const PoseFit first = fit_pose(some, exact, near.pose, fit, run);
+  if (some.size() == problem.samples.size()) return first;
+  fit.gate_mm = std::max(2.0 * first.gate_mm, 1e-4 * problem.size_mm);
+  fit.max_iterations = kLastIterations;
+  PoseFit last = fit_pose(problem.samples, exact, first.pose, fit, run);
+  last.iterations += first.iterations;
+  return last;
+}
+
 }  // namespace
 
 void BestFitOptions::check() const {
@@ -77,12 +100,7 @@ Alignment align_best_fit(const Mesh& mesh,
   const std::vector<Candidate> candidates = candidates_of(problem, options, run);
   const FindFoot exact = exact_feet(reference);
   const auto refined = [&](const Candidate& candidate) {
-    const PoseFitOptions fit{
-        .gate_mm = std::max(4.0 * candidate.fit.gate_mm, 1e-4 * problem.size_mm),
-        .least_gate_mm = 1e-6 * problem.size_mm,
-        .least_cosine = 0.5,
-        .max_iterations = 40};
-    const PoseFit fine = fit_pose(problem.samples, exact, candidate.fit.pose, fit, run);
+    const PoseFit fine = refined_fit(problem, exact, candidate.fit, run);
     AlignmentPose pose =
         rate_pose(problem.samples, reference, fine.pose, problem.tolerance_mm, run);
     pose.iterations = fine.iterations;
@@ -112,12 +130,7 @@ Alignment align_best_fit(const Mesh& mesh,
                     wide,
                     100.0 * options.least_overlap));
   }
-  const std::span<const MeasuredSample> some(problem.samples.data(),
-                                             std::min<std::size_t>(problem.samples.size(), 6000));
-  const double within = std::clamp(
-      2.0 * candidates.front().fit.gate_mm, 0.1 * problem.tolerance_mm, problem.tolerance_mm);
-  const std::vector<FreeMotion> motions =
-      free_motions(some, exact, candidates.front().fit, within, run);
+  const std::vector<FreeMotion> motions = free_motions_of(problem, exact, candidates.front(), run);
   for (const FreeMotion& motion : motions)
     alignment.free_directions.push_back(motion.text());
   const std::vector<Candidate> rivals = rivals_of(candidates, problem, motions);
