@@ -153,6 +153,23 @@ TEST(InspectPart, SaysNothingOfAnAlignmentThatThePlanDoesNotMention) {
   EXPECT_GT(found.alignment->pose.overlap, 0.99);
 }
 
+TEST(InspectPart, WarnsOfAnotherPartWhosePoseNothingSearched) {
+  const InspectionReference reference = reference_of_mesh(brick());
+  std::vector<std::string> warnings;
+  frangia::Run run;
+  run.on_warning = [&](const std::string& sentence) { warnings.push_back(sentence); };
+  InspectionPlan as_it_stands;
+  as_it_stands.align = "none";
+  static_cast<void>(align_part(brick(), reference, as_it_stands, "brick.ply", run));
+  EXPECT_TRUE(warnings.empty()) << warnings.front();
+  const Mesh other = testing::box({2.0, 2.0, 2.0}, {16.0, 8.0, 4.0});
+  static_cast<void>(align_part(other, reference, as_it_stands, "other.ply", run));
+  ASSERT_EQ(warnings.size(), 1U);
+  EXPECT_EQ(warnings[0],
+            "other.ply: 0 % of it lies on the reference; it is another part, or `align` best-fit "
+            "must find its pose");
+}
+
 TEST(InspectPart, RefusesAnAlignmentWithoutAReference) {
   const auto refused =
       error_of([&] { static_cast<void>(inspect_part(brick(), nullptr, best_fit_plan(1))); });

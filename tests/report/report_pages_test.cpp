@@ -229,5 +229,14 @@ TEST(ReportLogo, MustBeAPicture) {
             std::string::npos);
 }
 
+/// The head of a PNG is no picture.
+TEST(ReportLogo, IsRefusedWhenItIsCutShort) {
+  const testing::TemporaryFolder folder;
+  const auto path = folder.path() / "logo.png";
+  std::ofstream(path, std::ios::binary) << "\x89PNG\r\n\x1A\n and no more";
+  const std::string refused = testing::error_of([&] { static_cast<void>(read_logo(path)); });
+  EXPECT_NE(refused.find("logo.png"), std::string::npos) << refused;
+}
+
 }  // namespace
 }  // namespace frangia

@@ -128,6 +128,25 @@ PartAlignment aligned_part(const Mesh& mesh,
   return as_it_stands;
 }
 
+/// Warns of a mesh that hardly lies on the reference although nothing searched its pose: that of
+/// another part, or of another frame. A part that is out of a narrow tolerance is no other part.
+void warn_of_other_part(const Mesh& mesh,
+                        const InspectionReference& reference,
+                        const AlignmentPose& pose,
+                        const std::filesystem::path& mesh_name,
+                        const Run& run) {
+  const BestFitOptions usual;
+  if (pose.overlap >= usual.least_overlap) return;
+  const double overlap =
+      assess_pose(mesh, reference.scene, pose.reference_from_mesh, usual, run).overlap;
+  if (overlap >= usual.least_overlap) return;
+  run.warn(
+      fmt::format("{}: {:.0f} % of it lies on the reference; it is another part, or `align` "
+                  "best-fit must find its pose",
+                  mesh_name.string(),
+                  100.0 * overlap));
+}
+
 }  // namespace
 
 PartAlignment align_part(const Mesh& mesh,
@@ -136,6 +155,8 @@ PartAlignment align_part(const Mesh& mesh,
                          const std::filesystem::path& mesh_name,
                          const Run& run) {
   PartAlignment found = aligned_part(mesh, reference, plan, mesh_name, run);
+  if (plan.align == "points" || plan.align == "none")
+    warn_of_other_part(mesh, reference, found.alignment.pose, mesh_name, run);
   for (const PointPair& pair : plan.points) {
     found.points_mm.push_back(
         (found.alignment.pose.reference_from_mesh * pair.scan_mm - pair.reference_mm).norm());

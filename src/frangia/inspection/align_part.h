@@ -25,7 +25,8 @@ struct PartAlignment {
 ///
 /// For datums, a best fit brings the mesh near, where they are looked for on it; their nominal
 /// places are the faces of a CAD reference that the plan names, or the same features of the
-/// reference. `mesh_name` is for messages.
+/// reference. `mesh_name` is for messages; `run` is warned where hardly anything of a mesh whose
+/// pose nothing searched lies on the reference.
 /// @errors   Error(Input) that names a datum which is not found; as align_best_fit,
 /// align_to_datums,
 ///           align_to_points and state_nominals

@@ -153,7 +153,7 @@ void add_cover(HtmlPage& page, const InspectionReport& report) {
   if (shown > 0) page.html(result_table(rows, shown));
   if (rows.size() > shown)
     page.paragraph(
-        fmt::format("The {} worst of {} rows; all are on the next page.", shown, rows.size()));
+        fmt::format("The {} worst of {} rows; all of them follow.", shown, rows.size()));
   if (has_verdict(report)) {
     page.html(
         "<p class=\"small\">Decision rule: ISO 14253-1:2017, guard band 1.645 u, probability of "
