@@ -127,7 +127,6 @@ std::vector<PointPair> corners_of(const Mesh& reference, const Eigen::Isometry3d
 struct Prediction {
   TriedRecipe tried;
   Inspection found;
-  Rig rig;
 };
 
 /// Scans and inspects in software.
@@ -178,7 +177,6 @@ class Predictor {
                                     plan,
                                     {.statistics = false, .mesh_name = "the plan"},
                                     run_);
-    prediction.rig = std::move(scan.rig);
     const double share = plan.surface.max_uncertainty_share;
     tried.need = need_of(prediction.found, share);
     if (prediction.found.surface)

@@ -33,79 +33,79 @@
 namespace frangia {
 namespace {
 
-using Kind = CadRequirementKind;
+using PmiKind = CadRequirementKind;
 
 std::string text_of_name(const Handle(TCollection_HAsciiString) & name) {
   return name.IsNull() ? std::string() : std::string(name->ToCString());
 }
 
 /// What a dimension is, and what it is called where it is not read.
-std::pair<Kind, const char*> kind_of(XCAFDimTolObjects_DimensionType type) {
+std::pair<PmiKind, const char*> kind_of(XCAFDimTolObjects_DimensionType type) {
   switch (type) {
     case XCAFDimTolObjects_DimensionType_Size_Diameter:
     case XCAFDimTolObjects_DimensionType_Size_SphericalDiameter:
     case XCAFDimTolObjects_DimensionType_Size_Radius:
     case XCAFDimTolObjects_DimensionType_Size_SphericalRadius:
-      return {Kind::Diameter, ""};
+      return {PmiKind::Diameter, ""};
     case XCAFDimTolObjects_DimensionType_Location_LinearDistance:
     case XCAFDimTolObjects_DimensionType_Size_Thickness:
-      return {Kind::Distance, ""};
+      return {PmiKind::Distance, ""};
     case XCAFDimTolObjects_DimensionType_Location_Angular:
     case XCAFDimTolObjects_DimensionType_Size_Angular:
-      return {Kind::Angle, ""};
+      return {PmiKind::Angle, ""};
     case XCAFDimTolObjects_DimensionType_Location_CurvedDistance:
     case XCAFDimTolObjects_DimensionType_Size_CurveLength:
-      return {Kind::Other, "length of a curve"};
+      return {PmiKind::Other, "length of a curve"};
     case XCAFDimTolObjects_DimensionType_Location_Oriented:
     case XCAFDimTolObjects_DimensionType_Location_WithPath:
     case XCAFDimTolObjects_DimensionType_Size_WithPath:
-      return {Kind::Other, "dimension along a direction"};
+      return {PmiKind::Other, "dimension along a direction"};
     case XCAFDimTolObjects_DimensionType_CommonLabel:
     case XCAFDimTolObjects_DimensionType_DimensionPresentation:
-      return {Kind::Other, "note"};
+      return {PmiKind::Other, "note"};
     default:
       break;
   }
   const bool torus = type >= XCAFDimTolObjects_DimensionType_Size_ToroidalMinorDiameter &&
                      type <= XCAFDimTolObjects_DimensionType_Size_ToroidalLowMajorRadius;
-  return {Kind::Other, torus ? "size of a torus" : "distance from an edge of a feature"};
+  return {PmiKind::Other, torus ? "size of a torus" : "distance from an edge of a feature"};
 }
 
-std::pair<Kind, const char*> kind_of(XCAFDimTolObjects_GeomToleranceType type) {
+std::pair<PmiKind, const char*> kind_of(XCAFDimTolObjects_GeomToleranceType type) {
   switch (type) {
     case XCAFDimTolObjects_GeomToleranceType_Flatness:
-      return {Kind::Flatness, ""};
+      return {PmiKind::Flatness, ""};
     case XCAFDimTolObjects_GeomToleranceType_CircularityOrRoundness:
-      return {Kind::Roundness, ""};
+      return {PmiKind::Roundness, ""};
     case XCAFDimTolObjects_GeomToleranceType_Cylindricity:
-      return {Kind::Cylindricity, ""};
+      return {PmiKind::Cylindricity, ""};
     case XCAFDimTolObjects_GeomToleranceType_Parallelism:
-      return {Kind::Parallelism, ""};
+      return {PmiKind::Parallelism, ""};
     case XCAFDimTolObjects_GeomToleranceType_Perpendicularity:
-      return {Kind::Perpendicularity, ""};
+      return {PmiKind::Perpendicularity, ""};
     case XCAFDimTolObjects_GeomToleranceType_Position:
-      return {Kind::Position, ""};
+      return {PmiKind::Position, ""};
     case XCAFDimTolObjects_GeomToleranceType_CircularRunout:
-      return {Kind::RunOut, ""};
+      return {PmiKind::RunOut, ""};
     case XCAFDimTolObjects_GeomToleranceType_TotalRunout:
-      return {Kind::TotalRunOut, ""};
+      return {PmiKind::TotalRunOut, ""};
     case XCAFDimTolObjects_GeomToleranceType_ProfileOfSurface:
-      return {Kind::SurfaceProfile, ""};
+      return {PmiKind::SurfaceProfile, ""};
     case XCAFDimTolObjects_GeomToleranceType_ProfileOfLine:
-      return {Kind::Other, "profile of a line"};
+      return {PmiKind::Other, "profile of a line"};
     case XCAFDimTolObjects_GeomToleranceType_Angularity:
-      return {Kind::Other, "angularity"};
+      return {PmiKind::Other, "angularity"};
     case XCAFDimTolObjects_GeomToleranceType_Coaxiality:
     case XCAFDimTolObjects_GeomToleranceType_Concentricity:
-      return {Kind::Other, "coaxiality"};
+      return {PmiKind::Other, "coaxiality"};
     case XCAFDimTolObjects_GeomToleranceType_Straightness:
-      return {Kind::Other, "straightness"};
+      return {PmiKind::Other, "straightness"};
     case XCAFDimTolObjects_GeomToleranceType_Symmetry:
-      return {Kind::Other, "symmetry"};
+      return {PmiKind::Other, "symmetry"};
     case XCAFDimTolObjects_GeomToleranceType_None:
       break;
   }
-  return {Kind::Other, "geometrical tolerance without a kind"};
+  return {PmiKind::Other, "geometrical tolerance without a kind"};
 }
 
 bool is_radius(XCAFDimTolObjects_DimensionType type) {
@@ -168,7 +168,7 @@ class PmiFinder {
     Handle(XCAFDoc_Datum) attribute;
     if (!label.FindAttribute(XCAFDoc_Datum::GetID(), attribute)) return;
     CadRequirement found;
-    found.kind = Kind::Datum;
+    found.kind = PmiKind::Datum;
     found.name = text_of_name(attribute->GetObject()->GetName());
     find_faces(label, found);
     for (CadRequirement& known : out) {  // one label for each use of a datum
@@ -186,7 +186,7 @@ class PmiFinder {
     CadRequirement found;
     const auto [kind, other] = kind_of(object->GetType());
     found.kind = kind;
-    found.name = kind == Kind::Other ? other : text_of_name(object->GetSemanticName());
+    found.name = kind == PmiKind::Other ? other : text_of_name(object->GetSemanticName());
     const double scale = is_radius(object->GetType()) ? 2.0 : 1.0;
     if (object->IsDimWithRange()) {
       const double lower = scale * object->GetLowerBound();
@@ -202,7 +202,7 @@ class PmiFinder {
       }
     }
     if (object->IsDimWithClassOfTolerance()) {
-      found.kind = Kind::Other;
+      found.kind = PmiKind::Other;
       found.name = "tolerance class of ISO 286";
     }
     find_faces(label, found);
@@ -216,11 +216,11 @@ class PmiFinder {
     CadRequirement found;
     const auto [kind, other] = kind_of(object->GetType());
     found.kind = kind;
-    found.name = kind == Kind::Other ? other : text_of_name(object->GetSemanticName());
+    found.name = kind == PmiKind::Other ? other : text_of_name(object->GetSemanticName());
     found.value = object->GetValue();
     if (object->GetMaterialRequirementModifier() !=
         XCAFDimTolObjects_GeomToleranceMatReqModif_None) {
-      found.kind = Kind::Other;
+      found.kind = PmiKind::Other;
       found.name = std::string(name_of(kind)) + " at maximum or least material";
     }
     find_faces(label, found);

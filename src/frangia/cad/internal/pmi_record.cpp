@@ -11,7 +11,7 @@ namespace frangia {
 namespace {
 
 constexpr std::size_t kFields = 8;
-constexpr std::size_t kMostFaces = 30;
+constexpr std::size_t kMostFacesOfOne = 30;
 constexpr std::size_t kMostFaceNumber = 1'000'000;
 constexpr std::size_t kMostName = 40;
 
@@ -27,7 +27,7 @@ std::string number_text(double value) {
 }
 
 std::string faces_text(std::vector<std::size_t> faces) {
-  if (faces.size() > kMostFaces) faces.resize(kMostFaces);
+  if (faces.size() > kMostFacesOfOne) faces.resize(kMostFacesOfOne);
   return fmt::format("{}", fmt::join(faces, ","));
 }
 
@@ -56,7 +56,7 @@ bool read_number(std::string_view text, double& value) {
 bool read_faces(std::string_view text, std::vector<std::size_t>& faces) {
   for (const std::string_view part : split(text, ',')) {
     std::size_t face = 0;
-    if (!read(part, face) || face == 0 || face > kMostFaceNumber || faces.size() == kMostFaces)
+    if (!read(part, face) || face == 0 || face > kMostFaceNumber || faces.size() == kMostFacesOfOne)
       return false;
     faces.push_back(face);
   }
