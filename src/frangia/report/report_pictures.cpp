@@ -74,7 +74,7 @@ std::vector<LabelledPlace> labelled_places(const Inspection& part) {
   constexpr std::size_t kMostOfFeature = 3;
   std::map<std::string, std::size_t> rows_of;
   for (const MeasuredCharacteristic& row : part.characteristics)
-    rows_of[row.feature] += std::isfinite(row.value) ? 1 : 0;
+    rows_of[row.feature] += std::isfinite(row.value) ? 1U : 0U;
   std::map<std::string, std::size_t> labelled;
   for (const MeasuredCharacteristic& row : worst_first(part.characteristics)) {
     const auto found = std::find_if(part.named_features.begin(),
