@@ -38,7 +38,8 @@ InspectionPlan plan_of_pmi(const InspectArguments& arguments, const Run& run) {
                            .allow_time_s = arguments.allow_time_s,
                            .pmi = true};
   const auto model = read_cad(arguments.plan_from, options, run);
-  PmiPlan found = plan_from_pmi(*model, std::filesystem::absolute(arguments.plan_from));
+  PmiPlan found =
+      plan_from_pmi(model->faces(), model->pmi(), std::filesystem::absolute(arguments.plan_from));
   for (std::size_t i = 0; i < std::min(found.left_out.size(), kWarnings); ++i) {
     run.warn(fmt::format(
         "{}: left out of the plan: {}", arguments.plan_from.string(), found.left_out[i]));

@@ -78,7 +78,7 @@ TEST_F(CadPmiOfFiles, NamesFacesSizesZonesAndDatums) {
 
 TEST_F(CadPmiOfFiles, BecomeAPlanThatItsReaderAccepts) {
   const auto block = model("toleranced.stp");
-  const PmiPlan found = plan_from_pmi(*block, at("toleranced.stp"));
+  const PmiPlan found = plan_from_pmi(block->faces(), block->pmi(), at("toleranced.stp"));
   const InspectionPlan plan = parse_inspection_plan(
       inspection_plan_text(found.plan, at("").parent_path()), at("inspection.toml"));
   EXPECT_EQ(plan.reference, at("toleranced.stp"));
@@ -97,20 +97,60 @@ TEST_F(CadPmiOfFiles, BecomeAPlanThatItsReaderAccepts) {
   EXPECT_EQ(plan.characteristics[0].datum, "A");
   EXPECT_EQ(plan.characteristics[0].nominal, 20.0);
   EXPECT_EQ(plan.characteristics[1].kind, Characteristic::Parallelism);
-  // Perpendicularity without a datum, and straightness, which is not measured.
-  ASSERT_EQ(found.left_out.size(), 2U);
-  EXPECT_NE(found.left_out[0].find("it names no datum"), std::string::npos) << found.left_out[0];
-  EXPECT_NE(found.left_out[1].find("straightness"), std::string::npos) << found.left_out[1];
+  ASSERT_EQ(found.left_out.size(), 1U);
+  EXPECT_EQ(found.left_out[0].find("straightness of face "), 0U) << found.left_out[0];
 }
 
 TEST_F(CadPmiOfFiles, SayWhyThereIsNoPlan) {
   const auto plate = model("plate.stp");
   EXPECT_TRUE(plate->pmi().requirements.empty());
-  const std::string refused =
-      testing::error_of([&] { static_cast<void>(plan_from_pmi(*plate, "plate.stp")); });
+  const std::string refused = testing::error_of(
+      [&] { static_cast<void>(plan_from_pmi(plate->faces(), plate->pmi(), "plate.stp")); });
   EXPECT_EQ(refused,
             "plate.stp: it is STEP AP214, which holds no tolerances; export it as STEP AP242 with "
             "semantic PMI, or write the plan by hand");
+}
+
+CadFace face_of(ShapeKind kind, double radius_mm = 0.0) {
+  return {Shape{.kind = kind, .radius_mm = radius_mm}, 1.0};
+}
+
+TEST(PlanFromPmi, LeavesOutWhatItCannotMeasureAndSaysWhy) {
+  const std::vector<CadFace> faces{
+      face_of(ShapeKind::Plane), face_of(ShapeKind::Cylinder, 5.0), CadFace{std::nullopt, 1.0}};
+  CadPmi pmi;
+  pmi.requirements = {{Kind::Perpendicularity, "", 0.1, kMissing, kMissing, {1}, {}, {}},
+                      {Kind::Parallelism, "", 0.1, kMissing, kMissing, {1}, {}, {"B"}},
+                      {Kind::Diameter, "", 10.0, kMissing, kMissing, {2}, {}, {}},
+                      {Kind::Diameter, "", 10.0, -0.1, 0.1, {1}, {}, {}},
+                      {Kind::Flatness, "", 0.1, kMissing, kMissing, {3}, {}, {}},
+                      {Kind::SurfaceProfile, "", 0.1, kMissing, kMissing, {1}, {}, {}},
+                      {Kind::Distance, "", 10.0, -0.1, 0.1, {1}, {}, {}}};
+  const auto refused =
+      testing::error_of([&] { static_cast<void>(plan_from_pmi(faces, pmi, "part.stp")); });
+  EXPECT_EQ(refused,
+            "part.stp: none of its 7 dimensions and tolerances can be planned, such as "
+            "perpendicularity of face 1: it names no datum; write the plan by hand");
+  pmi.requirements.push_back({Kind::SurfaceProfile, "", 0.4, kMissing, kMissing, {}, {}, {}});
+  const PmiPlan found = plan_from_pmi(faces, pmi, "part.stp");
+  EXPECT_EQ(found.plan.tolerance_mm->upper, 0.2);
+  EXPECT_EQ(found.plan.align, "best-fit");
+  ASSERT_EQ(found.left_out.size(), 7U);
+  EXPECT_EQ(found.left_out[1],
+            "parallelism of face 1: it refers to datum B, which the file does not define");
+  EXPECT_EQ(found.left_out[2], "diameter of face 2: it has no tolerance");
+  EXPECT_EQ(found.left_out[3], "diameter of face 1: its face is no cylinder or sphere");
+  EXPECT_EQ(found.left_out[4], "flatness of face 3: the file names no flat or round face for it");
+  EXPECT_EQ(found.left_out[6], "distance of face 1: the file names no second face for it");
+}
+
+TEST(PlanFromPmi, SaysThatToleranceIsOnlyDrawn) {
+  CadPmi drawn;
+  drawn.schema = "AP242";
+  drawn.has_graphics = true;
+  const auto refused =
+      testing::error_of([&] { static_cast<void>(plan_from_pmi({}, drawn, "part.stp")); });
+  EXPECT_NE(refused.find("drawn for people"), std::string::npos) << refused;
 }
 
 TEST(PmiRecord, ReadsWhatItWrote) {

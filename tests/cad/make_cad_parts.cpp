@@ -206,13 +206,11 @@ void write_toleranced() {
   const TDF_Label bottom = block.face_at(gp_Pnt(50, 30, 0));
   const TDF_Label top = block.face_at(gp_Pnt(50, 30, 20));
   const TDF_Label bore = block.face_at(gp_Pnt(28, 20, 10));
-  const TDF_Label side = block.face_at(gp_Pnt(0, 30, 10));
   const TDF_Label a = block.add_datum("A", bottom, 1);
   block.add_size(XCAFDimTolObjects_DimensionType_Size_Diameter, 16.0, 0.05, bore);
   block.add_size(XCAFDimTolObjects_DimensionType_Location_LinearDistance, 20.0, 0.1, top, bottom);
   block.add_zone(XCAFDimTolObjects_GeomToleranceType_Flatness, 0.04, top);
   block.refer(block.add_zone(XCAFDimTolObjects_GeomToleranceType_Parallelism, 0.06, top), a);
-  block.add_zone(XCAFDimTolObjects_GeomToleranceType_Perpendicularity, 0.08, side);  // no datum
   block.add_zone(XCAFDimTolObjects_GeomToleranceType_Straightness, 0.02, bore);
   block.write("toleranced.stp");
 }

@@ -44,7 +44,7 @@ TEST(PlanScan, StatesTheUncertaintyOfAPartWithoutErrors) {
   std::size_t seen = 0;
   std::size_t below = 0;
   for (std::size_t v = 0; v < wide.map.u95_mm.size(); ++v) {
-    seen += std::isfinite(wide.map.u95_mm[v]) ? 1 : 0;
+    seen += std::isfinite(wide.map.u95_mm[v]) ? 1U : 0U;
     const bool is_below = wide.map.mesh.vertices_mm[v].z() < 1e-3F;
     if (is_below && v % 3 == 0 && std::isfinite(wide.map.u95_mm[v])) ++below;
   }

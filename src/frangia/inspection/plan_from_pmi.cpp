@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 #include <set>
+#include <span>
 #include <utility>
 
 #include <fmt/format.h>
@@ -61,16 +62,17 @@ std::string why_nothing(const CadPmi& pmi) {
 /// Builds a plan, a requirement at a time.
 class PlanBuilder {
  public:
-  PlanBuilder(const CadModel& model, const std::filesystem::path& file) : model_(model) {
+  PlanBuilder(std::span<const CadFace> faces, const CadPmi& pmi, const std::filesystem::path& file)
+      : faces_(faces), pmi_(pmi) {
     plan_.plan.part = file.stem().string();
     plan_.plan.reference = file;
     plan_.plan.align = "best-fit";
   }
 
   PmiPlan built() {
-    for (const CadRequirement& one : model_.pmi().requirements)
+    for (const CadRequirement& one : pmi_.requirements)
       if (one.kind == Kind::Datum) add_datum(one);
-    for (const CadRequirement& one : model_.pmi().requirements)
+    for (const CadRequirement& one : pmi_.requirements)
       if (one.kind != Kind::Datum) add(one);
     if (!system_.empty()) {
       plan_.plan.align = "datum";
@@ -94,7 +96,7 @@ class PlanBuilder {
   /// The first of some faces that has a shape to measure; 0: none.
   [[nodiscard]] std::size_t measurable(const std::vector<std::size_t>& faces) const {
     for (const std::size_t face : faces)
-      if (model_.faces().at(face - 1).shape) return face;
+      if (faces_[face - 1].shape) return face;
     return 0;
   }
 
@@ -107,7 +109,7 @@ class PlanBuilder {
     PlannedFeature feature;
     feature.name = fmt::format("face {}", face);
     feature.face = face;
-    feature.kind = model_.faces().at(face - 1).shape->kind;
+    feature.kind = faces_[face - 1].shape->kind;
     features.push_back(std::move(feature));
     return features.back();
   }
@@ -148,7 +150,7 @@ class PlanBuilder {
 
   void add_diameter(const CadRequirement& one, std::size_t face) {
     if (!(one.lower < one.upper)) return leave_out(one, "it has no tolerance");
-    const ShapeKind kind = model_.faces().at(face - 1).shape->kind;
+    const ShapeKind kind = faces_[face - 1].shape->kind;
     if (kind != ShapeKind::Cylinder && kind != ShapeKind::Sphere)
       return leave_out(one, "its face is no cylinder or sphere");
     PlannedFeature& feature = feature_of_face(face);
@@ -187,15 +189,14 @@ class PlanBuilder {
     PlannedCharacteristic planned = characteristic(one, face);
     planned.limit = one.value;
     if (needs_datum(kind)) planned.datum = one.datums.front();
-    if (kind == Characteristic::Position)
-      planned.position_mm = model_.faces().at(face - 1).shape->center_mm;
+    if (kind == Characteristic::Position) planned.position_mm = faces_[face - 1].shape->center_mm;
     plan_.plan.characteristics.push_back(std::move(planned));
     if (one.datums.size() > system_.size()) system_ = one.datums;
   }
 
   void add_profile(const CadRequirement& one) {
     const std::set<std::size_t> faces(one.faces.begin(), one.faces.end());
-    if (!faces.empty() && faces.size() < model_.faces().size())
+    if (!faces.empty() && faces.size() < faces_.size())
       return leave_out(one, "a plan has one profile for the whole surface");
     if (!(one.value > 0.0)) return leave_out(one, "it states no value");
     plan_.plan.tolerance_mm = ToleranceLimits{-0.5 * one.value, 0.5 * one.value};
@@ -214,7 +215,8 @@ class PlanBuilder {
     return planned;
   }
 
-  const CadModel& model_;
+  std::span<const CadFace> faces_;
+  const CadPmi& pmi_;
   PmiPlan plan_;
   std::set<std::string> datums_;
   std::set<std::string> names_;      ///< of the characteristics
@@ -223,11 +225,12 @@ class PlanBuilder {
 
 }  // namespace
 
-PmiPlan plan_from_pmi(const CadModel& model, const std::filesystem::path& file) {
-  const CadPmi& pmi = model.pmi();
+PmiPlan plan_from_pmi(std::span<const CadFace> faces,
+                      const CadPmi& pmi,
+                      const std::filesystem::path& file) {
   if (pmi.requirements.empty())
     throw Error(ErrorKind::Input, fmt::format("{}: {}", file.string(), why_nothing(pmi)));
-  PmiPlan found = PlanBuilder(model, file).built();
+  PmiPlan found = PlanBuilder(faces, pmi, file).built();
   const InspectionPlan& plan = found.plan;
   const bool judges = std::any_of(plan.features.begin(), plan.features.end(), [](const auto& one) {
     return one.tolerance_mm || !one.forms_mm.empty();
