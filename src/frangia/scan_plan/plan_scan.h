@@ -17,7 +17,7 @@ namespace frangia {
 
 /// How a scan is planned.
 struct ScanPlanOptions {
-  VirtualScanOptions scan;  ///< `divisor` 0: chosen, so that a camera has about 240 pixels a row
+  VirtualScanOptions scan;  ///< `divisor` 0: one by which a camera has about 240 pixels a row
   ScanRecipe start;         ///< where the search begins
   int most_stations = 36;   ///< of a setup
   bool search = true;       ///< false: `start` alone is predicted

@@ -20,8 +20,8 @@ struct VirtualScanOptions {
   /// Camera noise of a rig that states none, as of a camera with 8 bits.
   double full_well_e = 20000.0;
   double read_e = 8.0;  ///< see `full_well_e`
-  /// The camera has this many times fewer pixels on a side, and as many times larger vertices; a
-  /// vertex has the same number of pixels, and so the same noise.
+  /// The camera has this many times fewer pixels on a side. A vertex has the same number of
+  /// pixels, but a pixel more of what curves, so that U95 is too large, up to four times.
   int divisor = 1;
   std::uint64_t seed = 1;  ///< of the noise
 

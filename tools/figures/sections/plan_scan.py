@@ -50,7 +50,7 @@ def report(text, results):
     text.add(
         f"`frangia plan scan PART --rig RIG --views {VIEWS} --no-search` before, and `frangia simulate`, `reconstruct`, `inspect` after: one "
         f"setup of {VIEWS} stations, the base excluded. Median U95 of a vertex with the pose on the reference; the decided share of the area is "
-        f"that for a tolerance of ± {TOLERANCE_MM} mm. The prediction scans in software with about 240 pixels a row.\n"
+        f"that for a tolerance of ± {TOLERANCE_MM} mm.\n"
     )
     text.table(
         "part",
