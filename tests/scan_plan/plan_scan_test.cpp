@@ -22,6 +22,7 @@ InspectionPlan tolerance_of_surface(double mm) {
   InspectionPlan plan;
   plan.tolerance_mm = ToleranceLimits{-mm, mm};
   // What the plate stands on is seen by no station of one setup.
+  plan.surface.max_gap_mm = 20.0;  // grooves
   plan.surface.excluded = {{"base", {-1000, -1000, -1000}, {1000, 1000, 0.01}}};
   return plan;
 }
