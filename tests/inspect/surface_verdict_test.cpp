@@ -42,7 +42,8 @@ TEST(SurfaceVerdict, OfACoarseMeasurementAveragesOverSeveralVertices) {
   const double limit_mm = 3.9 * 1.96 * static_cast<double>(kSigma);
   const SurfaceVerdict verdict = plate.verdict({.limits = {-limit_mm, limit_mm}});
   EXPECT_EQ(verdict.conformity, Conformity::In) << sentence_of(verdict);
-  EXPECT_EQ(verdict.share_of(PatchDecision::NotWellMeasured), 0.0);
+  EXPECT_LT(verdict.share_of(PatchDecision::NotWellMeasured), 0.05);  // at the border
+  EXPECT_NEAR(verdict.rule.min_feature_mm, 2.0 * 60.0 / 61.0, 0.01);
 }
 
 TEST(SurfaceVerdict, OfACoarseTessellationAgainstItselfIsIn) {
