@@ -43,6 +43,7 @@ std::string list_of(const std::vector<AlignmentPose>& poses) {
 PoseFit refined_fit(const FitProblem& problem,
                     const FindFoot& exact,
                     const PoseFit& near,
+                    bool to_all,
                     const Run& run) {
   constexpr std::size_t kSome = 4000;
   constexpr int kLastIterations = 10;
@@ -53,7 +54,7 @@ PoseFit refined_fit(const FitProblem& problem,
   const std::span<const MeasuredSample> some(problem.samples.data(),
                                              std::min(problem.samples.size(), kSome));
   const PoseFit first = fit_pose(some, exact, near.pose, fit, run);
-  if (some.size() == problem.samples.size()) return first;
+  if (!to_all || some.size() == problem.samples.size()) return first;
   fit.gate_mm = std::max(2.0 * first.gate_mm, 1e-4 * problem.size_mm);
   fit.max_iterations = kLastIterations;
   PoseFit last = fit_pose(problem.samples, exact, first.pose, fit, run);
@@ -99,8 +100,9 @@ Alignment align_best_fit(const Mesh& mesh,
                            tolerance_of(options, reference)};
   const std::vector<Candidate> candidates = candidates_of(problem, options, run);
   const FindFoot exact = exact_feet(reference);
-  const auto refined = [&](const Candidate& candidate) {
-    const PoseFit fine = refined_fit(problem, exact, candidate.fit, run);
+  // Of several poses that fit alike, all samples are fitted in the chosen one alone.
+  const auto refined = [&](const Candidate& candidate, bool to_all) {
+    const PoseFit fine = refined_fit(problem, exact, candidate.fit, to_all, run);
     AlignmentPose pose =
         rate_pose(problem.samples, reference, fine.pose, problem.tolerance_mm, run);
     pose.iterations = fine.iterations;
@@ -108,7 +110,7 @@ Alignment align_best_fit(const Mesh& mesh,
     return pose;
   };
   Alignment alignment;
-  if (!candidates.empty()) alignment.pose = refined(candidates.front());
+  if (!candidates.empty()) alignment.pose = refined(candidates.front(), true);
   // A part that is out of a narrow tolerance is no other part.
   const double wide = std::max(problem.tolerance_mm, tolerance_of({}, reference));
   const double overlap = alignment.pose.overlap;
@@ -134,8 +136,10 @@ Alignment align_best_fit(const Mesh& mesh,
   for (const FreeMotion& motion : motions)
     alignment.free_directions.push_back(motion.text());
   const std::vector<Candidate> rivals = rivals_of(candidates, problem, motions);
-  for (std::size_t i = 0; i < rivals.size(); ++i)
-    alignment.alternatives.push_back(i == 0 ? alignment.pose : refined(rivals[i]));
+  for (std::size_t i = 0; i < rivals.size(); ++i) {
+    alignment.alternatives.push_back(i == 0 ? alignment.pose
+                                            : refined(rivals[i], options.start == i));
+  }
   const std::size_t count = alignment.alternatives.size();
   if (options.start) {
     if (*options.start >= count) {
