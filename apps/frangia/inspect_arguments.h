@@ -17,6 +17,8 @@ namespace frangia {
 struct InspectArguments {
   std::vector<std::filesystem::path> meshes;  ///< more than one for a batch
   std::filesystem::path plan;
+  std::filesystem::path plan_from;   ///< CAD file whose PMI becomes the plan
+  std::filesystem::path write_plan;  ///< file for the plan, as it is inspected by
   std::filesystem::path report;
   std::filesystem::path qif;
   std::filesystem::path batch;
@@ -24,7 +26,8 @@ struct InspectArguments {
   bool blade = false;
   std::filesystem::path reference;
   std::optional<double> unit_mm;     ///< of the reference
-  std::string align;                 ///< best-fit, datum, none
+  std::string align;                 ///< one of `kAlignments`
+  std::vector<double> points;        ///< six for a pair: on the mesh, then on the reference, mm
   std::size_t start = 0;             ///< of poses that fit alike, counted from 1
   std::vector<double> tolerance_mm;  ///< one: plus and minus; two: lower and upper
   std::filesystem::path scan;

@@ -29,6 +29,12 @@ void check_alignment(const InspectArguments& arguments, const InspectionPlan& pl
                 "--fail-out-of-tolerance needs a --reference to measure against; give one");
   require_usage(plan.start == 0 || plan.align == "best-fit" || plan.align == "datum",
                 "--start chooses a pose of --align best-fit; add it");
+  require_usage(arguments.points.size() % 6 == 0,
+                "--points takes six numbers: X,Y,Z on the mesh and X,Y,Z on the reference");
+  require_usage(plan.align != "points" || plan.points.size() >= 3,
+                "--align points needs --points three times or more, or [[points]] of a --plan");
+  require_usage(plan.points.empty() || !plan.align.empty(),
+                "--points are for --align best-fit, datum or points; add one");
   for (const auto& path : arguments.outputs) {
     check_deviation_output(path);
     if (plan.reference.empty() && lowercase_extension(path) != ".ply") {
@@ -41,6 +47,10 @@ void check_alignment(const InspectArguments& arguments, const InspectionPlan& pl
 }  // namespace
 
 void check_inspect_arguments(const InspectArguments& arguments, const InspectionPlan& plan) {
+  require_usage(!arguments.meshes.empty() || !arguments.write_plan.empty(),
+                "MESH is required: name the measured mesh, or a file for --write-plan");
+  if (!arguments.write_plan.empty()) check_can_write(arguments.write_plan);
+  if (arguments.meshes.empty()) return;
   if (!arguments.report.empty() && !plan.report.logo.empty())
     static_cast<void>(read_logo(plan.report.logo));
   const bool drawn = !arguments.picture.empty();
@@ -68,11 +78,20 @@ void check_inspect_arguments(const InspectArguments& arguments, const Inspection
 namespace {
 
 void add_alignment_options(CLI::App& verb, InspectArguments& arguments) {
-  verb.add_option("--align",
-                  arguments.align,
-                  "move the mesh onto the reference first: best-fit, from any start; datum, by the "
-                  "datums of the --plan; none, as it stands, with its overlap")
-      ->check(one_of({"best-fit", "datum", "none"}));
+  verb.add_option(
+          "--align",
+          arguments.align,
+          "move the mesh onto the reference first: best-fit, from any start or from "
+          "--points; datum, by the datums of the --plan; points, by --points alone; none, as "
+          "it stands, with its overlap")
+      ->check(one_of({kAlignments.begin(), kAlignments.end()}));
+  verb.add_option("--points",
+                  arguments.points,
+                  "the same place on mesh and reference, mm: X,Y,Z,X,Y,Z; three times or more")
+      ->delimiter(',')
+      ->expected(6)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+      ->allow_extra_args(false);
   verb.add_option(
           "--start",
           arguments.start,
@@ -162,11 +181,20 @@ void add_picture_options(CLI::App& verb, InspectArguments& arguments) {
 }  // namespace
 
 void add_inspect_options(CLI::App& verb, InspectArguments& arguments) {
-  verb.add_option("MESH", arguments.meshes, "the measured mesh; several for --batch")->required();
-  verb.add_option("--plan",
-                  arguments.plan,
-                  "inspection.toml: reference, alignment, tolerances, features and sections of a "
-                  "part");
+  verb.add_option("MESH", arguments.meshes, "the measured mesh; several for --batch");
+  auto* plan =
+      verb.add_option("--plan",
+                      arguments.plan,
+                      "inspection.toml: reference, alignment, tolerances, features and sections of "
+                      "a part");
+  verb.add_option("--plan-from",
+                  arguments.plan_from,
+                  "make the plan of the dimensions and tolerances (PMI) of this STEP AP242 file")
+      ->excludes(plan);
+  verb.add_option("--write-plan",
+                  arguments.write_plan,
+                  "write the plan, with what else the options state, as inspection.toml; needs no "
+                  "MESH");
   verb.add_option("--report",
                   arguments.report,
                   "write a report as one .html page, and .json and .csv files of the same name");

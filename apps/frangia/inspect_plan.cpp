@@ -1,9 +1,13 @@
 #include "inspect_plan.h"
 
+#include <algorithm>
+#include <utility>
+
 #include <fmt/format.h>
 
 #include "frangia/core/error.h"
 #include "frangia/core/parse_length.h"
+#include "frangia/inspection/plan_from_pmi.h"
 
 namespace frangia {
 namespace {
@@ -25,11 +29,35 @@ PlannedSection section_named(const std::string& text, bool blade) {
   return section;
 }
 
+/// The plan that a CAD file asks for; what is left out of it is warned of.
+InspectionPlan plan_of_pmi(const InspectArguments& arguments, const Run& run) {
+  constexpr std::size_t kWarnings = 20;
+  run.stage("plan");
+  const CadOptions options{.units = arguments.unit_mm,
+                           .allow_memory = arguments.read.allow_memory_bytes,
+                           .allow_time_s = arguments.allow_time_s,
+                           .pmi = true};
+  const auto model = read_cad(arguments.plan_from, options, run);
+  PmiPlan found =
+      plan_from_pmi(model->faces(), model->pmi(), std::filesystem::absolute(arguments.plan_from));
+  for (std::size_t i = 0; i < std::min(found.left_out.size(), kWarnings); ++i) {
+    run.warn(fmt::format(
+        "{}: left out of the plan: {}", arguments.plan_from.string(), found.left_out[i]));
+  }
+  if (found.left_out.size() > kWarnings) {
+    run.warn(fmt::format("{}: left out of the plan besides: {}",
+                         arguments.plan_from.string(),
+                         found.left_out.size() - kWarnings));
+  }
+  return std::move(found.plan);
+}
+
 }  // namespace
 
-InspectionPlan plan_of(const InspectArguments& arguments) {
+InspectionPlan plan_of(const InspectArguments& arguments, const Run& run) {
   InspectionPlan plan;
   if (!arguments.plan.empty()) plan = read_inspection_plan(arguments.plan);
+  if (!arguments.plan_from.empty()) plan = plan_of_pmi(arguments, run);
   for (const std::string& text : arguments.sections)
     plan.sections.push_back(section_named(text, arguments.blade));
   if (!arguments.reference.empty()) {
@@ -40,6 +68,11 @@ InspectionPlan plan_of(const InspectArguments& arguments) {
   }
   if (plan.reference.empty()) plan.align.clear();
   if (!arguments.align.empty()) plan.align = arguments.align;
+  if (!arguments.points.empty()) plan.points.clear();
+  for (std::size_t i = 0; i + 6 <= arguments.points.size(); i += 6) {
+    const Eigen::Map<const Eigen::Matrix<double, 3, 2>> pair(&arguments.points[i]);
+    plan.points.push_back({pair.col(0), pair.col(1)});
+  }
   if (plan.align != "best-fit" && plan.align != "datum") plan.start = 0;
   if (arguments.start > 0) plan.start = arguments.start;
   const std::vector<double>& tolerance = arguments.tolerance_mm;

@@ -1,15 +1,19 @@
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "frangia/core/write_text_file.h"
+#include "frangia/inspection/write_inspection_plan.h"
 #include "frangia/report/inspection_json.h"
 #include "frangia/report/qif_results.h"
 #include "frangia/report/write_report.h"
 
+#include "counted.h"
 #include "exit_codes.h"
 #include "inspect_batch.h"
 #include "inspect_options.h"
@@ -65,12 +69,34 @@ std::vector<std::string> write_files(const InspectArguments& arguments,
   return written;
 }
 
+/// What was written where no mesh is inspected.
+void print_plan(const InspectArguments& arguments, const InspectionPlan& plan, Terminal& terminal) {
+  terminal.finish();
+  if (terminal.json) {
+    print_json({{"plan", arguments.write_plan.string()},
+                {"features", plan.features.size()},
+                {"characteristics", plan.characteristics.size()},
+                {"warnings", terminal.warnings()}});
+    return;
+  }
+  terminal.print_written(fmt::format("{}: {} and {}",
+                                     arguments.write_plan.string(),
+                                     counted(plan.features.size(), "feature"),
+                                     counted(plan.characteristics.size(), "characteristic")));
+}
+
 void inspect(InspectArguments arguments, Terminal& terminal) {
   const Run run = terminal.run();
-  const InspectionPlan plan = plan_of(arguments);
+  const InspectionPlan plan = plan_of(arguments, run);
   if (arguments.show == "deviation" && plan.reference.empty() && plan.thickness)
     arguments.show = "thickness";
   check_inspect_arguments(arguments, plan);
+  if (!arguments.write_plan.empty())
+    write_inspection_plan(std::filesystem::absolute(arguments.write_plan), plan);
+  if (arguments.meshes.empty()) {
+    print_plan(arguments, plan, terminal);
+    return;
+  }
   if (!arguments.batch.empty()) {
     inspect_batch(arguments, plan, terminal);
     return;
@@ -92,6 +118,7 @@ void inspect(InspectArguments arguments, Terminal& terminal) {
   } else {
     write_output(inspection_text(part, arguments.features));
   }
+  if (!arguments.write_plan.empty()) terminal.print_written(arguments.write_plan.string());
   for (const std::string& path : written)
     terminal.print_written(path);
 }
@@ -108,6 +135,7 @@ void add_inspect_verb(CLI::App& program, Terminal& terminal) {
       "  frangia inspect blade.ply --reference nominal.step --align best-fit --features\n"
       "  frangia inspect shaft.ply --features\n"
       "  frangia inspect shaft.ply --plan inspection.toml --report report.html\n"
+      "  frangia inspect --plan-from part.stp --write-plan inspection.toml\n"
       "  frangia inspect a.ply b.ply --plan inspection.toml --batch batch.html");
   add_inspect_options(*verb, *arguments);
   verb->callback([arguments, &terminal] { inspect(*arguments, terminal); });

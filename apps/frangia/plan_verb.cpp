@@ -18,6 +18,7 @@
 
 #include "counted.h"
 #include "option_values.h"
+#include "plan_scan_verb.h"
 #include "print_text.h"
 #include "usage.h"
 #include "verbs.h"
@@ -103,18 +104,16 @@ void plan(PlanArguments arguments, bool fringes_given, Terminal& terminal) {
       found.wrong_order));
 }
 
-}  // namespace
-
-void add_plan_verb(CLI::App& program, Terminal& terminal) {
-  CLI::App* verb =
-      program.add_subcommand("plan", "find the shortest pattern sequence for a given phase noise");
+/// The options of `plan patterns`, which `plan` has, too; without another subcommand it does the
+/// same.
+void add_pattern_options(CLI::App* verb, Terminal& terminal) {
   verb->footer(
       "examples:\n"
-      "  frangia plan --rig digital --fringes 64 --sigma 0.1\n"
-      "  frangia plan --rig digital --fringes 64 --sigma 0.05 --maps 3     only fine fringes, "
-      "such as 64, 58 and 53\n"
-      "  frangia plan --rig digital --indirect                             fine fringes of nearly "
-      "one pitch, for parts that light themselves");
+      "  frangia plan patterns --rig digital --fringes 64 --sigma 0.1\n"
+      "  frangia plan patterns --rig digital --fringes 64 --sigma 0.05 --maps 3     only fine "
+      "fringes, such as 64, 58 and 53\n"
+      "  frangia plan patterns --rig digital --indirect                             fine fringes "
+      "of nearly one pitch, for parts that light themselves");
   auto arguments = std::make_shared<PlanArguments>();
   verb->add_option("--rig", arguments->rig, "name of a rig, or a rig.toml")->capture_default_str();
   auto* fringes = verb->add_option("--fringes",
@@ -144,8 +143,22 @@ void add_plan_verb(CLI::App& program, Terminal& terminal) {
                  arguments->indirect,
                  "plan maps of fine fringes of nearly the same pitch (micro phase shifting), over "
                  "which indirect light averages out; 4 maps unless --maps is set");
-  verb->callback(
-      [arguments, fringes, &terminal] { plan(*arguments, fringes->count() > 0, terminal); });
+  verb->callback([verb, arguments, fringes, &terminal] {
+    if (verb->get_subcommands().empty()) plan(*arguments, fringes->count() > 0, terminal);
+  });
+}
+
+}  // namespace
+
+void add_plan_verb(CLI::App& program, Terminal& terminal) {
+  CLI::App* verb = program.add_subcommand(
+      "plan", "plan the scan of a part, or the shortest pattern sequence for a given phase noise");
+  add_pattern_options(verb, terminal);
+  verb->require_subcommand(0, 1);
+  add_pattern_options(verb->add_subcommand(
+                          "patterns", "find the shortest pattern sequence for a given phase noise"),
+                      terminal);
+  add_plan_scan_verb(*verb, terminal);
 }
 
 }  // namespace frangia

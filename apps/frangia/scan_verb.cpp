@@ -19,6 +19,8 @@
 #include "drivers.h"
 #include "option_values.h"
 #include "print_text.h"
+#include "scan_until_verb.h"
+#include "usage.h"
 #include "verbs.h"
 
 namespace frangia {
@@ -27,6 +29,7 @@ namespace {
 struct ScanArguments {
   std::filesystem::path rig;
   std::filesystem::path output;
+  std::filesystem::path until;
   int views = 8;
   int setup = 0;
   std::string exposure = "10";
@@ -53,6 +56,11 @@ void add_plan_options(CLI::App& verb, ScanArguments& arguments) {
           "the captured setups stay")
       ->check(from_to(0, 999))
       ->capture_default_str();
+  verb.add_option(
+      "--until",
+      arguments.until,
+      "inspection.toml: add stations between the others until it is decided, or say why "
+      "it cannot be");
   verb.add_option("--shifts", patterns.shifts, "frames per fringe pattern")
       ->check(from_to(3, 360))
       ->capture_default_str();
@@ -171,6 +179,8 @@ std::string command_to_continue(std::string command_line) {
 }
 
 void scan(const ScanArguments& arguments, Terminal& terminal) {
+  require_usage(arguments.until.empty() || arguments.setup == 0,
+                "--until begins with the first setup; leave out --setup");
   const Run run = terminal.run();
   run.stage("devices");
   const Scan plan = plan_of(arguments, run);
@@ -194,6 +204,10 @@ void scan(const ScanArguments& arguments, Terminal& terminal) {
   OpenRig rig(arguments.rig, plan.rig, run);
   run.stage("scan");
   try {
+    if (!arguments.until.empty()) {
+      scan_until_decided(plan, arguments.until, rig.devices(), lock, options, terminal);
+      return;
+    }
     print_capture(
         arguments.output, capture_scan(plan, rig.devices(), lock, options, run), terminal);
   } catch (const Error& error) {

@@ -4,8 +4,10 @@
 
 #include <BRepAlgoAPI_Cut.hxx>
 #include <BRepBuilderAPI_MakeEdge.hxx>
+#include <BRepBuilderAPI_MakeVertex.hxx>
 #include <BRepBuilderAPI_NurbsConvert.hxx>
 #include <BRepBuilderAPI_Transform.hxx>
+#include <BRepExtrema_DistShapeShape.hxx>
 #include <BRepFilletAPI_MakeFillet.hxx>
 #include <BRepPrimAPI_MakeBox.hxx>
 #include <BRepPrimAPI_MakeCylinder.hxx>
@@ -14,11 +16,24 @@
 #include <BRep_Builder.hxx>
 #include <IGESControl_Writer.hxx>
 #include <Interface_Static.hxx>
+#include <STEPCAFControl_Writer.hxx>
 #include <STEPControl_Writer.hxx>
+#include <TCollection_HAsciiString.hxx>
+#include <TDF_Label.hxx>
+#include <TDocStd_Document.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopoDS.hxx>
 #include <TopoDS_Compound.hxx>
 #include <TopoDS_Edge.hxx>
+#include <XCAFDimTolObjects_DatumObject.hxx>
+#include <XCAFDimTolObjects_DimensionObject.hxx>
+#include <XCAFDimTolObjects_GeomToleranceObject.hxx>
+#include <XCAFDoc_Datum.hxx>
+#include <XCAFDoc_DimTolTool.hxx>
+#include <XCAFDoc_Dimension.hxx>
+#include <XCAFDoc_DocumentTool.hxx>
+#include <XCAFDoc_GeomTolerance.hxx>
+#include <XCAFDoc_ShapeTool.hxx>
 #include <gp_Ax2.hxx>
 
 namespace {
@@ -90,6 +105,116 @@ TopoDS_Shape wire() {
   return BRepBuilderAPI_MakeEdge(gp_Pnt(0, 0, 0), gp_Pnt(10, 0, 0)).Edge();
 }
 
+/// A block of 60 x 40 x 20 with a bore of 16 through it, toleranced as on a drawing.
+class TolerancedBlock {
+ public:
+  TolerancedBlock() : document_(new TDocStd_Document("BinXCAF")) {
+    XCAFDoc_DocumentTool::Set(document_->Main());
+    shapes_ = XCAFDoc_DocumentTool::ShapeTool(document_->Main());
+    tolerances_ = XCAFDoc_DocumentTool::DimTolTool(document_->Main());
+    const TopoDS_Shape block = BRepPrimAPI_MakeBox(60, 40, 20).Solid();
+    const gp_Ax2 axis(gp_Pnt(20, 20, -1), gp_Dir(0, 0, 1));
+    shape_ = BRepAlgoAPI_Cut(block, BRepPrimAPI_MakeCylinder(axis, 8, 22).Solid()).Shape();
+    part_ = shapes_->AddShape(shape_, false);
+  }
+
+  /// The face that holds a point and no other one.
+  TDF_Label face_at(const gp_Pnt& point) {
+    for (TopExp_Explorer at(shape_, TopAbs_FACE); at.More(); at.Next()) {
+      const TopoDS_Shape vertex = BRepBuilderAPI_MakeVertex(point).Vertex();
+      if (BRepExtrema_DistShapeShape(vertex, at.Current()).Value() < 1e-6)
+        return shapes_->AddSubShape(part_, at.Current());
+    }
+    return {};
+  }
+
+  TDF_Label add_datum(const char* name, const TDF_Label& face, int position = 1) {
+    const TDF_Label label = tolerances_->AddDatum();
+    Handle(XCAFDoc_Datum) datum;
+    label.FindAttribute(XCAFDoc_Datum::GetID(), datum);
+    const Handle(XCAFDimTolObjects_DatumObject) object = new XCAFDimTolObjects_DatumObject();
+    object->SetName(new TCollection_HAsciiString(name));
+    object->SetPosition(position);
+    datum->SetObject(object);
+    TDF_LabelSequence faces;
+    faces.Append(face);
+    tolerances_->SetDatum(faces, label);
+    return label;
+  }
+
+  void add_size(XCAFDimTolObjects_DimensionType type,
+                double value,
+                double tolerance,
+                const TDF_Label& first,
+                const TDF_Label& second = {}) {
+    const TDF_Label label = tolerances_->AddDimension();
+    Handle(XCAFDoc_Dimension) dimension;
+    label.FindAttribute(XCAFDoc_Dimension::GetID(), dimension);
+    const Handle(XCAFDimTolObjects_DimensionObject) object =
+        new XCAFDimTolObjects_DimensionObject();
+    object->SetType(type);
+    object->SetValue(value);
+    object->SetUpperTolValue(tolerance);
+    object->SetLowerTolValue(tolerance);
+    dimension->SetObject(object);
+    if (second.IsNull()) {
+      tolerances_->SetDimension(first, label);
+    } else {
+      tolerances_->SetDimension(first, second, label);
+    }
+  }
+
+  TDF_Label add_zone(XCAFDimTolObjects_GeomToleranceType type,
+                     double width,
+                     const TDF_Label& face) {
+    const TDF_Label label = tolerances_->AddGeomTolerance();
+    Handle(XCAFDoc_GeomTolerance) tolerance;
+    label.FindAttribute(XCAFDoc_GeomTolerance::GetID(), tolerance);
+    const Handle(XCAFDimTolObjects_GeomToleranceObject) object =
+        new XCAFDimTolObjects_GeomToleranceObject();
+    object->SetType(type);
+    object->SetValue(width);
+    tolerance->SetObject(object);
+    tolerances_->SetGeomTolerance(face, label);
+    return label;
+  }
+
+  void refer(const TDF_Label& zone, const TDF_Label& datum) {
+    tolerances_->SetDatumToGeomTol(datum, zone);
+  }
+
+  void write(const char* name) {
+    Interface_Static::SetCVal("write.step.schema", "AP242DIS");
+    Interface_Static::SetCVal("write.step.unit", "MM");
+    STEPCAFControl_Writer writer;
+    writer.SetDimTolMode(true);
+    writer.Transfer(document_, STEPControl_AsIs);
+    writer.Write((folder / name).c_str());
+    Interface_Static::SetCVal("write.step.schema", "AP214IS");
+  }
+
+ private:
+  Handle(TDocStd_Document) document_;
+  Handle(XCAFDoc_ShapeTool) shapes_;
+  Handle(XCAFDoc_DimTolTool) tolerances_;
+  TopoDS_Shape shape_;
+  TDF_Label part_;
+};
+
+void write_toleranced() {
+  TolerancedBlock block;
+  const TDF_Label bottom = block.face_at(gp_Pnt(50, 30, 0));
+  const TDF_Label top = block.face_at(gp_Pnt(50, 30, 20));
+  const TDF_Label bore = block.face_at(gp_Pnt(28, 20, 10));
+  const TDF_Label a = block.add_datum("A", bottom, 1);
+  block.add_size(XCAFDimTolObjects_DimensionType_Size_Diameter, 16.0, 0.05, bore);
+  block.add_size(XCAFDimTolObjects_DimensionType_Location_LinearDistance, 20.0, 0.1, top, bottom);
+  block.add_zone(XCAFDimTolObjects_GeomToleranceType_Flatness, 0.04, top);
+  block.refer(block.add_zone(XCAFDimTolObjects_GeomToleranceType_Parallelism, 0.06, top), a);
+  block.add_zone(XCAFDimTolObjects_GeomToleranceType_Straightness, 0.02, bore);
+  block.write("toleranced.stp");
+}
+
 }  // namespace
 
 int main(int count, char** arguments) {
@@ -103,6 +228,7 @@ int main(int count, char** arguments) {
   write_iges("plate.igs", bored_plate());
   write_iges("rounded-inch.iges", rounded_block(), "IN");
   write_iges("wire.igs", wire());
+  write_toleranced();
   const double kilometres = 1e8;
   write_step("huge.step", BRepPrimAPI_MakeBox(kilometres, kilometres, kilometres).Solid());
   return 0;

@@ -35,6 +35,17 @@ TEST(SurfaceVerdict, OfAMeshAgainstItselfIsIn) {
   EXPECT_NEAR(verdict.area_mm2, 4.0 * 3.14159 * 400.0, 30.0);
 }
 
+/// A vertex for each fiftieth of the size: a patch of one vertex would be as uncertain as that.
+TEST(SurfaceVerdict, OfACoarseMeasurementAveragesOverSeveralVertices) {
+  Plate plate;
+  plate.add_noise(3, static_cast<double>(kSigma));
+  const double limit_mm = 3.9 * 1.96 * static_cast<double>(kSigma);
+  const SurfaceVerdict verdict = plate.verdict({.limits = {-limit_mm, limit_mm}});
+  EXPECT_EQ(verdict.conformity, Conformity::In) << sentence_of(verdict);
+  EXPECT_LT(verdict.share_of(PatchDecision::NotWellMeasured), 0.05);  // at the border
+  EXPECT_NEAR(verdict.rule.min_feature_mm, 2.0 * 60.0 / 61.0, 0.01);
+}
+
 TEST(SurfaceVerdict, OfACoarseTessellationAgainstItselfIsIn) {
   const Mesh box = testing::box({0, 0, 0}, {30, 20, 10});  // 12 triangles
   const RayScene reference(box);

@@ -7,6 +7,8 @@
 #include <gtest/gtest.h>
 
 #include "frangia/core/random.h"
+#include "frangia/core/write_text_file.h"
+#include "frangia/inspection/tolerance_use.h"
 #include "frangia/report/inspection_report.h"
 #include "frangia/report/result_table.h"
 
@@ -202,7 +204,7 @@ TEST(ReportPages, ArePrintedWithTheVerdictOnTheFirstSheetAndRepeatedHeads) {
   ReportPicture picture = random_picture(4);
   picture.picture = Image<Rgb>(72, 44, Rgb{90, 90, 90});
   report.pictures = {picture, picture};
-  write_report_text(folder.path() / "r.html", html_of(report));
+  write_text_file(folder.path() / "r.html", html_of(report));
   const auto pdf = folder.path() / "r.pdf";
   const std::string command =
       "weasyprint " + (folder.path() / "r.html").string() + " " + pdf.string() + " 2> /dev/null";
@@ -226,6 +228,15 @@ TEST(ReportLogo, MustBeAPicture) {
               static_cast<void>(read_logo(path));
             }).find("logo.txt: the logo of a report must be a PNG or JPEG picture"),
             std::string::npos);
+}
+
+/// The head of a PNG is no picture.
+TEST(ReportLogo, IsRefusedWhenItIsCutShort) {
+  const testing::TemporaryFolder folder;
+  const auto path = folder.path() / "logo.png";
+  std::ofstream(path, std::ios::binary) << "\x89PNG\r\n\x1A\n and no more";
+  const std::string refused = testing::error_of([&] { static_cast<void>(read_logo(path)); });
+  EXPECT_NE(refused.find("logo.png"), std::string::npos) << refused;
 }
 
 }  // namespace

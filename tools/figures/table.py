@@ -46,6 +46,7 @@ SECTIONS = {
     "deviation": Inputs("inspect", case_s=25),
     "blade": Inputs(SCAN, case_s=7),
     "verdict": Inputs(SCAN, case_s=1),
+    "plan_scan": Inputs(SCAN + " plan", case_s=40),
     "cad": Inputs("inspect", files="tests/cad", case_s=15),
     "edit_pictures": Inputs("simulate reconstruct edit picture", files="tools/edit_pictures.py", case_s=60),
     "surface_pictures": Inputs(SCAN + " decode", files="tools/surface_pictures.py", case_s=90),

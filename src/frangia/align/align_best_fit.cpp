@@ -38,6 +38,30 @@ std::string list_of(const std::vector<AlignmentPose>& poses) {
   return list;
 }
 
+/// The last fit, to some of the samples until it converges, and to all of them from there. A pose
+/// with a free direction wanders along it, and only the most iterations end that.
+PoseFit refined_fit(const FitProblem& problem,
+                    const FindFoot& exact,
+                    const PoseFit& near,
+                    bool to_all,
+                    const Run& run) {
+  constexpr std::size_t kSome = 4000;
+  constexpr int kLastIterations = 10;
+  PoseFitOptions fit{.gate_mm = std::max(4.0 * near.gate_mm, 1e-4 * problem.size_mm),
+                     .least_gate_mm = 1e-6 * problem.size_mm,
+                     .least_cosine = 0.5,
+                     .max_iterations = 40};
+  const std::span<const MeasuredSample> some(problem.samples.data(),
+                                             std::min(problem.samples.size(), kSome));
+  const PoseFit first = fit_pose(some, exact, near.pose, fit, run);
+  if (!to_all || some.size() == problem.samples.size()) return first;
+  fit.gate_mm = std::max(2.0 * first.gate_mm, 1e-4 * problem.size_mm);
+  fit.max_iterations = kLastIterations;
+  PoseFit last = fit_pose(problem.samples, exact, first.pose, fit, run);
+  last.iterations += first.iterations;
+  return last;
+}
+
 }  // namespace
 
 void BestFitOptions::check() const {
@@ -76,13 +100,9 @@ Alignment align_best_fit(const Mesh& mesh,
                            tolerance_of(options, reference)};
   const std::vector<Candidate> candidates = candidates_of(problem, options, run);
   const FindFoot exact = exact_feet(reference);
-  const auto refined = [&](const Candidate& candidate) {
-    const PoseFitOptions fit{
-        .gate_mm = std::max(4.0 * candidate.fit.gate_mm, 1e-4 * problem.size_mm),
-        .least_gate_mm = 1e-6 * problem.size_mm,
-        .least_cosine = 0.5,
-        .max_iterations = 40};
-    const PoseFit fine = fit_pose(problem.samples, exact, candidate.fit.pose, fit, run);
+  // Of several poses that fit alike, all samples are fitted in the chosen one alone.
+  const auto refined = [&](const Candidate& candidate, bool to_all) {
+    const PoseFit fine = refined_fit(problem, exact, candidate.fit, to_all, run);
     AlignmentPose pose =
         rate_pose(problem.samples, reference, fine.pose, problem.tolerance_mm, run);
     pose.iterations = fine.iterations;
@@ -90,7 +110,7 @@ Alignment align_best_fit(const Mesh& mesh,
     return pose;
   };
   Alignment alignment;
-  if (!candidates.empty()) alignment.pose = refined(candidates.front());
+  if (!candidates.empty()) alignment.pose = refined(candidates.front(), true);
   // A part that is out of a narrow tolerance is no other part.
   const double wide = std::max(problem.tolerance_mm, tolerance_of({}, reference));
   const double overlap = alignment.pose.overlap;
@@ -99,19 +119,27 @@ Alignment align_best_fit(const Mesh& mesh,
           ? rate_pose(problem.samples, reference, alignment.pose.reference_from_mesh, wide, run)
                 .overlap
           : overlap;
-  refuse_alignment(
-      mesh, reference, options, alignment.pose.reference_from_mesh, plausible, wide, run);
-  const std::span<const MeasuredSample> some(problem.samples.data(),
-                                             std::min<std::size_t>(problem.samples.size(), 6000));
-  const double within = std::clamp(
-      2.0 * candidates.front().fit.gate_mm, 0.1 * problem.tolerance_mm, problem.tolerance_mm);
-  const std::vector<FreeMotion> motions =
-      free_motions(some, exact, candidates.front().fit, within, run);
+  if (!options.from) {
+    refuse_alignment(
+        mesh, reference, options, alignment.pose.reference_from_mesh, plausible, wide, run);
+  } else if (plausible < options.least_overlap) {
+    throw Error(
+        ErrorKind::Input,
+        fmt::format("only {:.0f} % of the mesh lies within {:.3g} mm of the reference in the pose "
+                    "near the given points, and {:.0f} % are needed; choose other points, or leave "
+                    "them out to try every pose",
+                    100.0 * plausible,
+                    wide,
+                    100.0 * options.least_overlap));
+  }
+  const std::vector<FreeMotion> motions = free_motions_of(problem, exact, candidates.front(), run);
   for (const FreeMotion& motion : motions)
     alignment.free_directions.push_back(motion.text());
   const std::vector<Candidate> rivals = rivals_of(candidates, problem, motions);
-  for (std::size_t i = 0; i < rivals.size(); ++i)
-    alignment.alternatives.push_back(i == 0 ? alignment.pose : refined(rivals[i]));
+  for (std::size_t i = 0; i < rivals.size(); ++i) {
+    alignment.alternatives.push_back(i == 0 ? alignment.pose
+                                            : refined(rivals[i], options.start == i));
+  }
   const std::size_t count = alignment.alternatives.size();
   if (options.start) {
     if (*options.start >= count) {

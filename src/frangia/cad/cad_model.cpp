@@ -6,8 +6,8 @@
 
 namespace frangia {
 
-CadModel::CadModel(std::unique_ptr<Faces> faces, std::string unit)
-    : faces_(std::move(faces)), unit_(std::move(unit)) {}
+CadModel::CadModel(std::unique_ptr<Faces> faces, std::string unit, CadPmi pmi)
+    : faces_(std::move(faces)), unit_(std::move(unit)), pmi_(std::move(pmi)) {}
 
 CadModel::~CadModel() = default;
 

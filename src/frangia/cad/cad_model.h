@@ -9,6 +9,7 @@
 
 #include <Eigen/Core>
 
+#include "frangia/cad/cad_pmi.h"
 #include "frangia/features/shape.h"
 #include "frangia/geometry/exact_surface.h"
 #include "frangia/geometry/mesh.h"
@@ -29,7 +30,7 @@ class CadModel final : public ExactSurface {
   /// The faces as the library that reads them keeps them.
   struct Faces;
   /// Takes over the faces. `unit` is that of the file.
-  CadModel(std::unique_ptr<Faces> faces, std::string unit);
+  CadModel(std::unique_ptr<Faces> faces, std::string unit, CadPmi pmi = {});
   CadModel(const CadModel&) = delete;
   CadModel& operator=(const CadModel&) = delete;
   CadModel(CadModel&&) = delete;
@@ -45,6 +46,9 @@ class CadModel final : public ExactSurface {
   /// Unit of length of the file in words: "millimetre", "inch".
   [[nodiscard]] const std::string& unit() const { return unit_; }
 
+  /// What the file asks for beside its shape, where that was read.
+  [[nodiscard]] const CadPmi& pmi() const { return pmi_; }
+
   /// Newton's method finds the foot point on each face that may be nearest, and on its edges where
   /// the foot is beyond them.
   ///
@@ -55,6 +59,7 @@ class CadModel final : public ExactSurface {
  private:
   std::unique_ptr<Faces> faces_;
   std::string unit_;
+  CadPmi pmi_;
 };
 
 }  // namespace frangia

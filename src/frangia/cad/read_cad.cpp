@@ -67,6 +67,26 @@ void check_iges(const std::filesystem::path& path, const FileEnds& ends) {
     refuse(path, "it is cut short: its last line has no T in column 73; copy or export it again");
 }
 
+/// The application protocol that a STEP file names in its head.
+std::string schema_of(const FileEnds& ends) {
+  const std::size_t at = ends.begin.find("FILE_SCHEMA");
+  if (at == std::string::npos) return "";
+  const std::string text = ends.begin.substr(at, ends.begin.find(';', at) - at);
+  const auto names = [&](std::string_view part) { return text.find(part) != std::string::npos; };
+  if (names("AP242")) return "AP242";
+  if (names("AUTOMOTIVE_DESIGN") || names("AP214")) return "AP214";
+  return names("CONFIG_CONTROL_DESIGN") || names("AP203") ? "AP203" : "";
+}
+
+/// Refuses information about faces that the model does not have.
+void check_face_numbers(const CadPmi& pmi, std::size_t faces) {
+  for (const CadRequirement& requirement : pmi.requirements) {
+    for (const auto& numbers : {requirement.faces, requirement.other_faces})
+      for (const std::size_t number : numbers)
+        require(number <= faces, "it refers to a face that it does not have; export it again");
+  }
+}
+
 }  // namespace
 
 bool is_cad_file(const std::filesystem::path& path) {
@@ -87,7 +107,7 @@ std::unique_ptr<CadModel> read_cad(const std::filesystem::path& path,
   const ProcessLimits limits{
       MemoryBudget(path, ends.bytes, options.allow_memory),
       std::max(options.allow_time_s, kSecondsPerByte * static_cast<double>(ends.bytes))};
-  TranslatedCad translated = translate_in_process(path, options.units, limits, run);
+  TranslatedCad translated = translate_in_process(path, {options.units, options.pmi}, limits, run);
   for (const std::string& warning : translated.said.warnings)
     run.warn(fmt::format("{}: {}", path.string(), warning));
   if (!translated.said.error.empty()) refuse(path, translated.said.error);
@@ -95,7 +115,10 @@ std::unique_ptr<CadModel> read_cad(const std::filesystem::path& path,
     auto faces = load_faces(translated.shape, run);
     if (faces->mesh.triangles.empty())
       refuse(path, "none of its faces has an area; export it again");
-    return std::make_unique<CadModel>(std::move(faces), translated.said.unit);
+    translated.said.pmi.schema = step ? schema_of(ends) : "";
+    check_face_numbers(translated.said.pmi, faces->list.size());
+    return std::make_unique<CadModel>(
+        std::move(faces), translated.said.unit, std::move(translated.said.pmi));
   } catch (const Error& error) {
     if (error.kind() != ErrorKind::Input || std::string(error.what()).starts_with(path.string()))
       throw;

@@ -17,6 +17,7 @@ struct CadOptions {
   std::uint64_t allow_memory = kAllowMemoryBytes;  ///< memory that reading may take, bytes
   /// Processor time that reading may take, s; a large file may take 20 s for each MB.
   double allow_time_s = 120.0;
+  bool pmi = false;  ///< also the semantic product and manufacturing information of a STEP file
 };
 
 /// Whether the extension of a path is that of a CAD file: .step, .stp, .igs or .iges.

@@ -33,8 +33,10 @@ constexpr float kSameSide = -0.2F;       // cosine: as the limit of DeviationSta
 constexpr double kMeasuredShare = 0.25;  // of a patch; vertices at sharp edges are left out
 constexpr std::size_t kMostPatches = 400'000;
 /// Of the reference's size: a mesh that was decimated has triangles larger than its features, and
-/// its flat faces are measured between their corners, too.
-constexpr double kLargestShare = 0.02;
+/// its flat faces are measured between their corners, too. Patches of less than two distances of
+/// the vertices hold single ones, whose noise nothing averages.
+constexpr double kLargestPatch = 0.04;
+constexpr double kLargestStrip = 0.01;  // as `kLargestPatch`
 constexpr double kSamplesPerPatch = 9.0;
 
 double diagonal_of(const Mesh& mesh) {
@@ -162,7 +164,7 @@ double default_edge_mm(const Mesh& mesh, const Mesh& reference) {
   constexpr double kMostInStrips = 0.25;  // of the area
   constexpr int kMostHalvings = 6;
   double width_mm =
-      0.5 * std::min(default_feature_mm(mesh), kLargestShare * diagonal_of(reference));
+      std::min(0.5 * default_feature_mm(mesh), kLargestStrip * diagonal_of(reference));
   const auto samples = sample_surface(reference, kSamples);
   for (int i = 0; i < kMostHalvings; ++i) {
     const EdgeStrips strips(reference, width_mm);
@@ -187,7 +189,7 @@ SurfacePatches surface_patches(const Mesh& mesh,
   run.stage("patches");
   const double wanted = diameter_mm > 0.0 ? diameter_mm
                                           : std::min(default_feature_mm(mesh),
-                                                     kLargestShare * diagonal_of(reference.mesh()));
+                                                     kLargestPatch * diagonal_of(reference.mesh()));
   const double nominal_area = area_of(reference.mesh());
   require(nominal_area > 0.0,
           "the reference has no triangles, only points; give a mesh with triangles");

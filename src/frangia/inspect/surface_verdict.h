@@ -20,7 +20,7 @@ namespace frangia {
 /// How the deviations of a surface are decided.
 struct SurfaceRule {
   ToleranceLimits limits{-0.1, 0.1};  ///< of the deviation, mm
-  /// Diameter of the patches; 0: twice the mean spacing of the vertices, 2 % of the size at most.
+  /// Diameter of the patches; 0: twice the mean spacing of the vertices, 4 % of the size at most.
   double min_feature_mm = 0.0;
   /// Width of the strips along edges of the reference that are not judged; 0: none. Nothing:
   /// `default_edge_mm`.

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "frangia/core/html_escaped.h"
+#include "frangia/inspection/tolerance_use.h"
 #include "frangia/report/internal/report_sheets.h"
 #include "frangia/report/result_table.h"
 
@@ -151,8 +152,7 @@ void add_cover(HtmlPage& page, const InspectionReport& report) {
   const std::size_t shown = rows_on_cover(report, rows);
   if (shown > 0) page.html(result_table(rows, shown));
   if (rows.size() > shown)
-    page.paragraph(
-        fmt::format("The {} worst of {} rows; all are on the next page.", shown, rows.size()));
+    page.paragraph(fmt::format("The {} worst of {} rows; all of them follow.", shown, rows.size()));
   if (has_verdict(report)) {
     page.html(
         "<p class=\"small\">Decision rule: ISO 14253-1:2017, guard band 1.645 u, probability of "

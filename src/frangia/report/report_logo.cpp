@@ -6,6 +6,7 @@
 
 #include "frangia/core/error.h"
 #include "frangia/core/read_regular_file.h"
+#include "frangia/frames/image_file.h"
 
 namespace frangia {
 
@@ -21,6 +22,8 @@ ReportLogo read_logo(const std::filesystem::path& path) {
         ErrorKind::Input,
         fmt::format("{}: the logo of a report must be a PNG or JPEG picture", path.string()));
   }
+  // A picture that is cut short would leave a hole in a report that is signed.
+  static_cast<void>(ImageFile(path).read());
   logo.bytes.assign(content.begin(), content.end());
   return logo;
 }

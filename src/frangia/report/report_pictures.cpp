@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <set>
 #include <utility>
 
@@ -12,8 +13,8 @@
 #include "frangia/core/angles.h"
 #include "frangia/inspect/picture_positions.h"
 #include "frangia/inspect/render_mesh.h"
+#include "frangia/inspection/tolerance_use.h"
 #include "frangia/report/inspection_picture.h"
-#include "frangia/report/result_table.h"
 
 namespace frangia {
 namespace {
@@ -69,6 +70,12 @@ std::vector<LabelledPlace> labelled_places(const Inspection& part) {
                         {extreme.at_mm, extreme.normal}});
     }
   }
+  // Of a feature with many characteristics the worst ones, or the labels of others have no room.
+  constexpr std::size_t kMostOfFeature = 3;
+  std::map<std::string, std::size_t> rows_of;
+  for (const MeasuredCharacteristic& row : part.characteristics)
+    rows_of[row.feature] += std::isfinite(row.value) ? 1U : 0U;
+  std::map<std::string, std::size_t> labelled;
   for (const MeasuredCharacteristic& row : worst_first(part.characteristics)) {
     const auto found = std::find_if(part.named_features.begin(),
                                     part.named_features.end(),
@@ -79,6 +86,10 @@ std::vector<LabelledPlace> labelled_places(const Inspection& part) {
                        row.name,
                        row.limits ? row.conformity : Conformity::Undecided,
                        {}};
+    const std::size_t count = ++labelled[row.feature];
+    if (count > kMostOfFeature) continue;
+    if (count == kMostOfFeature && rows_of[row.feature] > kMostOfFeature)
+      label.detail += fmt::format(", {} more", rows_of[row.feature] - kMostOfFeature);
     if (shape.kind == ShapeKind::Plane) {
       places.push_back({label, {shape.center_mm, shape.axis}});
       continue;

@@ -41,7 +41,14 @@ struct Candidate {
   double share = 0.0;
 };
 
-/// The refined poses of a search, the best first.
+/// The free motions of a pose.
+[[nodiscard]] std::vector<FreeMotion> free_motions_of(const FitProblem& problem,
+                                                      const FindFoot& find_foot,
+                                                      const Candidate& candidate,
+                                                      const Run& run);
+
+/// The refined poses of a search, or the one near `BestFitOptions::from`, the best first.
+/// Poses that free motions of the first one lead to, and that fit no better, are left out.
 [[nodiscard]] std::vector<Candidate> candidates_of(const FitProblem& problem,
                                                    const BestFitOptions& options,
                                                    const Run& run);

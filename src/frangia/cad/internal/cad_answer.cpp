@@ -1,16 +1,29 @@
 #include "frangia/cad/internal/cad_answer.h"
 
+#include <algorithm>
 #include <array>
 #include <cstring>
+#include <utility>
+
+#include "frangia/cad/internal/pmi_record.h"
 
 namespace frangia {
 namespace {
 
-enum Kind : char { kUnit = 'u', kWarning = 'w', kError = 'e', kShape = 's', kEnd = 'z' };
+enum Kind : char {
+  kUnit = 'u',
+  kWarning = 'w',
+  kGraphics = 'g',
+  kRequirement = 'r',
+  kError = 'e',
+  kShape = 's',
+  kEnd = 'z'
+};
 
 constexpr std::size_t kHeadBytes = 1 + sizeof(std::uint64_t);
 constexpr std::size_t kMaxText = 300;
 constexpr std::size_t kMaxWarnings = 20;
+constexpr std::size_t kMaxRequirements = 2000;
 
 /// A text that may come from the file: what a terminal could take for a command is replaced.
 std::string plain(std::string_view text) {
@@ -37,6 +50,11 @@ bool send_answer(const CadTranslation& said,
   if (!send_text(kUnit, plain(said.unit))) return false;
   for (std::size_t i = 0; i < std::min(said.warnings.size(), kMaxWarnings); ++i)
     if (!send_text(kWarning, plain(said.warnings[i]))) return false;
+  if (said.pmi.has_graphics && !send_text(kGraphics, {})) return false;
+  for (std::size_t i = 0; i < std::min(said.pmi.requirements.size(), kMaxRequirements); ++i) {
+    const std::string record = pmi_record(said.pmi.requirements[i]);
+    if (record.size() <= kMaxText && !send_text(kRequirement, record)) return false;
+  }
   if (!said.error.empty()) return send_text(kError, plain(said.error)) && send_text(kEnd, {});
   return send(head_of(kShape, shape.size())) && send(shape) && send_text(kEnd, {});
 }
@@ -65,6 +83,13 @@ std::optional<TranslatedCad> parsed_answer(std::string bytes) {
     } else if (kind == kWarning) {
       if (found.said.warnings.size() == kMaxWarnings) return std::nullopt;
       found.said.warnings.push_back(plain(content));
+    } else if (kind == kGraphics) {
+      found.said.pmi.has_graphics = true;
+    } else if (kind == kRequirement) {
+      auto requirement = parsed_pmi_record(content);
+      if (!requirement || found.said.pmi.requirements.size() == kMaxRequirements)
+        return std::nullopt;
+      found.said.pmi.requirements.push_back(std::move(*requirement));
     } else if (kind == kError && size > 0) {
       found.said.error = plain(content);
       has_content = true;

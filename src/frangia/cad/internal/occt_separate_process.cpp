@@ -75,7 +75,7 @@ void limit_time(double seconds) {
 /// What the second process does; it never returns.
 [[noreturn]] void answer(int pipe,
                          const std::filesystem::path& path,
-                         const std::optional<double>& unit_mm,
+                         const CadRequest& asked,
                          const ProcessLimits& limits) {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGPIPE, SIGSEGV, SIGABRT, SIGFPE, SIGBUS})
@@ -94,7 +94,7 @@ void limit_time(double seconds) {
   int code = kNoAnswer;
   try {
     std::stringstream shape;
-    CadTranslation said = translate_cad(path, unit_mm, shape);
+    CadTranslation said = translate_cad(path, asked, shape);
     try {
       if (said.error.empty()) rehearse_faces(shape);
     } catch (const Error& error) {
@@ -202,7 +202,7 @@ std::string cause_of(const ChildEnd& end, const ProcessLimits& limits) {
 }  // namespace
 
 TranslatedCad translate_in_process(const std::filesystem::path& path,
-                                   const std::optional<double>& unit_mm,
+                                   const CadRequest& asked,
                                    const ProcessLimits& limits,
                                    const Run& run) {
   std::array<int, 2> ends{};
@@ -214,7 +214,7 @@ TranslatedCad translate_in_process(const std::filesystem::path& path,
     ::close(ends[1]);
     throw Error(ErrorKind::File, "no second process can be started to read the CAD file");
   }
-  if (process == 0) answer(ends[1], path, unit_mm, limits);
+  if (process == 0) answer(ends[1], path, asked, limits);
   ::close(ends[1]);
   Child child(process, ends[0]);
   ChildEnd end = child.listen(limits, run);

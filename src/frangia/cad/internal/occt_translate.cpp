@@ -23,6 +23,7 @@
 #include <TopExp_Explorer.hxx>
 #include <TopoDS.hxx>
 
+#include "frangia/cad/internal/lowercase_text.h"
 #include "frangia/cad/internal/shape_checks.h"
 #include "frangia/core/error.h"
 #include "frangia/core/lowercase_extension.h"
@@ -38,13 +39,6 @@ int counted_faces(const TopoDS_Shape& shape) {
   for (TopExp_Explorer at(shape, TopAbs_FACE); at.More() && count <= kMostFaces; at.Next())
     ++count;
   return count;
-}
-
-std::string lowercase(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) {
-    return static_cast<char>(std::tolower(c));
-  });
-  return text;
 }
 
 TopoDS_Shape scaled(const TopoDS_Shape& shape, double factor) {
@@ -161,12 +155,22 @@ double checked_size(const TopoDS_Shape& shape, CadTranslation& said) {
   return size;
 }
 
+/// The shape of a file, with what it asks for where that is wanted and the file may have it.
+TopoDS_Shape read_shape(const std::string& path,
+                        const CadRequest& asked,
+                        bool step,
+                        CadTranslation& said) {
+  if (!step) return read_iges(path, said);
+  return asked.pmi ? read_step_with_pmi(path, said) : read_step(path, asked.unit_mm, said);
+}
+
 void translate(const std::string& path,
-               const std::optional<double>& unit_mm,
+               const CadRequest& asked,
                std::ostream& out,
                CadTranslation& said) {
+  const std::optional<double>& unit_mm = asked.unit_mm;
   const bool step = lowercase_extension(path).starts_with(".st");
-  TopoDS_Shape shape = step ? read_step(path, unit_mm, said) : read_iges(path, said);
+  TopoDS_Shape shape = read_shape(path, asked, step, said);
   if (!said.error.empty()) return;
   if (said.unit.empty() && !(step && unit_mm)) {
     said.error = "it states no unit of length; state it with `units`";
@@ -179,7 +183,8 @@ void translate(const std::string& path,
   if (said.unit.empty()) said.unit = "as given";
   double size = checked_size(shape, said);
   if (!said.error.empty()) return;
-  shape = sewn(shape);
+  // Faces that are sewn together have other numbers than those that the file refers to.
+  if (said.pmi.requirements.empty()) shape = sewn(shape);
   size = checked_size(shape, said);
   if (!said.error.empty()) return;
   // Of the size of the part: fine enough to start from, to draw and to align.
@@ -192,11 +197,11 @@ void translate(const std::string& path,
 }  // namespace
 
 CadTranslation translate_cad(const std::filesystem::path& path,
-                             const std::optional<double>& unit_mm,
+                             const CadRequest& asked,
                              std::ostream& shape) {
   CadTranslation said;
   try {
-    translate(path.string(), unit_mm, shape, said);
+    translate(path.string(), asked, shape, said);
   } catch (const Error& error) {
     said.error = error.what();
   } catch (const Standard_OutOfMemory&) {

@@ -24,12 +24,13 @@ struct ProcessLimits {
 
 /// Calls `translate_cad` and `rehearse_faces` in a second process with limited memory and time and
 /// without a terminal. A process that ends before it has answered, or answers in another form, is
-/// an error. Texts are cut to 300 printable characters, and warnings to 20.
+/// an error. Texts are cut to 300 printable characters, and warnings to 20; requirements
+/// beyond 2000 are left out.
 ///
 /// @errors   Error(Cancelled), which ends the process; Error(Input) that names the file, when its
 ///           shape is larger than the memory allows; Error(File)
 [[nodiscard]] TranslatedCad translate_in_process(const std::filesystem::path& path,
-                                                 const std::optional<double>& unit_mm,
+                                                 const CadRequest& asked,
                                                  const ProcessLimits& limits,
                                                  const Run& run);
 

@@ -1,0 +1,101 @@
+#include "frangia/scan_plan/scan_until.h"
+
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "frangia/core/angles.h"
+#include "frangia/reconstruct/reconstruct.h"
+
+namespace frangia {
+namespace {
+
+/// Where the stations of a round lie between those of the first, of their distance.
+constexpr std::array<double, 8> kBetween{0.0, 0.5, 0.25, 0.75, 0.125, 0.625, 0.375, 0.875};
+
+/// The plan of a round: the views of the first one, turned by a part of their distance.
+Scan plan_of_round(const Scan& first, std::size_t round) {
+  Scan plan = first;
+  const double step_rad = kTwoPi / static_cast<double>(first.views.size());
+  for (ScanView& view : plan.views) {
+    view.angle_rad += kBetween.at(round) * step_rad;
+    view.setup = static_cast<int>(round);
+  }
+  for (std::size_t setup = 1; setup <= round; ++setup)  // the part was not moved
+    plan.part_poses[static_cast<int>(setup)] = Eigen::Isometry3d::Identity();
+  return plan;
+}
+
+ScanRound round_of(const Scan& scan, const Inspection& found, double max_uncertainty_share) {
+  ScanRound round;
+  round.stations = scan.views.size();
+  round.need = need_of(found, max_uncertainty_share);
+  if (found.surface) round.decidable_share = found.surface->verdict.coverage;
+  for (const DecidableCharacteristic& row : decidable_characteristics(found, max_uncertainty_share))
+    round.decidable += row.is_decidable ? 1 : 0;
+  return round;
+}
+
+/// Why no further round is worth its time; nothing: it is.
+std::optional<ScanStop> stop_after(const std::vector<ScanRound>& rounds) {
+  constexpr double kGain = 0.005;  // of the nominal area
+  const ScanRound& last = rounds.back();
+  if (last.need == ScanNeed::Nothing) return ScanStop::Decided;
+  if (last.need == ScanNeed::Calibration) return ScanStop::Rig;
+  if (rounds.size() < 2) return std::nullopt;
+  const ScanRound& before = rounds[rounds.size() - 2];
+  const bool helped =
+      last.decidable > before.decidable || last.decidable_share > before.decidable_share + kGain;
+  if (helped) return std::nullopt;
+  return last.need == ScanNeed::Coverage ? ScanStop::NotSeen : ScanStop::NotHelped;
+}
+
+}  // namespace
+
+ScanUntil scan_until(const Scan& plan,
+                     const CaptureSetup& capture,
+                     const InspectionReference& reference,
+                     const InspectionPlan& inspection,
+                     std::size_t most_rounds,
+                     const Run& run) {
+  most_rounds = std::min(most_rounds, kBetween.size());
+  require(most_rounds > 0 && !plan.views.empty(), "a scan needs a round and a view");
+  InspectionPlan wanted = inspection;
+  if (wanted.align.empty()) wanted.align = "best-fit";
+  ScanUntil done;
+  for (std::size_t round = 0; round < most_rounds; ++round) {
+    const Scan planned = plan_of_round(plan, round);
+    Scan scan = capture(planned, static_cast<int>(round));
+    scan.part_poses = planned.part_poses;
+    const InspectOptions options{.statistics = false, .scan = &scan, .mesh_name = scan.folder};
+    done.found = inspect_part(reconstruct(scan, {}, run).mesh, &reference, wanted, options, run);
+    done.rounds.push_back(round_of(scan, done.found, wanted.surface.max_uncertainty_share));
+    if (const auto stop = stop_after(done.rounds)) {
+      done.stop = *stop;
+      return done;
+    }
+    const ScanRound& last = done.rounds.back();
+    run.note(fmt::format("{} stations decide {} of the nominal area; more are added for {}",
+                         last.stations,
+                         share_text(last.decidable_share),
+                         name_of(last.need)));
+  }
+  return done;
+}
+
+std::string text_of(ScanStop stop) {
+  constexpr std::array<const char*, 5> kTexts{
+      "all that has a tolerance is decided",
+      "further stations do not see what lacks; turn the part over, and add it as another `setup`",
+      "further stations do not make it certain enough; set a longer `exposure`, finer fringes or "
+      "more `shifts`",
+      "the uncertainty of the rig is too large for the tolerance; calibrate again, or state a "
+      "tolerance that this rig can decide",
+      "more stations may still help; scan again with more `views`"};
+  return kTexts.at(static_cast<std::size_t>(stop));
+}
+
+}  // namespace frangia

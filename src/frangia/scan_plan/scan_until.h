@@ -1,0 +1,61 @@
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "frangia/core/run.h"
+#include "frangia/dataset/scan_folder.h"
+#include "frangia/geometry/mesh.h"
+#include "frangia/inspection/inspect_part.h"
+#include "frangia/inspection/inspection_plan.h"
+#include "frangia/inspection/inspection_reference.h"
+#include "frangia/scan_plan/scan_need.h"
+
+namespace frangia {
+
+/// A round of `scan_until`: what all stations so far measure.
+struct ScanRound {
+  std::size_t stations = 0;  ///< of all rounds so far
+  ScanNeed need = ScanNeed::Coverage;
+  double decidable_share = 0.0;  ///< of the nominal area; 0 without a surface
+  std::size_t decidable = 0;     ///< characteristics with a tolerance that are measured well enough
+};
+
+/// Why `scan_until` stopped.
+enum class ScanStop : std::uint8_t {
+  Decided,    ///< all that has a tolerance is decided
+  NotSeen,    ///< further stations do not see what lacks: another setup may
+  NotHelped,  ///< further stations made the noise no smaller
+  Rig,        ///< the systematic uncertainty of the rig is too large
+  Rounds      ///< the most rounds that were allowed
+};
+
+/// What `scan_until` reached.
+struct ScanUntil {
+  std::vector<ScanRound> rounds;  ///< in their order
+  ScanStop stop = ScanStop::Rounds;
+  Inspection found;  ///< of the last round
+};
+
+/// Captures the views of `plan` that belong to `setup`, and returns the scan with all that were
+/// captured before.
+using CaptureSetup = std::function<Scan(const Scan& plan, int setup)>;
+
+/// Scans a part until a plan of inspection is decided, or says why it cannot: after each round all
+/// views are reconstructed and inspected, and stations between the others are added as a further
+/// setup in which the part was not moved.
+///
+/// @errors   Error(Input) as inspect_part and reconstruct; those of `capture`; Error(Cancelled)
+[[nodiscard]] ScanUntil scan_until(const Scan& plan,
+                                   const CaptureSetup& capture,
+                                   const InspectionReference& reference,
+                                   const InspectionPlan& inspection,
+                                   std::size_t most_rounds = 4,
+                                   const Run& run = {});
+
+/// What stopped it, and what to do, in a sentence.
+[[nodiscard]] std::string text_of(ScanStop stop);
+
+}  // namespace frangia
