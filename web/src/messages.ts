@@ -5,6 +5,7 @@ import { FRAME } from './messages/frame';
 import { HOME } from './messages/home';
 import { INSPECT } from './messages/inspect';
 import { LIVE } from './messages/live';
+import { MEASURE } from './messages/measure';
 import { RIG } from './messages/rig';
 import { SCAN } from './messages/scan';
 import { SURFACE } from './messages/surface';
@@ -18,6 +19,7 @@ const CATALOGUE = {
   ...SCAN,
   ...CHECK,
   ...SURFACE,
+  ...MEASURE,
   ...EDIT,
   ...INSPECT,
   ...EXPORT,

@@ -1,10 +1,10 @@
 import { brushOutline, type Point } from './strokes';
 
 export type Tool =
-  'orbit' | 'measure' | 'angle' | 'brush' | 'lasso' | 'rectangle' | 'part' | 'loop' | 'align' | 'feature';
+  'orbit' | 'measure' | 'section' | 'brush' | 'lasso' | 'rectangle' | 'part' | 'loop' | 'align' | 'feature';
 
 export const DRAWING: ReadonlySet<Tool> = new Set(['lasso', 'rectangle', 'brush']);
-const CLICKING: ReadonlySet<Tool> = new Set(['measure', 'angle', 'part', 'loop', 'align', 'feature']);
+const CLICKING: ReadonlySet<Tool> = new Set(['measure', 'section', 'part', 'loop', 'align', 'feature']);
 
 /** The keys that are held while the pointer draws. */
 export interface ModifierKeys {

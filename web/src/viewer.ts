@@ -6,18 +6,19 @@ import { CloudsView } from './clouds_view';
 import type { Coloring, Legend } from './mesh_colors';
 import { EditPreview } from './edit_preview';
 import { HoleMarks, type Marked } from './hole_marks';
-import { type Measurement, type MeasureKind, Ruler } from './ruler';
+import { type Drawn, Ruler } from './ruler';
 import { RigModel } from './rig_model';
 import { addLights, addTable } from './stage_props';
 import { Smoothing } from './smoothing';
+import { SectionView } from './section_view';
 import { DRAWING, type ModifierKeys, PointerStrokes, type Tool } from './pointer_strokes';
-import { type SectionAxis, type Shading, SurfaceView } from './surface_view';
-import type { RigGeometry } from './types';
+import { type SectionLook, type Shading, SurfaceView } from './surface_view';
+import type { RigGeometry, Section, Triple } from './types';
 import { type Outline, ViewCamera } from './view_camera';
 import { ViewMarks } from './view_marks';
 
 export type { ModifierKeys, Tool } from './pointer_strokes';
-export type { SectionAxis, Shading } from './surface_view';
+export type { SectionAxis, SectionLook, Shading } from './surface_view';
 
 /** A ray through the picture, and the half-space that a section leaves. */
 export interface Ray {
@@ -35,7 +36,8 @@ export interface Hit {
 interface Events {
   /** Asks for the point of the exact mesh on a ray. */
   pick(ray: Ray): Promise<Hit | null>;
-  measured(result: Measurement): void;
+  /** A place of the surface to measure from, or to put a plane through. */
+  placed(tool: 'measure' | 'section', hit: Hit): void;
   outlined(outline: Outline, through: boolean, keys: ModifierKeys): void;
   partPicked(triangle: number, keys: ModifierKeys): void;
   /** A point of the surface, or three of them for an alignment. */
@@ -66,12 +68,13 @@ export class Viewer {
   private readonly table = new THREE.Group();
   private readonly surface = new SurfaceView();
   private readonly ruler = new Ruler();
+  private readonly cut = new SectionView();
   private readonly preview = new EditPreview();
   private readonly holes = new HoleMarks();
   private readonly rig = new RigModel();
   private rigShown = 'null';
   private tableKnown = true;
-  private picks: THREE.Vector3[] = [];
+  private picks: Triple[] = [];
   private answered = Promise.resolve();
   private due = false;
   private resting = 0;
@@ -116,6 +119,7 @@ export class Viewer {
       this.clouds.group,
       this.table,
       this.surface.group,
+      this.cut.group,
       this.preview.group,
       this.holes.group,
       this.ruler.group,
@@ -189,7 +193,7 @@ export class Viewer {
   }
 
   showSurface(shown: boolean): void {
-    this.surface.group.visible = this.preview.group.visible = this.ruler.group.visible = shown;
+    this.surface.group.visible = this.preview.group.visible = this.ruler.group.visible = this.cut.group.visible = shown;
     this.ruler.labels.style.display = shown ? '' : 'none';
     this.draw();
   }
@@ -271,6 +275,7 @@ export class Viewer {
   setPreview(arrays: Map<string, ArrayLike<number>> | null): void {
     this.preview.set(arrays);
     this.surface.setWhole(arrays !== null);
+    this.cut.group.visible = this.surface.group.visible && arrays === null;
     this.draw();
   }
   /** Rings around some holes. */
@@ -293,9 +298,9 @@ export class Viewer {
     this.surface.setColoring(coloring);
     this.draw();
   }
-  setSection(axis: SectionAxis, share: number, flipped: boolean): void {
+  setSection({ axis, normal, at, flipped }: SectionLook): void {
     const before = JSON.stringify(this.surface.section);
-    this.surface.section = { axis, share, flipped };
+    this.surface.section = { axis, normal, at, flipped };
     if (before !== JSON.stringify(this.surface.section)) this.move();
     this.surface.cut();
     this.draw();
@@ -303,9 +308,15 @@ export class Viewer {
   get legend(): Legend | null {
     return this.surface.legend;
   }
-  /** Position of the section plane, mm. */
-  get sectionAt(): number {
-    return this.surface.sectionAt;
+  /** Shows what the section plane cuts; null shows nothing. */
+  setCut(section: Section | null): void {
+    this.cut.set(section);
+    this.draw();
+  }
+  /** The section plane: its normal, null without one; the ends of the part along it, and its position there, mm. */
+  get section(): { normal: Triple | null; range: [number, number]; at: number } {
+    const { sectionNormal: normal, sectionRange: range, sectionAt: at } = this.surface;
+    return { normal, range, at };
   }
   get size(): THREE.Vector3 {
     return this.surface.size;
@@ -329,34 +340,33 @@ export class Viewer {
 
   /** Drops points that were clicked and make nothing yet. */
   clearMeasurement(): void {
-    this.ruler.clear();
+    this.showPending([]);
     this.picks = [];
     this.draw();
   }
-  showMeasurements(list: readonly { label: string; result: Measurement }[]): void {
+  showMeasurements(list: readonly Drawn[]): void {
     this.ruler.show(list, this.size.length() / 260);
+    this.draw();
+  }
+  /** Marks points that were clicked and make nothing yet. */
+  showPending(points: readonly Triple[]): void {
+    this.ruler.showPending(
+      points.map((point) => new THREE.Vector3(...point)),
+      this.size.length() / 260,
+    );
     this.draw();
   }
 
   private onHit(hit: Hit, keys: ModifierKeys): void {
     if (this.tool === 'part') return this.events.partPicked(hit.triangle, keys);
     if (this.tool === 'loop' || this.tool === 'feature') return this.events.picked(this.tool, [hit.point_mm], keys);
-    const kind: MeasureKind = this.tool === 'measure' ? 'distance' : this.tool === 'angle' ? 'angle' : 'points';
-    const point = new THREE.Vector3(...hit.point_mm);
-    const result = this.ruler.add(point, hit.sigma_mm ?? NaN, kind, this.size.length() / 260);
-    if (result) this.events.measured(result);
-    if (this.tool === 'align') {
-      this.picks.push(point);
-      if (this.picks.length === 3) {
-        this.events.picked(
-          'align',
-          this.picks.map((one) => one.toArray()),
-          keys,
-        );
-        this.clearMeasurement();
-      }
-    }
-    this.draw();
+    if (this.tool === 'measure' || this.tool === 'section') return this.events.placed(this.tool, hit);
+    if (this.tool !== 'align') return;
+    this.picks.push(hit.point_mm);
+    this.showPending(this.picks);
+    if (this.picks.length < 3) return;
+    this.events.picked('align', this.picks, keys);
+    this.clearMeasurement();
   }
 
   private pickRay(point: [number, number]): Ray {

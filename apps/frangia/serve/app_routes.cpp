@@ -296,6 +296,7 @@ HttpResponse AppRoutes::post(const std::string& path,
                              const std::string& body,
                              const std::string& key) const {
   if (path == "/api/pick") return {.body = service_.pick(body)};
+  if (path == "/api/section") return {.body = service_.section(body)};
   if (path == "/api/operator") {
     keys_.take_over(key);
     on_operator_();

@@ -11,6 +11,17 @@
 #include "frangia/features/internal/search_regions.h"
 
 namespace frangia {
+namespace {
+
+SurfaceCells cells_of(const FeaturePoints& points,
+                      const FindFeaturesOptions& options,
+                      const Run& run) {
+  constexpr std::size_t kPointsPerCell = 4;
+  return surface_cells(
+      points, std::clamp(points.size() / kPointsPerCell, std::size_t{100}, options.cells), run);
+}
+
+}  // namespace
 
 void FindFeaturesOptions::check() const {
   require(cells >= 100, "FindFeaturesOptions: cells must be at least 100");
@@ -25,9 +36,7 @@ std::vector<Feature> find_features(const Mesh& mesh,
                                    const Run& run) {
   options.check();
   const FeaturePoints points = feature_points_of(mesh, run, options.calibration_mm);
-  constexpr std::size_t kPointsPerCell = 4;
-  const SurfaceCells cells = surface_cells(
-      points, std::clamp(points.size() / kPointsPerCell, std::size_t{100}, options.cells), run);
+  const SurfaceCells cells = cells_of(points, options, run);
   const FoundRegions found = search_regions(points, cells, options, run);
   std::vector<FoundSurface> surfaces;
   for (const ShapeRegion& region : found.regions) {
@@ -42,6 +51,23 @@ std::vector<Feature> find_features(const Mesh& mesh,
     features.push_back(std::move(surface.feature));
   std::move(edges.begin(), edges.end(), std::back_inserter(features));
   run.report(1.0);
+  return features;
+}
+
+std::vector<std::optional<Feature>> features_at(const Mesh& mesh,
+                                                std::span<const FeaturePlace> places,
+                                                const FindFeaturesOptions& options,
+                                                const Run& run) {
+  options.check();
+  const FeaturePoints points = feature_points_of(mesh, run, options.calibration_mm);
+  const SurfaceCells cells = cells_of(points, options, run);
+  const FoundRegions found = regions_at(points, cells, places, options, run);
+  std::vector<std::optional<Feature>> features;
+  for (const ShapeRegion& region : found.regions) {
+    features.push_back(region.cells.empty()
+                           ? std::nullopt
+                           : refine_feature(points, cells, region, found.gate_mm, run));
+  }
   return features;
 }
 

@@ -10,11 +10,11 @@
 
 #include "frangia/core/error.h"
 #include "frangia/core/read_text_file.h"
+#include "frangia/geometry/pick_surface.h"
 #include "frangia/service/encode_arrays.h"
 #include "frangia/service/internal/answered_commands.h"
 #include "frangia/service/internal/array_packer.h"
 #include "frangia/service/internal/implementation.h"
-#include "frangia/service/pick_surface.h"
 
 namespace frangia {
 namespace {
@@ -56,7 +56,8 @@ std::string Service::Implementation::command(const std::string& name, const std:
       {"take-back-project", &Implementation::take_back_project},
       {"set-notes", &Implementation::set_notes},
       {"set-thumbnail", &Implementation::set_thumbnail},
-      {"set-measurements", &Implementation::set_measurements},
+      {"measure", &Implementation::start_measure},
+      {"remove-measurements", &Implementation::remove_measurements},
       {"open-file", &Implementation::open_file},
       {"set-capture", &Implementation::set_capture},
       {"start-live", &Implementation::start_live},
@@ -95,6 +96,7 @@ std::string Service::Implementation::command(const std::string& name, const std:
       {"redo", &Implementation::start_redo},
       {"fit", &Implementation::start_fit},
       {"export", &Implementation::start_export},
+      {"export-section", &Implementation::start_export_section},
       {"stop-job", &Implementation::stop_job}};
   const auto found = kCommands.find(name);
   require(found != kCommands.end(), "there is no such command");
@@ -352,6 +354,10 @@ std::string Service::pick(const std::string& ray_json) const {
     if (std::isfinite(picked->sigma_mm)) json["hit"]["sigma_mm"] = picked->sigma_mm;
   }
   return json.dump();
+}
+
+std::string Service::section(const std::string& plane_json) const {
+  return implementation_->section(plane_json);
 }
 
 std::string Service::cloud(std::size_t station) const {

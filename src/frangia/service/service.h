@@ -138,6 +138,11 @@ class Service {
   ///
   /// @errors   Error(Input) that names what is missing
   [[nodiscard]] std::string pick(const std::string& ray_json) const;
+  /// The curves in which a plane cuts the exact mesh, as JSON. The plane is a JSON object with
+  /// "point_mm" and "normal".
+  ///
+  /// @errors   Error(Input) that names what is missing
+  [[nodiscard]] std::string section(const std::string& plane_json) const;
   /// The points of a station as encode_points packs them; empty without any.
   [[nodiscard]] std::string cloud(std::size_t station) const;
   /// The registered points of a joined setup, counted from 0, as encode_points packs them; empty

@@ -44,6 +44,8 @@ class Service::Implementation {
   [[nodiscard]] std::string residuals() const;
   [[nodiscard]] std::string thumbnail(const std::string& name) const;
   [[nodiscard]] ExportedFile exported(const std::string& name) const;
+  /// The curves in which a plane cuts the surface, as docs/service-api.md describes them.
+  [[nodiscard]] std::string section(const std::string& plane_json) const;
   [[nodiscard]] LivePicture live_picture(LiveLayer layer, std::uint64_t after) const;
 
  private:
@@ -66,7 +68,6 @@ class Service::Implementation {
   Json take_back_project(CommandArguments& arguments);
   Json set_notes(CommandArguments& arguments);
   Json set_thumbnail(CommandArguments& arguments);
-  Json set_measurements(CommandArguments& arguments);
   Json open_file(CommandArguments& arguments);
   /// Leaves the open project when it has this name, and says whether it had.
   bool leave(const std::string& name);
@@ -112,6 +113,12 @@ class Service::Implementation {
   Json start_redo(CommandArguments& arguments);
   Json start_fit(CommandArguments& arguments);
   Json start_export(CommandArguments& arguments);
+  Json start_measure(CommandArguments& arguments);
+  Json remove_measurements(CommandArguments& arguments);
+  /// Changes what was measured by hand: writes it, and shows it.
+  void keep_measurements(const ProjectFolder& project,
+                         const std::function<void(std::vector<HandMeasurement>&)>& edit);
+  Json start_export_section(CommandArguments& arguments);
   Json start_zip(const ProjectFolder& project);
   /// On the queue's thread: writes an export and shows it.
   void put_export(const ProjectFolder& project,
@@ -197,6 +204,7 @@ class Service::Implementation {
   std::function<void()> on_change_;  ///< does not throw
   std::mutex command_mutex_;         ///< one command at a time is accepted
   AnsweredCommands answered_;
+  std::mutex measurements_mutex_;  ///< one change of them at a time
   mutable std::mutex mutex_;
   std::vector<ProjectEntry> projects_;
   std::vector<LibraryRig> kept_rigs_;

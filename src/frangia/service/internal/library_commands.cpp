@@ -193,14 +193,6 @@ nlohmann::ordered_json Service::Implementation::set_thumbnail(CommandArguments& 
   return Json::object();
 }
 
-nlohmann::ordered_json Service::Implementation::set_measurements(CommandArguments& arguments) {
-  std::vector<HandMeasurement> wanted = hand_measurements_of(arguments.value("measurements"));
-  arguments.check_all_read();
-  write_hand_measurements(folder(), wanted);
-  change([&](OpenProject& project) { project.measurements.swap(wanted); });
-  return Json::object();
-}
-
 std::string Service::Implementation::thumbnail(const std::string& name) const {
   const ProjectFolder project = library_.find(name);
   std::error_code ignored;

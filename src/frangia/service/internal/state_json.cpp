@@ -49,6 +49,7 @@ Json json_of_change(const StepChange& change) {
 nlohmann::ordered_json json_of_surface(const SurfaceSnapshot& surface) {
   const std::string& summary = *surface.summary;
   Json json{{"version", surface.version},
+            {"mesh", mesh_name(surface)},
             {"mesh_revision", surface.mesh_revision},
             {"selection_revision", surface.selection_revision},
             {"vertices", surface.vertices},
