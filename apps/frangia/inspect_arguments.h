@@ -24,7 +24,8 @@ struct InspectArguments {
   bool blade = false;
   std::filesystem::path reference;
   std::optional<double> unit_mm;     ///< of the reference
-  std::string align;                 ///< best-fit, datum, none
+  std::string align;                 ///< one of `kAlignments`
+  std::vector<double> points;        ///< six for a pair: on the mesh, then on the reference, mm
   std::size_t start = 0;             ///< of poses that fit alike, counted from 1
   std::vector<double> tolerance_mm;  ///< one: plus and minus; two: lower and upper
   std::filesystem::path scan;

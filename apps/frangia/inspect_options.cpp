@@ -29,6 +29,12 @@ void check_alignment(const InspectArguments& arguments, const InspectionPlan& pl
                 "--fail-out-of-tolerance needs a --reference to measure against; give one");
   require_usage(plan.start == 0 || plan.align == "best-fit" || plan.align == "datum",
                 "--start chooses a pose of --align best-fit; add it");
+  require_usage(arguments.points.size() % 6 == 0,
+                "--points takes six numbers: X,Y,Z on the mesh and X,Y,Z on the reference");
+  require_usage(plan.align != "points" || plan.points.size() >= 3,
+                "--align points needs --points three times or more, or [[points]] of a --plan");
+  require_usage(plan.points.empty() || !plan.align.empty(),
+                "--points are for --align best-fit, datum or points; add one");
   for (const auto& path : arguments.outputs) {
     check_deviation_output(path);
     if (plan.reference.empty() && lowercase_extension(path) != ".ply") {
@@ -68,11 +74,20 @@ void check_inspect_arguments(const InspectArguments& arguments, const Inspection
 namespace {
 
 void add_alignment_options(CLI::App& verb, InspectArguments& arguments) {
-  verb.add_option("--align",
-                  arguments.align,
-                  "move the mesh onto the reference first: best-fit, from any start; datum, by the "
-                  "datums of the --plan; none, as it stands, with its overlap")
-      ->check(one_of({"best-fit", "datum", "none"}));
+  verb.add_option(
+          "--align",
+          arguments.align,
+          "move the mesh onto the reference first: best-fit, from any start or from "
+          "--points; datum, by the datums of the --plan; points, by --points alone; none, as "
+          "it stands, with its overlap")
+      ->check(one_of({kAlignments.begin(), kAlignments.end()}));
+  verb.add_option("--points",
+                  arguments.points,
+                  "the same place on mesh and reference, mm: X,Y,Z,X,Y,Z; three times or more")
+      ->delimiter(',')
+      ->expected(6)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+      ->allow_extra_args(false);
   verb.add_option(
           "--start",
           arguments.start,

@@ -40,6 +40,11 @@ InspectionPlan plan_of(const InspectArguments& arguments) {
   }
   if (plan.reference.empty()) plan.align.clear();
   if (!arguments.align.empty()) plan.align = arguments.align;
+  if (!arguments.points.empty()) plan.points.clear();
+  for (std::size_t i = 0; i + 6 <= arguments.points.size(); i += 6) {
+    const Eigen::Map<const Eigen::Matrix<double, 3, 2>> pair(&arguments.points[i]);
+    plan.points.push_back({pair.col(0), pair.col(1)});
+  }
   if (plan.align != "best-fit" && plan.align != "datum") plan.start = 0;
   if (arguments.start > 0) plan.start = arguments.start;
   const std::vector<double>& tolerance = arguments.tolerance_mm;

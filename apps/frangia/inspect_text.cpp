@@ -54,6 +54,13 @@ std::string datum_text(const std::vector<DatumResidual>& residuals) {
   return text;
 }
 
+std::string points_text(const std::vector<double>& distances_mm) {
+  std::string text;
+  for (std::size_t i = 0; i < distances_mm.size(); ++i)
+    text += fmt::format("pair of points {}: {:.4f} mm apart\n", i + 1, distances_mm[i]);
+  return text;
+}
+
 bool has_diameter(ShapeKind kind) {
   return kind != ShapeKind::Plane && kind != ShapeKind::Line;
 }
@@ -233,6 +240,7 @@ std::string inspection_text(const Inspection& part, bool features) {
   if (part.reference) text += reference_text(*part.reference);
   if (part.alignment) text += alignment_text(*part.alignment);
   text += datum_text(part.datums);
+  text += points_text(part.points_mm);
   if (features) text += feature_table(part.features, part.nominals);
   if (part.statistics) text += statistics_text(*part.statistics);
   if (part.surface) text += deviation_text(*part.surface);

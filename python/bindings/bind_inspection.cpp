@@ -1,11 +1,14 @@
 // Plans of inspections, inspect_part, and what it finds as objects.
+#include <algorithm>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <pybind11/eigen.h>
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
@@ -23,6 +26,7 @@ namespace frangia::python {
 namespace {
 
 using Limits = std::pair<double, double>;
+using Pairs = std::vector<std::pair<Eigen::Vector3d, Eigen::Vector3d>>;
 
 /// An inspection, and what its report states besides.
 struct InspectedPart {
@@ -45,17 +49,25 @@ std::optional<Limits> pair_of(const std::optional<ToleranceLimits>& limits) {
 }
 
 void set_align(InspectionPlan& plan, const std::string& align) {
-  for (const char* known : {"", "best-fit", "datum", "none"}) {
-    if (align != known) continue;
-    plan.align = align;
-    return;
+  if (!align.empty() &&
+      std::find(kAlignments.begin(), kAlignments.end(), align) == kAlignments.end()) {
+    throw Error(
+        ErrorKind::Input,
+        fmt::format(
+            "align = \"{}\" is not known; use {} or \"\"", align, fmt::join(kAlignments, ", ")));
   }
-  throw Error(ErrorKind::Input,
-              fmt::format("align = \"{}\" is not known; use best-fit, datum, none or \"\"", align));
+  plan.align = align;
+}
+
+void set_points(InspectionPlan& plan, const Pairs& points) {
+  plan.points.clear();
+  for (const auto& [scan_mm, reference_mm] : points)
+    plan.points.push_back({scan_mm, reference_mm});
 }
 
 InspectionPlan make_plan(const std::string& align,
                          const std::optional<Limits>& tolerance_mm,
+                         const Pairs& points,
                          std::size_t start,
                          double min_feature_mm,
                          const std::optional<double>& edge_mm,
@@ -65,6 +77,7 @@ InspectionPlan make_plan(const std::string& align,
   InspectionPlan plan;
   set_align(plan, align);
   plan.tolerance_mm = limits_of(tolerance_mm);
+  set_points(plan, points);
   plan.start = start;
   plan.surface.min_feature_mm = min_feature_mm;
   plan.surface.edge_mm = edge_mm;
@@ -115,14 +128,16 @@ void bind_plan(py::module_& module) {
            py::kw_only(),
            py::arg("align") = "",
            py::arg("tolerance_mm") = std::optional<Limits>(),
+           py::arg("points") = Pairs(),
            py::arg("start") = std::size_t{0},
            py::arg("min_feature_mm") = 0.0,
            py::arg("edge_mm") = std::optional<double>(),
            py::arg("min_coverage") = SurfaceRule{}.min_coverage,
            py::arg("max_gap_mm") = 0.0,
            py::arg("thickness") = false,
-           "As the keys of inspection.toml. align: best-fit, datum, none, or empty; tolerance_mm: "
-           "lower and upper; 0: the default. Features and characteristics are read from a file by "
+           "As the keys of inspection.toml. align: best-fit, datum, points, none, or empty; "
+           "tolerance_mm: lower and upper; points: pairs of the same place on mesh and reference; "
+           "0: the default. Features and characteristics are read from a file by "
            "read_inspection_plan.");
   plan.def_readonly("part", &InspectionPlan::part, "Name of the part; may be empty.")
       .def_readonly("reference", &InspectionPlan::reference, "Path; empty: none is stated.")
@@ -130,7 +145,17 @@ void bind_plan(py::module_& module) {
           "align",
           [](const InspectionPlan& self) { return self.align; },
           &set_align,
-          "best-fit, datum, none, or empty.")
+          "best-fit, datum, points, none, or empty.")
+      .def_property(
+          "points",
+          [](const InspectionPlan& self) {
+            Pairs pairs;
+            for (const PointPair& pair : self.points)
+              pairs.emplace_back(pair.scan_mm, pair.reference_mm);
+            return pairs;
+          },
+          &set_points,
+          "Pairs of the same place on mesh and reference, mm.")
       .def_readwrite("start", &InspectionPlan::start, "Of poses that fit alike, from 1; 0: none.")
       .def_property(
           "tolerance_mm",
@@ -199,11 +224,37 @@ void bind_rows(py::module_& module) {
       .def_readonly("area_mm2", &SurfacePlace::area_mm2, "Of the nominal surface.");
 }
 
+void bind_reasons(py::module_& module) {
+  py::class_<VerdictClause>(module, "VerdictClause", "A part of the sentence about a verdict.")
+      .def_property_readonly(
+          "id",
+          [](const VerdictClause& self) { return std::string(self.id); },
+          "What it says, such as out_at.")
+      .def_property_readonly(
+          "values",
+          [](const VerdictClause& self) {
+            std::map<std::string, ClauseValue> values;
+            for (const auto& [name, value] : self.values)
+              values.emplace(name, value);
+            return values;
+          },
+          "Its parameters by name; NaN where one is not known.")
+      .def_readonly("text", &VerdictClause::text, "In English.");
+  py::class_<VerdictReason>(module, "VerdictReason", "A reason of the verdict about a part.")
+      .def_property_readonly(
+          "about",
+          [](const VerdictReason& self) { return std::string(self.about); },
+          "surface or characteristics.")
+      .def_readonly("clauses", &VerdictReason::clauses, "What is said about it.")
+      .def("__str__", &VerdictReason::text);
+}
+
 }  // namespace
 
 void bind_inspection(py::module_& module) {
   bind_plan(module);
   bind_rows(module);
+  bind_reasons(module);
   py::class_<InspectedPart> part(
       module, "Inspection", "What an inspection found. Missing values are NaN, empty or None.");
   part.def_property_readonly(
@@ -216,6 +267,10 @@ void bind_inspection(py::module_& module) {
             return self.found.surface ? sentence_of(self.found.surface->verdict) : std::string();
           },
           "The verdict about the surface in words; empty without a reference.")
+      .def_property_readonly(
+          "reasons",
+          [](const InspectedPart& self) { return self.found.reasons; },
+          "Why the verdict is what it is, what decided first.")
       .def_property_readonly(
           "mesh",
           [](const InspectedPart& self) -> const Mesh& { return self.found.mesh; },

@@ -185,6 +185,10 @@ class Inspection:
         """Of the surface that are out or undecided, the worst first."""
         ...
     @property
+    def reasons(self) -> list[VerdictReason]:
+        """Why the verdict is what it is, what decided first."""
+        ...
+    @property
     def reference_from_mesh(self) -> NDArray[np.float64] | None:
         """4 x 4; None: the plan says nothing about an alignment."""
         ...
@@ -213,12 +217,12 @@ class Inspection:
 
 class InspectionPlan:
     """How the parts of one kind are inspected."""
-    def __init__(self, *, align: str = '', tolerance_mm: tuple[float, float] | None = None, start: int = 0, min_feature_mm: float = 0.0, edge_mm: float | None = None, min_coverage: float = 0.9, max_gap_mm: float = 0.0, thickness: bool = False) -> None:
-        """As the keys of inspection.toml. align: best-fit, datum, none, or empty; tolerance_mm: lower and upper; 0: the default. Features and characteristics are read from a file by read_inspection_plan."""
+    def __init__(self, *, align: str = '', tolerance_mm: tuple[float, float] | None = None, points: Sequence[tuple[ArrayLike, ArrayLike]] = ..., start: int = 0, min_feature_mm: float = 0.0, edge_mm: float | None = None, min_coverage: float = 0.9, max_gap_mm: float = 0.0, thickness: bool = False) -> None:
+        """As the keys of inspection.toml. align: best-fit, datum, points, none, or empty; tolerance_mm: lower and upper; points: pairs of the same place on mesh and reference; 0: the default. Features and characteristics are read from a file by read_inspection_plan."""
         ...
     @property
     def align(self) -> str:
-        """best-fit, datum, none, or empty."""
+        """best-fit, datum, points, none, or empty."""
         ...
     @property
     def features(self) -> list[str]:
@@ -615,6 +619,32 @@ class SurfacePlace:
     @property
     def u95_mm(self) -> float:
         """Of the deviation."""
+        ...
+
+class VerdictClause:
+    """A part of the sentence about a verdict."""
+    @property
+    def id(self) -> str:
+        """What it says, such as out_at."""
+        ...
+    @property
+    def text(self) -> str:
+        """In English."""
+        ...
+    @property
+    def values(self) -> dict[str, float | NDArray[np.float64] | str]:
+        """Its parameters by name; NaN where one is not known."""
+        ...
+
+class VerdictReason:
+    """A reason of the verdict about a part."""
+    @property
+    def about(self) -> str:
+        """surface or characteristics."""
+        ...
+    @property
+    def clauses(self) -> list[VerdictClause]:
+        """What is said about it."""
         ...
 
 class ViewSummary:

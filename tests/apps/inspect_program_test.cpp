@@ -61,6 +61,25 @@ TEST_F(InspectProgram, StatesAnErrorAsJsonToo) {
   }
 }
 
+TEST_F(InspectProgram, AlignsByPairsOfPoints) {
+  write_mesh(at("reference.stl"), make_bracket());
+  Eigen::Isometry3d moved = Eigen::Isometry3d::Identity();
+  moved.translation() = Eigen::Vector3d(300, -400, 50);
+  write_mesh(at("moved.ply"), transform_mesh(make_bracket(), moved));
+  const std::string inspect = "--json inspect " + at("moved.ply") + " --reference " +
+                              at("reference.stl") + " --align points ";
+  const auto answer = run_program(inspect +
+                                  "--points 300,-400,50,0,0,0 --points 310,-400,50,10,0,0 "
+                                  "--points 300,-400,90,0,0,40");
+  ASSERT_EQ(answer.exit_code, 0) << answer.output;
+  const auto json = nlohmann::json::parse(answer.output);
+  EXPECT_NEAR(json.at("alignment").at("matrix")[1][3].get<double>(), 400.0, 1e-6);
+  EXPECT_EQ(json.at("alignment_details").at("points_mm").size(), 3U);
+  EXPECT_EQ(json.at("reasons")[0].at("about"), "surface");
+  for (const char* points : {"", "--points 1,2,3", "--points 1,2,3,4,5,6"})
+    EXPECT_EQ(run_program(inspect + points + " 2> /dev/null").exit_code, 2) << points;
+}
+
 TEST_F(InspectProgram, AlignsByTheDatumsOfAPlan) {
   Eigen::Isometry3d moved = Eigen::Isometry3d::Identity();
   moved.linear() =

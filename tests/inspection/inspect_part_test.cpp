@@ -8,6 +8,7 @@
 #include <stop_token>
 #include <utility>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "frangia/core/angles.h"
@@ -77,6 +78,70 @@ TEST(InspectPart, ListsThePosesThatFitAlikeAndTakesTheOneThatIsAskedFor) {
   EXPECT_LT(std::abs(third.surface->summary.max_mm), 0.01);
 }
 
+Eigen::Isometry3d far_away() {
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+  pose.linear() = Eigen::AngleAxisd(2.1, Eigen::Vector3d(1, -2, 0.5).normalized()).matrix();
+  pose.translation() = Eigen::Vector3d(120, -40, 7);
+  return pose;
+}
+
+/// Corners of the brick, each clicked half a millimetre beside its place on the mesh.
+std::vector<PointPair> clicked_corners(const Eigen::Isometry3d& mesh_from_reference) {
+  std::vector<PointPair> pairs;
+  for (const Eigen::Vector3d& corner :
+       std::vector<Eigen::Vector3d>{{0, 0, 0}, {20, 0, 0}, {0, 12, 7}, {20, 12, 0}})
+    pairs.push_back({mesh_from_reference * (corner + Eigen::Vector3d(0.3, -0.4, 0.1) *
+                                                         (pairs.size() % 2 == 0 ? 1.0 : -1.0)),
+                     corner});
+  return pairs;
+}
+
+TEST(InspectPart, BeginsTheFitAtPairsOfPointsWhichChooseAmongPosesThatFitAlike) {
+  const InspectionReference reference = reference_of_mesh(brick());
+  const Mesh mesh = transform_mesh(brick(), far_away());
+  InspectionPlan plan = best_fit_plan(0);  // without the points: four poses, and none chosen
+  EXPECT_NE(
+      error_of([&] { static_cast<void>(inspect_part(mesh, &reference, plan)); }).find("4 poses"),
+      std::string::npos);
+  plan.points = clicked_corners(far_away());
+  const Inspection found = inspect_part(mesh, &reference, plan);
+  EXPECT_EQ(found.alignment->alternatives.size(), 1U);
+  EXPECT_TRUE((found.alignment->pose.reference_from_mesh * far_away())
+                  .isApprox(Eigen::Isometry3d::Identity(), 1e-4));
+  ASSERT_EQ(found.points_mm.size(), 4U);
+  for (const double distance : found.points_mm)
+    EXPECT_NEAR(distance, std::sqrt(0.26), 1e-3);
+  // Corners of another half turn choose the pose that they name.
+  Eigen::Isometry3d half_turn = Eigen::Isometry3d::Identity();
+  half_turn.linear() = Eigen::AngleAxisd(kPi, Eigen::Vector3d::UnitZ()).matrix();
+  half_turn.translation() = Eigen::Vector3d(20, 12, 0);
+  plan.points = clicked_corners(far_away() * half_turn);
+  const Inspection turned = inspect_part(mesh, &reference, plan);
+  EXPECT_TRUE((turned.alignment->pose.reference_from_mesh * far_away() * half_turn)
+                  .isApprox(Eigen::Isometry3d::Identity(), 1e-4));
+}
+
+TEST(InspectPart, PutsThePartOnPairsOfPointsAlone) {
+  const InspectionReference reference = reference_of_mesh(brick());
+  InspectionPlan plan;
+  plan.align = "points";
+  plan.points = clicked_corners(far_away());
+  const Inspection found = inspect_part(transform_mesh(brick(), far_away()), &reference, plan);
+  const PointAlignment wanted = align_to_points(plan.points);
+  EXPECT_EQ(found.alignment->pose.reference_from_mesh.matrix(),
+            wanted.reference_from_mesh.matrix());
+  EXPECT_EQ(found.points_mm, wanted.distances_mm);
+  EXPECT_GT(found.alignment->pose.uncertainty.along({20, 12, 7}, Eigen::Vector3d::UnitZ()), 0.1);
+  plan.align = "best-fit";  // points that name places of another part
+  for (PointPair& pair : plan.points)
+    pair.scan_mm = far_away() * (pair.reference_mm + Eigen::Vector3d(0, 0, 40));
+  EXPECT_NE(
+      error_of([&] {
+        static_cast<void>(inspect_part(transform_mesh(brick(), far_away()), &reference, plan));
+      }).find("near the given points"),
+      std::string::npos);
+}
+
 TEST(InspectPart, SaysNothingOfAnAlignmentThatThePlanDoesNotMention) {
   const InspectionReference reference = reference_of_mesh(brick());
   EXPECT_FALSE(inspect_part(brick(), &reference, {}).alignment);
@@ -115,6 +180,16 @@ TEST(InspectPart, DecidesByTheSurfaceAndTheCharacteristicsTogether) {
   }());
   EXPECT_EQ(size_out.surface->verdict.conformity, Conformity::In);
   EXPECT_EQ(size_out.verdict, Conformity::Out);
+  // What decided stands first, with the name of the worst row.
+  ASSERT_EQ(size_out.reasons.size(), 2U);
+  EXPECT_EQ(size_out.reasons[0].about, "characteristics");
+  EXPECT_EQ(size_out.reasons[0].text(),
+            fmt::format("characteristics: 0 of 1 in, 1 out; the worst is ball diameter: {:.4f} mm, "
+                        "U95 {:.4f}",
+                        size_out.characteristics[0].value,
+                        size_out.characteristics[0].u95));
+  EXPECT_EQ(size_out.reasons[1].text(), "surface: " + sentence_of(size_out.surface->verdict));
+  EXPECT_EQ(good.reasons[0].about, "surface");
   plan.tolerance_mm = ToleranceLimits{-0.005, 0.005};
   const Inspection surface_out = inspect_part(large_ball(), &reference, plan);
   EXPECT_EQ(surface_out.characteristics[0].conformity, Conformity::In);

@@ -48,6 +48,27 @@ nominal = 70
 tolerance = [-0.01, 0.01]
 )";
 
+TEST(InspectionPlan, KeepsPairsOfPoints) {
+  const std::string text =
+      "align = \"points\"\n[[points]]\nscan_mm = [1, 2, 3]\nreference_mm = [4, "
+      "5, 6]\n[[points]]\nscan_mm = [2, 2, 3]\nreference_mm = [5, 5, 6]\n";
+  const std::string third = "[[points]]\nscan_mm = [1, 3, 3]\nreference_mm = [4, 6, 6]\n";
+  const InspectionPlan plan = plan_from(text + third);
+  ASSERT_EQ(plan.points.size(), 3U);
+  EXPECT_EQ(plan.points[1].scan_mm, Eigen::Vector3d(2, 2, 3));
+  EXPECT_EQ(plan.points[2].reference_mm, Eigen::Vector3d(4, 6, 6));
+  const InspectionPlan again = parse_inspection_plan(inspection_plan_text(plan, {}), "plan.toml");
+  EXPECT_EQ(again.points[2].reference_mm, plan.points[2].reference_mm);
+  EXPECT_EQ(again.align, "points");
+  const auto refused = [](const std::string& what) {
+    return testing::error_of([&] { static_cast<void>(plan_from(what)); });
+  };
+  EXPECT_NE(refused(text).find("points needs three pairs"), std::string::npos);
+  EXPECT_NE(refused("align = \"points\"\n").find("points needs three pairs"), std::string::npos);
+  EXPECT_NE(refused("align = \"roughly\"\n").find("best-fit, datum, points, none"),
+            std::string::npos);
+}
+
 MeasuredFeature ball(const Eigen::Vector3d& center, double diameter) {
   MeasuredFeature measured;
   measured.feature.fit.shape = {

@@ -245,6 +245,11 @@ class Inspections(unittest.TestCase):
         found = frangia.inspect_part(smaller, part, plan)
         self.assertEqual(found.verdict, "out")
         self.assertAlmostEqual(found.places[0].deviation_mm, -0.5, delta=0.1)
+        (reason,) = found.reasons
+        self.assertEqual(str(reason), "surface: " + found.sentence)
+        self.assertEqual([clause.id for clause in reason.clauses][:2], ["out_at", "out_share"])
+        self.assertEqual(reason.clauses[0].values["deviation_mm"], found.places[0].deviation_mm)
+        self.assertEqual(reason.clauses[0].values["at_mm"].tolist(), found.places[0].at_mm.tolist())
         self.assertEqual(len(found.deviation_mm), len(smaller.vertices))
         self.assertAlmostEqual(float(np.nanmean(found.deviation_mm)), -0.5, delta=0.1)
         plan.tolerance_mm = (-1, 1)

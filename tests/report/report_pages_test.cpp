@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "frangia/core/random.h"
+#include "frangia/inspection/tolerance_use.h"
 #include "frangia/report/inspection_report.h"
 #include "frangia/report/result_table.h"
 

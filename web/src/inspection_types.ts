@@ -67,10 +67,18 @@ export interface FoundFeature {
   face: number | null;
   nominal_mm: number | null;
 }
+/** A part of the sentence about a verdict. `text` is English; other languages word it by `id` and `values`. */
+export interface VerdictClause {
+  id: string;
+  values: Record<string, number | string | [number, number, number] | null>;
+  text: string;
+}
 /** What an inspection found. Places are in the frame of the surface. */
 export interface Inspection {
   revision: number;
   verdict: 'in' | 'out' | 'undecided';
+  /** Why the verdict is what it is, what decided first. Places in them are in the frame of the reference. */
+  reasons: { about: 'surface' | 'characteristics'; sentence: string; clauses: VerdictClause[] }[];
   searched: boolean;
   characteristics: MeasuredRow[];
   features: FoundFeature[];

@@ -99,8 +99,19 @@ Alignment align_best_fit(const Mesh& mesh,
           ? rate_pose(problem.samples, reference, alignment.pose.reference_from_mesh, wide, run)
                 .overlap
           : overlap;
-  refuse_alignment(
-      mesh, reference, options, alignment.pose.reference_from_mesh, plausible, wide, run);
+  if (!options.from) {
+    refuse_alignment(
+        mesh, reference, options, alignment.pose.reference_from_mesh, plausible, wide, run);
+  } else if (plausible < options.least_overlap) {
+    throw Error(
+        ErrorKind::Input,
+        fmt::format("only {:.0f} % of the mesh lies within {:.3g} mm of the reference in the pose "
+                    "near the given points, and {:.0f} % are needed; choose other points, or leave "
+                    "them out to try every pose",
+                    100.0 * plausible,
+                    wide,
+                    100.0 * options.least_overlap));
+  }
   const std::span<const MeasuredSample> some(problem.samples.data(),
                                              std::min<std::size_t>(problem.samples.size(), 6000));
   const double within = std::clamp(

@@ -19,7 +19,9 @@ struct BestFitOptions {
   double tolerance_mm = 0.0;   ///< deviation of the part that still counts as overlap; 0: 0.2 % of
                                ///< the size of the reference
   double least_overlap = 0.3;  ///< below, the reference is of another part
-  double reference_unit_mm = 1.0;    ///< by which the file of the reference was read, for messages
+  double reference_unit_mm = 1.0;  ///< by which the file of the reference was read, for messages
+  /// A pose near the right one, such as that of `align_to_points`; none: any pose is tried.
+  std::optional<Eigen::Isometry3d> from;
   std::optional<std::size_t> start;  ///< index of the pose to choose among `AlignmentPose`s
   std::size_t rotations = 800;       ///< evenly spread, that the search starts from
   std::size_t fine_samples = 30000;  ///< of the mesh in the last fit
@@ -55,7 +57,7 @@ struct Alignment {
 /// The search tries evenly spread rotations, with translations that put points with like normals
 /// onto each other, and refines the best of these by the iterative-closest-point method. The last
 /// fit minimizes point-to-plane distances, weighted by sigma, with Tukey's biweight. Synthesized
-/// triangles are left out.
+/// triangles are left out. `from` replaces the search, and chooses among poses that fit alike.
 ///
 /// @units    mm
 /// @errors   Error(Input) when less than `least_overlap` of the mesh lies on the reference, saying

@@ -6,6 +6,7 @@
 
 #include <Eigen/Geometry>
 
+#include "frangia/core/student_95.h"
 #include "frangia/core/symmetric_eigen.h"
 #include "frangia/features/internal/weighted_sums.h"
 #include "frangia/geometry/robust_gauss_newton.h"
@@ -29,16 +30,6 @@ void split_blocks(const FeaturePoints& points, std::span<std::uint32_t> chosen, 
   });
   split_blocks(points, {chosen.begin(), middle}, levels - 1);
   split_blocks(points, {middle, chosen.end()}, levels - 1);
-}
-
-/// Student's factor of a 95 % interval; within 0.3 % from 4 degrees of freedom.
-double student_95(double degrees_of_freedom) {
-  constexpr double z = 1.959964;
-  const double n = std::max(degrees_of_freedom, 1.0);
-  return z + (std::pow(z, 3) + z) / (4.0 * n) +
-         (5.0 * std::pow(z, 5) + 16.0 * std::pow(z, 3) + 3.0 * z) / (96.0 * n * n) +
-         (3.0 * std::pow(z, 7) + 19.0 * std::pow(z, 5) + 17.0 * std::pow(z, 3) - 15.0 * z) /
-             (384.0 * n * n * n);
 }
 
 /// Covariance of the parameters from the gradients of 2^levels blocks, times Student's factor

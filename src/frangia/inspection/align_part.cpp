@@ -26,6 +26,7 @@ Alignment best_fit(const Mesh& mesh,
                    const InspectionPlan& plan,
                    const Run& run) {
   BestFitOptions options = fit_options_of(plan);
+  if (!plan.points.empty()) options.from = align_to_points(plan.points).reference_from_mesh;
   if (plan.start > 0) options.start = plan.start - 1;
   return align_best_fit(mesh, reference.scene, options, run);
 }
@@ -63,7 +64,7 @@ PartAlignment align_by_datums(const Mesh& mesh,
   const std::vector<PlannedFeature> features = stated_features(plan, &reference);
   const auto reference_name =
       reference.file.empty() ? std::filesystem::path("the reference") : reference.file;
-  PartAlignment fit{best_fit(mesh, reference, plan, run), {}};
+  PartAlignment fit{best_fit(mesh, reference, plan, run), {}, {}};
   const Mesh aligned = transform_mesh(mesh, fit.alignment.pose.reference_from_mesh);
   run.stage("datums");
   const std::vector<Feature> measured = find_features(aligned, {.edges = false}, run);
@@ -100,6 +101,33 @@ PartAlignment align_by_datums(const Mesh& mesh,
   return fit;
 }
 
+PartAlignment align_by_points(const Mesh& mesh,
+                              const InspectionReference& reference,
+                              const InspectionPlan& plan,
+                              const Run& run) {
+  const PointAlignment found = align_to_points(plan.points);
+  PartAlignment fit;
+  AlignmentPose& pose = fit.alignment.pose;
+  pose = assess_pose(mesh, reference.scene, found.reference_from_mesh, fit_options_of(plan), run);
+  pose.uncertainty = found.uncertainty;
+  fit.alignment.alternatives = {pose};
+  return fit;
+}
+
+PartAlignment aligned_part(const Mesh& mesh,
+                           const InspectionReference& reference,
+                           const InspectionPlan& plan,
+                           const std::filesystem::path& mesh_name,
+                           const Run& run) {
+  if (plan.align == "datum") return align_by_datums(mesh, reference, plan, mesh_name, run);
+  if (plan.align == "best-fit") return {best_fit(mesh, reference, plan, run), {}, {}};
+  if (plan.align == "points") return align_by_points(mesh, reference, plan, run);
+  PartAlignment as_it_stands;
+  as_it_stands.alignment.pose =
+      assess_pose(mesh, reference.scene, Eigen::Isometry3d::Identity(), fit_options_of(plan), run);
+  return as_it_stands;
+}
+
 }  // namespace
 
 PartAlignment align_part(const Mesh& mesh,
@@ -107,12 +135,12 @@ PartAlignment align_part(const Mesh& mesh,
                          const InspectionPlan& plan,
                          const std::filesystem::path& mesh_name,
                          const Run& run) {
-  if (plan.align == "datum") return align_by_datums(mesh, reference, plan, mesh_name, run);
-  if (plan.align == "best-fit") return {best_fit(mesh, reference, plan, run), {}};
-  PartAlignment as_it_stands;
-  as_it_stands.alignment.pose =
-      assess_pose(mesh, reference.scene, Eigen::Isometry3d::Identity(), fit_options_of(plan), run);
-  return as_it_stands;
+  PartAlignment found = aligned_part(mesh, reference, plan, mesh_name, run);
+  for (const PointPair& pair : plan.points) {
+    found.points_mm.push_back(
+        (found.alignment.pose.reference_from_mesh * pair.scan_mm - pair.reference_mm).norm());
+  }
+  return found;
 }
 
 std::vector<PlannedFeature> stated_features(const InspectionPlan& plan,

@@ -135,24 +135,11 @@ void align_mesh(Inspection& found,
   PartAlignment fit = align_part(found.mesh, reference, plan, options.mesh_name, run);
   found.alignment = std::move(fit.alignment);
   found.datums = std::move(fit.datums);
+  found.points_mm = std::move(fit.points_mm);
   found.mesh = transform_mesh(std::move(found.mesh), found.alignment->pose.reference_from_mesh);
 }
 
 }  // namespace
-
-Conformity verdict_of(const SurfaceVerdict* surface,
-                      const std::vector<MeasuredCharacteristic>& characteristics) {
-  const Conformity rows = overall(characteristics);
-  if (surface == nullptr) return rows;
-  const bool limited = std::any_of(characteristics.begin(),
-                                   characteristics.end(),
-                                   [](const auto& row) { return row.limits.has_value(); });
-  const Conformity deviation = surface->conformity;
-  if (!limited) return deviation;
-  if (rows == Conformity::Out || deviation == Conformity::Out) return Conformity::Out;
-  const bool both = rows == Conformity::In && deviation == Conformity::In;
-  return both ? Conformity::In : Conformity::Undecided;
-}
 
 Inspection inspect_part(Mesh mesh,
                         const InspectionReference* reference,
@@ -198,8 +185,9 @@ Inspection inspect_part(Mesh mesh,
                    reference == nullptr ? nullptr : &reference->scene.mesh(),
                    found.surface ? found.surface->deviations.deviation_mm : std::vector<float>{},
                    run);
-  found.verdict =
-      verdict_of(found.surface ? &found.surface->verdict : nullptr, found.characteristics);
+  const SurfaceVerdict* surface = found.surface ? &found.surface->verdict : nullptr;
+  found.verdict = verdict_of(surface, found.characteristics);
+  found.reasons = verdict_reasons(surface, found.characteristics);
   return found;
 }
 

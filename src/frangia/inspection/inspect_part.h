@@ -21,10 +21,12 @@
 #include "frangia/inspect/surface_error.h"
 #include "frangia/inspect/surface_validity.h"
 #include "frangia/inspect/thickness.h"
+#include "frangia/inspection/align_part.h"
 #include "frangia/inspection/cut_sections.h"
 #include "frangia/inspection/inspection_plan.h"
 #include "frangia/inspection/inspection_reference.h"
 #include "frangia/inspection/measured_characteristics.h"
+#include "frangia/inspection/verdict_reasons.h"
 #include "frangia/uncertainty/conformity.h"
 
 namespace frangia {
@@ -71,6 +73,7 @@ struct Inspection {
   std::optional<ReferenceSummary> reference;            ///< none: no reference
   std::optional<Alignment> alignment;                   ///< none: the plan says nothing about it
   std::vector<DatumResidual> datums;                    ///< of an alignment to datums
+  std::vector<double> points_mm;                        ///< see `PartAlignment`
   bool searched = false;                                ///< features were looked for
   std::vector<Feature> features;                        ///< that were found
   std::vector<std::optional<NominalFace>> nominals;     ///< of the features, by a CAD reference
@@ -83,12 +86,8 @@ struct Inspection {
   std::vector<SectionResult> sections;         ///< of the plan, in its order
   bool knows_calibration = false;              ///< features hold the covariance of the rig
   Conformity verdict = Conformity::Undecided;  ///< about the part, by `verdict_of`
+  std::vector<VerdictReason> reasons;          ///< of the verdict, what decided first
 };
-
-/// The decision about a part: out when the deviations or a characteristic are out, in when all are
-/// in. `surface` is null without a reference.
-[[nodiscard]] Conformity verdict_of(const SurfaceVerdict* surface,
-                                    const std::vector<MeasuredCharacteristic>& characteristics);
 
 /// Inspects a part by a plan: aligns its mesh to the reference, finds and measures features, judges
 /// the deviations, measures walls and cuts sections.

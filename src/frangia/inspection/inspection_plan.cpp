@@ -6,6 +6,7 @@
 #include <set>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "frangia/core/parse_length.h"
 #include "frangia/rig/toml_reader.h"
@@ -185,9 +186,13 @@ void read_surface_keys(TomlReader& top, InspectionPlan& plan) {
       top.fail("units", fmt::format("is \"{}\"; it must be {}", units, kUnitsKnown));
   }
   if (top.has("align")) plan.align = top.text("align");
-  if (!plan.align.empty() && plan.align != "best-fit" && plan.align != "datum" &&
-      plan.align != "none")
-    top.fail("align", fmt::format("is \"{}\"; it must be best-fit, datum or none", plan.align));
+  const bool known =
+      std::find(kAlignments.begin(), kAlignments.end(), plan.align) != kAlignments.end();
+  if (!plan.align.empty() && !known) {
+    top.fail(
+        "align",
+        fmt::format("is \"{}\"; it must be one of {}", plan.align, fmt::join(kAlignments, ", ")));
+  }
   if (top.has("start")) plan.start = static_cast<std::size_t>(top.integer("start", 1, 1000));
   plan.tolerance_mm = limits_of(top, "tolerance_mm");
   read_surface_rule(top, plan.surface);
@@ -239,6 +244,12 @@ InspectionPlan parse_inspection_plan(const std::string& text, const std::filesys
       return feature.name == name;
     });
   };
+  for (TomlReader& reader : top.tables("points")) {
+    plan.points.push_back({vector_of(reader, "scan_mm"), vector_of(reader, "reference_mm")});
+    reader.refuse_unused_keys();
+  }
+  if (plan.points.size() < (plan.align == "points" ? 3U : plan.points.empty() ? 0U : 3U))
+    top.fail("points", "needs three pairs or more, each with scan_mm and reference_mm");
   if (top.has("datums")) plan.datums = top.texts("datums");
   if ((plan.align == "datum" && plan.datums.empty()) || plan.datums.size() > 3)
     top.fail("datums", "must name one to three of [[features]], in their order");

@@ -1,19 +1,25 @@
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <Eigen/Core>
 
+#include "frangia/align/align_points.h"
 #include "frangia/features/geometric_tolerance.h"
 #include "frangia/features/shape.h"
 #include "frangia/inspect/surface_verdict.h"
 #include "frangia/uncertainty/conformity.h"
 
 namespace frangia {
+
+/// How a part is put on its reference: by its shape, by datums, by pairs of points, or not at all.
+inline constexpr std::array<std::string_view, 4> kAlignments{"best-fit", "datum", "points", "none"};
 
 /// A feature that a plan names, and how it is recognized among those that were found.
 struct PlannedFeature {
@@ -61,19 +67,22 @@ struct ReportFields {
 
 /// How the parts of one kind are inspected: inspection.toml.
 struct InspectionPlan {
-  std::filesystem::path file;                   ///< that it was read from; empty: none
-  std::string part;                             ///< name of the part
-  std::filesystem::path reference;              ///< relative to the file of the plan; may be empty
-  std::optional<double> unit_mm;                ///< of the reference: `units`; none: not stated
-  std::string align;                            ///< best-fit, datum, none, or empty
-  std::vector<std::string> datums;              ///< names of features, in their order; of `datum`
-  std::size_t start = 0;                        ///< of poses that fit alike; 0: none
-  std::optional<ToleranceLimits> tolerance_mm;  ///< of the deviations from the reference
-  SurfaceRule surface;                          ///< how they are decided; `limits` is unused
-  bool thickness = false;                       ///< measure the thickness of the walls
-  double expansion_ppm_per_k = 0.0;             ///< coefficient of thermal expansion, 1e-6/K
-  double temperature_u_k = 0.0;                 ///< standard uncertainty of the temperature
-  std::vector<PlannedFeature> features;         ///< `[[features]]`
+  std::filesystem::path file;       ///< that it was read from; empty: none
+  std::string part;                 ///< name of the part
+  std::filesystem::path reference;  ///< relative to the file of the plan; may be empty
+  std::optional<double> unit_mm;    ///< of the reference: `units`; none: not stated
+  std::string align;                ///< one of `kAlignments`, or empty
+  std::vector<std::string> datums;  ///< names of features, in their order; of `datum`
+  /// The same places on scan and reference: the pose of `points`, and where the search of the
+  /// others begins.
+  std::vector<PointPair> points;
+  std::size_t start = 0;                               ///< of poses that fit alike; 0: none
+  std::optional<ToleranceLimits> tolerance_mm;         ///< of the deviations from the reference
+  SurfaceRule surface;                                 ///< how they are decided; `limits` is unused
+  bool thickness = false;                              ///< measure the thickness of the walls
+  double expansion_ppm_per_k = 0.0;                    ///< coefficient of thermal expansion, 1e-6/K
+  double temperature_u_k = 0.0;                        ///< standard uncertainty of the temperature
+  std::vector<PlannedFeature> features;                ///< `[[features]]`
   std::vector<PlannedCharacteristic> characteristics;  ///< `[[characteristics]]`
   std::vector<PlannedSection> sections;                ///< `[[sections]]`
   ReportFields report;                                 ///< `[report]`

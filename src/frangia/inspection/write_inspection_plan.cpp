@@ -133,6 +133,11 @@ std::string inspection_plan_text(const InspectionPlan& plan, const std::filesyst
   if (plan.thickness) lines.raw("thickness", "true");
   lines.number_unless("expansion_ppm_per_k", plan.expansion_ppm_per_k, 0.0);
   lines.number_unless("temperature_u_k", plan.temperature_u_k, 0.0);
+  for (const PointPair& pair : plan.points) {
+    lines.head("[[points]]");
+    lines.vector("scan_mm", pair.scan_mm);
+    lines.vector("reference_mm", pair.reference_mm);
+  }
   for (const PlannedFeature& feature : plan.features)
     add_feature(lines, feature);
   for (const PlannedCharacteristic& planned : plan.characteristics)

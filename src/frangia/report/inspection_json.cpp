@@ -175,6 +175,7 @@ void add_alignment(Json& json, const Inspection& part) {
   json["alignment_details"] = {{"iterations", alignment.pose.iterations},
                                {"free_directions", alignment.free_directions},
                                {"poses", poses}};
+  if (!part.points_mm.empty()) json["alignment_details"]["points_mm"] = part.points_mm;
   if (part.datums.empty()) return;
   Json& datums = json["alignment_details"]["datums"];
   datums = Json::array();
@@ -279,7 +280,33 @@ Json json_of_sections(const std::vector<SectionResult>& cut) {
   return sections;
 }
 
+Json json_of_clause(const VerdictClause& clause) {
+  Json values = Json::object();
+  for (const auto& [name, value] : clause.values) {
+    Json& json = values[std::string(name)];
+    if (const auto* number = std::get_if<double>(&value)) json = number_or_null(*number);
+    if (const auto* place = std::get_if<Eigen::Vector3d>(&value)) json = json_of_place(*place);
+    if (const auto* text = std::get_if<std::string>(&value)) json = *text;
+  }
+  return {{"id", clause.id}, {"values", values}, {"text", clause.text}};
+}
+
+Json json_of_reasons(const std::vector<VerdictReason>& reasons) {
+  Json json = Json::array();
+  for (const VerdictReason& reason : reasons) {
+    Json clauses = Json::array();
+    for (const VerdictClause& clause : reason.clauses)
+      clauses.push_back(json_of_clause(clause));
+    json.push_back({{"about", reason.about}, {"sentence", reason.text()}, {"clauses", clauses}});
+  }
+  return json;
+}
+
 }  // namespace
+
+std::string reasons_json(const std::vector<VerdictReason>& reasons) {
+  return json_of_reasons(reasons).dump(-1, ' ', false, Json::error_handler_t::replace);
+}
 
 std::string inspection_json(const Inspection& part) {
   Json json = Json::object();
@@ -292,6 +319,7 @@ std::string inspection_json(const Inspection& part) {
   if (part.walls) json["thickness"] = json_of_walls(part.walls->summary);
   if (!part.characteristics.empty())
     json["characteristics"] = json_of_characteristics(part.characteristics);
+  if (!part.reasons.empty()) json["reasons"] = json_of_reasons(part.reasons);
   if (!part.sections.empty()) json["sections"] = json_of_sections(part.sections);
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }

@@ -1,16 +1,13 @@
 #include "frangia/report/inspection_report.h"
 
-#include <algorithm>
-#include <array>
 #include <cmath>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "frangia/core/atomic_file.h"
-#include "frangia/inspection/inspect_part.h"
+#include "frangia/inspection/verdict_reasons.h"
 #include "frangia/report/internal/report_sheets.h"
-#include "frangia/report/result_table.h"
 
 namespace frangia {
 
@@ -20,39 +17,9 @@ Conformity verdict_of(const InspectionReport& report) {
 
 std::vector<std::string> reasons_of(const InspectionReport& report) {
   std::vector<std::string> reasons;
-  std::array<std::size_t, 3> count{};
-  std::size_t limited = 0;
-  for (const MeasuredCharacteristic& row : report.characteristics) {
-    if (!row.limits) continue;
-    ++limited;
-    ++count.at(static_cast<std::size_t>(row.conformity));
-  }
-  const auto of = [&](Conformity conformity) {
-    return count.at(static_cast<std::size_t>(conformity));
-  };
-  if (limited > 0) {
-    std::string text = fmt::format("characteristics: {} of {} in", of(Conformity::In), limited);
-    if (of(Conformity::Out) > 0) text += fmt::format(", {} out", of(Conformity::Out));
-    if (of(Conformity::Undecided) > 0)
-      text += fmt::format(", {} undecided", of(Conformity::Undecided));
-    const auto rows = worst_first(report.characteristics);
-    const MeasuredCharacteristic& worst = rows.front();
-    if (worst.conformity != Conformity::In) {
-      text += std::isfinite(worst.value) ? fmt::format("; the worst is {}: {:.4f} {}, U95 {:.4f}",
-                                                       worst.name,
-                                                       worst.value,
-                                                       worst.unit,
-                                                       worst.u95)
-                                         : fmt::format("; {} was not found", worst.name);
-    }
-    reasons.push_back(std::move(text));
-  }
-  if (!report.surface) return reasons;
-  const std::string surface = "surface: " + sentence_of(*report.surface);
-  // What decided stands first.
-  const bool first = report.surface->conformity == verdict_of(report) &&
-                     overall(report.characteristics) != Conformity::Out;
-  reasons.insert(first ? reasons.begin() : reasons.end(), surface);
+  for (const VerdictReason& reason :
+       verdict_reasons(report.surface ? &*report.surface : nullptr, report.characteristics))
+    reasons.push_back(reason.text());
   return reasons;
 }
 

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "frangia/core/html_escaped.h"
+#include "frangia/inspection/tolerance_use.h"
 #include "frangia/report/internal/report_sheets.h"
 #include "frangia/report/result_table.h"
 

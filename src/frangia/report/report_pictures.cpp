@@ -12,8 +12,8 @@
 #include "frangia/core/angles.h"
 #include "frangia/inspect/picture_positions.h"
 #include "frangia/inspect/render_mesh.h"
+#include "frangia/inspection/tolerance_use.h"
 #include "frangia/report/inspection_picture.h"
-#include "frangia/report/result_table.h"
 
 namespace frangia {
 namespace {

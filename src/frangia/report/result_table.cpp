@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "frangia/core/html_escaped.h"
+#include "frangia/inspection/tolerance_use.h"
 
 namespace frangia {
 namespace {
@@ -29,12 +30,6 @@ std::string tolerance_text(const MeasuredCharacteristic& row) {
   return fmt::format("{:+.4g}/{:+.4g}", lower, upper);
 }
 
-int rank_of(const MeasuredCharacteristic& row) {
-  if (!row.limits) return 3;
-  if (row.conformity == Conformity::Out) return 0;
-  return row.conformity == Conformity::Undecided ? 1 : 2;
-}
-
 std::string color_of_row(const MeasuredCharacteristic& row) {
   if (row.conformity == Conformity::Out) return "#b00020";
   return row.conformity == Conformity::In ? "#0a8a3d" : "#d99000";
@@ -56,26 +51,6 @@ MeasuredCharacteristic surface_row(const SurfaceVerdict& verdict) {
   const bool lower_is_worse =
       !std::isfinite(row.value) || tolerance_used(other) > tolerance_used(row);
   return lower_is_worse ? other : row;
-}
-
-double tolerance_used(const MeasuredCharacteristic& row) {
-  if (!row.limits) return kMissing;
-  const ToleranceLimits& limits = *row.limits;
-  if (!std::isfinite(limits.lower)) return row.value / limits.upper;
-  const double middle = 0.5 * (limits.lower + limits.upper);
-  return std::abs(row.value - middle) / (limits.upper - middle);
-}
-
-std::vector<MeasuredCharacteristic> worst_first(std::vector<MeasuredCharacteristic> rows) {
-  const auto used = [](const MeasuredCharacteristic& row) {
-    const double share = tolerance_used(row);
-    return std::isfinite(share) ? share : 1.0;
-  };
-  std::stable_sort(rows.begin(), rows.end(), [&](const auto& a, const auto& b) {
-    if (rank_of(a) != rank_of(b)) return rank_of(a) < rank_of(b);
-    return used(a) > used(b);
-  });
-  return rows;
 }
 
 std::string tolerance_bar(const MeasuredCharacteristic& row) {

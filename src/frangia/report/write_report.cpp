@@ -124,6 +124,9 @@ NamedTexts alignment_rows(const Inspection& part) {
                                   matrix(row, 2),
                                   matrix(row, 3)));
   }
+  for (std::size_t i = 0; i < part.points_mm.size(); ++i)
+    rows.emplace_back(fmt::format("pair of points {}, mm apart", i + 1),
+                      fmt::format("{:.4f}", part.points_mm[i]));
   for (const std::string& direction : part.alignment->free_directions)
     rows.emplace_back("not determined by the shape", direction);
   return rows;

@@ -41,7 +41,7 @@ struct Candidate {
   double share = 0.0;
 };
 
-/// The refined poses of a search, the best first.
+/// The refined poses of a search, or the one near `BestFitOptions::from`, the best first.
 [[nodiscard]] std::vector<Candidate> candidates_of(const FitProblem& problem,
                                                    const BestFitOptions& options,
                                                    const Run& run);

@@ -9,7 +9,8 @@
 
 #include "frangia/core/angles.h"
 #include "frangia/core/missing.h"
-#include "frangia/report/result_table.h"
+#include "frangia/inspection/tolerance_use.h"
+#include "frangia/report/inspection_json.h"
 
 namespace frangia {
 namespace {
@@ -189,6 +190,7 @@ nlohmann::ordered_json json_of_inspection(const ShownInspection& shown) {
   const auto& walls = found.walls;
   return {{"revision", shown.revision},
           {"verdict", name_of(found.verdict)},
+          {"reasons", Json::parse(reasons_json(found.reasons))},
           {"searched", found.searched},
           {"characteristics", rows},
           {"features", features},
