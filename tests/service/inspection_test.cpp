@@ -97,12 +97,14 @@ TEST_F(ServiceTest, InspectsByAPlanThatThePageMakesAndTheFolderKeeps) {
     named += feature.at("name").is_null() ? 0U : 1U;
   EXPECT_EQ(named, 2U);
 
-  for (const char* format : {"html", "csv", "qif", "toml"}) {
+  for (const char* format : {"html", "pdf", "csv", "qif", "toml"}) {
     static_cast<void>(command("report", {{"format", format}}));
     EXPECT_EQ(finish().at("state"), "done") << format;
   }
   const auto text = [&](const char* name) { return read_text_file(service_->exported(name).path); };
   EXPECT_NE(text("box report.html").find("box ä"), std::string::npos);
+  EXPECT_EQ(text("box report.pdf"), text("box report.html")) << "the page is what is printed";
+  EXPECT_FALSE(std::filesystem::exists(folder_.path() / "projects" / "box" / "report.part.html"));
   EXPECT_NE(text("box report.csv").find("\"height\",mm,10,9.99,10.01,10,"), std::string::npos);
   EXPECT_NE(text("inspection.toml").find("name = \"height\""), std::string::npos);
   // The plan that was saved is read back, and the one in the folder after a restart.
@@ -121,6 +123,61 @@ TEST_F(ServiceTest, InspectsByAPlanThatThePageMakesAndTheFolderKeeps) {
   static_cast<void>(finish());
   EXPECT_TRUE(state().at("project").at("plan").is_null());
   EXPECT_NE(state().at("project").at("plan_fault"), "");
+}
+
+TEST_F(ServiceTest, AlignsByPlacesThatArePickedOnSurfaceAndReference) {
+  open_box();
+  const auto file = folder_.path() / "moved.stl";
+  Mesh nominal = testing::sphere({20, 0, 0}, 3.0, 12);
+  append_mesh(nominal, testing::box({-5, -5, -5}, {5, 5, 5}));
+  for (Eigen::Vector3f& vertex : nominal.vertices_mm)
+    vertex += Eigen::Vector3f(100.0F, 0.0F, 0.0F);
+  write_mesh(file, nominal);
+  const std::string bytes = read_text_file(file);
+  EXPECT_NE(refusal("show-reference", "{}").find("no reference"), std::string::npos);
+  service_->add_to_reference(0, bytes);
+  static_cast<void>(command("set-reference",
+                            {{"name", "moved.stl"}, {"format", "stl"}, {"bytes", bytes.size()}}));
+  static_cast<void>(finish());
+  const auto shown = [&] { return state().at("project").at("reference").at("shown"); };
+  EXPECT_EQ(shown(), false);
+  EXPECT_TRUE(service_->reference_picture().empty());
+  Json ray{{"eye", {190, 0.5, 0.3}}, {"direction", {-1, 0, 0}}, {"reference", true}};
+  EXPECT_NE(error_of([&] { static_cast<void>(service_->pick(ray.dump())); }).find("show it first"),
+            std::string::npos);
+  static_cast<void>(command("show-reference"));
+  EXPECT_EQ(finish().at("state"), "done");
+  EXPECT_EQ(shown(), true);
+  EXPECT_FALSE(service_->reference_picture().empty());
+
+  // Rays through the ball and two sides of the box, on the surface and on the reference.
+  Json points = Json::array();
+  const std::vector<std::pair<Json, Json>> rays{
+      {{90, 0.5, 0.3}, {-1, 0, 0}}, {{1, 2, 50}, {0, 0, -1}}, {{-3, 50, 1}, {0, -1, 0}}};
+  for (const auto& [eye, direction] : rays) {
+    const auto picked = [&](double moved, bool reference) {
+      Json from = eye;
+      from[0] = from[0].get<double>() + moved;
+      const Json asked{{"eye", from}, {"direction", direction}, {"reference", reference}};
+      return Json::parse(service_->pick(asked.dump())).at("hit").at("point_mm");
+    };
+    points.push_back({{"scan_mm", picked(0.0, false)}, {"reference_mm", picked(100.0, true)}});
+  }
+  static_cast<void>(command("set-plan", {{"plan", {{"align", "points"}, {"points", points}}}}));
+  EXPECT_EQ(state().at("project").at("plan").at("points").size(), 3U);
+  static_cast<void>(command("inspect"));
+  const Json job = finish();
+  ASSERT_EQ(job.at("state"), "done") << job.at("error");
+  const Json found = state().at("project").at("surface");
+  EXPECT_NEAR(found.at("comparison").at("moved_mm").get<double>(), 100.0, 1e-3);
+  EXPECT_NEAR(found.at("comparison").at("max_mm").get<double>(), 0.0, 1e-3);
+  EXPECT_FALSE(found.at("inspection").at("reasons").empty());
+  // Another reference is not the one that is shown.
+  service_->add_to_reference(0, bytes);
+  static_cast<void>(command("set-reference",
+                            {{"name", "other.stl"}, {"format", "stl"}, {"bytes", bytes.size()}}));
+  static_cast<void>(finish());
+  EXPECT_EQ(shown(), false);
 }
 
 }  // namespace

@@ -17,6 +17,7 @@ import { MeshSource } from './mesh_source';
 import { type Language, setLanguage, t } from './messages';
 import { applyPreferences } from './preferences';
 import { Opening } from './opening';
+import { Pairing } from './pairing';
 import { Projects } from './projects';
 import { CONFLICT, Refusal, Session } from './session';
 import { Sectioning } from './sectioning';
@@ -72,6 +73,7 @@ export class App extends LitElement {
   readonly exporting = new Exporting(this);
   readonly measuring = new Measuring(this);
   readonly sectioning = new Sectioning(this);
+  readonly pairing = new Pairing(this);
   readonly host = document.createElement('div');
   viewer!: Viewer;
   meshes!: MeshSource;
@@ -97,7 +99,8 @@ export class App extends LitElement {
     this.host.className = 'view';
     this.viewer = new Viewer(this.host, {
       pick: (ray) => this.pick(ray),
-      placed: (tool, hit) => (tool === 'section' ? this.sectioning : this.measuring).picked(hit),
+      placed: (tool, hit) =>
+        void { measure: this.measuring, section: this.sectioning, pair: this.pairing }[tool].picked(hit),
       outlined: (outline, through, keys) =>
         void this.editing.selectBy(through ? 'select-outline-through' : 'select-outline', outline, keys),
       partPicked: (triangle, keys) => void this.editing.selectPart(triangle, keys),
@@ -276,6 +279,7 @@ export class App extends LitElement {
     this.editing.follow();
     this.measuring.follow();
     this.sectioning.follow();
+    this.pairing.follow();
     if (this.session.state) this.projects.follow();
     const key = `${this.step} ${this.session.state?.project?.calibration?.active ?? false}`;
     if (key === this.panelKey) return;

@@ -1,4 +1,4 @@
-import type { Comparison, Inspection, Plan } from './inspection_types';
+import type { Comparison, Inspection, Plan, SeriesPart } from './inspection_types';
 
 /** The state that the server sends; docs/service-schema.json describes it. */
 export type JobState = 'waiting' | 'running' | 'done' | 'failed' | 'stopped';
@@ -366,8 +366,11 @@ export interface Project {
   current_version: number;
   /** Of which version and revision an exported surface is. */
   exports: ExportedFile[];
-  reference: { name: string; format: string } | null;
+  /** `shown`: it was read, and can be drawn and picked. */
+  reference: { name: string; format: string; shown: boolean } | null;
   measurements: HandMeasurement[];
+  /** Parts before this one that were inspected by the same plan, the oldest first. */
+  series: SeriesPart[];
   /** That the surface is inspected by; null: none was made. */
   plan: Plan | null;
   plan_fault: string;

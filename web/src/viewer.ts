@@ -10,34 +10,25 @@ import { type Drawn, Ruler } from './ruler';
 import { RigModel } from './rig_model';
 import { addLights, addTable } from './stage_props';
 import { Smoothing } from './smoothing';
+import type { Hit, Ray } from './ray';
+import { ReferenceView } from './reference_view';
 import { SectionView } from './section_view';
-import { DRAWING, type ModifierKeys, PointerStrokes, type Tool } from './pointer_strokes';
+import { DRAWING, type ModifierKeys, places, type PlacingTool, PointerStrokes, type Tool } from './pointer_strokes';
+import { smallPicture } from './small_picture';
 import { type SectionLook, type Shading, SurfaceView } from './surface_view';
 import type { RigGeometry, Section, Triple } from './types';
 import { type Outline, ViewCamera } from './view_camera';
 import { ViewMarks } from './view_marks';
 
 export type { ModifierKeys, Tool } from './pointer_strokes';
+export type { Hit, Ray } from './ray';
 export type { SectionAxis, SectionLook, Shading } from './surface_view';
-
-/** A ray through the picture, and the half-space that a section leaves. */
-export interface Ray {
-  eye: number[];
-  direction: number[];
-  section?: number[];
-}
-/** A point of the exact mesh. */
-export interface Hit {
-  point_mm: [number, number, number];
-  triangle: number;
-  sigma_mm: number | null;
-}
 
 interface Events {
   /** Asks for the point of the exact mesh on a ray. */
   pick(ray: Ray): Promise<Hit | null>;
   /** A place of the surface to measure from, or to put a plane through. */
-  placed(tool: 'measure' | 'section', hit: Hit): void;
+  placed(tool: PlacingTool, hit: Hit): void;
   outlined(outline: Outline, through: boolean, keys: ModifierKeys): void;
   partPicked(triangle: number, keys: ModifierKeys): void;
   /** A point of the surface, or three of them for an alignment. */
@@ -70,6 +61,7 @@ export class Viewer {
   private readonly ruler = new Ruler();
   private readonly cut = new SectionView();
   private readonly preview = new EditPreview();
+  private readonly reference = new ReferenceView();
   private readonly holes = new HoleMarks();
   private readonly rig = new RigModel();
   private rigShown = 'null';
@@ -120,6 +112,7 @@ export class Viewer {
       this.table,
       this.surface.group,
       this.cut.group,
+      this.reference.group,
       this.preview.group,
       this.holes.group,
       this.ruler.group,
@@ -180,16 +173,7 @@ export class Viewer {
   /** The present view in a small JPEG, base64; empty where the browser makes none. */
   async thumbnail(width: number, height: number): Promise<string> {
     this.drawNow();
-    const { width: w, height: h } = this.canvas;
-    const scale = Math.max(width / w, height / h);
-    const small = document.createElement('canvas');
-    small.width = width;
-    small.height = height;
-    const pen = small.getContext('2d') as CanvasRenderingContext2D;
-    pen.fillStyle = '#20292b';
-    pen.fillRect(0, 0, width, height);
-    pen.drawImage(this.canvas, (width - w * scale) / 2, (height - h * scale) / 2, w * scale, h * scale);
-    return small.toDataURL('image/jpeg', 0.85).split(',')[1] ?? '';
+    return smallPicture(this.canvas, width, height);
   }
 
   showSurface(shown: boolean): void {
@@ -308,6 +292,16 @@ export class Viewer {
   get legend(): Legend | null {
     return this.surface.legend;
   }
+  /** Shows the reference in place of the surface; null shows the surface again. */
+  setReference(arrays: MeshArrays | null): void {
+    if (!arrays && !this.showsReference) return;
+    this.reference.set(arrays);
+    this.surface.group.visible = this.cut.group.visible = arrays === null;
+    this.frame();
+  }
+  get showsReference(): boolean {
+    return this.reference.shown;
+  }
   /** Shows what the section plane cuts; null shows nothing. */
   setCut(section: Section | null): void {
     this.cut.set(section);
@@ -326,7 +320,8 @@ export class Viewer {
   frame(direction?: [number, number, number]): void {
     if (!this.supported) return;
     const rig = this.rig.box();
-    this.view.frame(rig ?? this.surface.box, rig ? 0.78 : 1.12, direction);
+    const part = this.showsReference ? this.reference.box : this.surface.box;
+    this.view.frame(rig ?? part, rig ? 0.78 : 1.12, direction);
     this.draw();
   }
 
@@ -360,7 +355,7 @@ export class Viewer {
   private onHit(hit: Hit, keys: ModifierKeys): void {
     if (this.tool === 'part') return this.events.partPicked(hit.triangle, keys);
     if (this.tool === 'loop' || this.tool === 'feature') return this.events.picked(this.tool, [hit.point_mm], keys);
-    if (this.tool === 'measure' || this.tool === 'section') return this.events.placed(this.tool, hit);
+    if (places(this.tool)) return this.events.placed(this.tool, hit);
     if (this.tool !== 'align') return;
     this.picks.push(hit.point_mm);
     this.showPending(this.picks);
@@ -372,7 +367,8 @@ export class Viewer {
   private pickRay(point: [number, number]): Ray {
     const { origin, direction } = this.view.rayAt(point);
     const { kept } = this.surface;
-    return { eye: origin.toArray(), direction: direction.toArray(), ...(kept ? { section: kept } : {}) };
+    const of = this.showsReference ? { reference: true as const } : kept ? { section: kept } : {};
+    return { eye: origin.toArray(), direction: direction.toArray(), ...of };
   }
 
   private resize(): void {

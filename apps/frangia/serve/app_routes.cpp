@@ -266,6 +266,8 @@ HttpResponse AppRoutes::get(const std::string& path) const {
     return found(path == "/api/mesh" ? service_.mesh() : service_.selection(),
                  "there is no surface");
   }
+  if (path == "/api/reference")
+    return found(service_.reference_picture(), "the reference is not shown; show it first");
   if (const auto level = number_after(path, "/api/levels/"))
     return found(service_.level(*level), "the surface has no such level");
   if (const auto level = number_after(path, "/api/selection/"))

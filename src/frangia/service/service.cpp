@@ -86,6 +86,8 @@ std::string Service::Implementation::command(const std::string& name, const std:
       {"preview", &Implementation::start_preview},
       {"drop-preview", &Implementation::drop_preview},
       {"set-reference", &Implementation::start_set_reference},
+      {"next-part", &Implementation::next_part},
+      {"show-reference", &Implementation::show_reference},
       {"set-plan", &Implementation::set_plan},
       {"open-plan", &Implementation::open_plan},
       {"inspect", &Implementation::start_inspect},
@@ -296,6 +298,11 @@ std::string Service::level(std::size_t level) const {
   return surface ? surface->picture->packed_level(level) : std::string();
 }
 
+std::string Service::reference_picture() const {
+  const PicturePtr picture = implementation_->reference_picture();
+  return picture ? picture->packed_level(0) : std::string();
+}
+
 std::string Service::selection() const {
   const SurfacePtr surface = implementation_->surface();
   return surface ? encode_selection(*surface->selection, surface->selection_revision)
@@ -342,10 +349,13 @@ std::string Service::pick(const std::string& ray_json) const {
     ray.section_normal = {section[0], section[1], section[2]};
     ray.section_offset_mm = section[3];
   }
+  const bool of_reference = arguments.flag("reference");
   arguments.check_all_read();
   const SurfacePtr surface = implementation_->surface();
   require(surface != nullptr, "there is no surface to point at; reconstruct it first");
-  const auto picked = pick_surface(surface->picture->mesh(), ray);
+  const PicturePtr picture = of_reference ? implementation_->reference_picture() : surface->picture;
+  require(picture != nullptr, "the reference is not shown yet; show it first");
+  const auto picked = pick_surface(picture->mesh(), ray);
   nlohmann::ordered_json json{{"mesh_revision", surface->mesh_revision}, {"hit", nullptr}};
   if (picked) {
     const Eigen::Vector3d& p = picked->point_mm;

@@ -44,6 +44,8 @@ class Service::Implementation {
   [[nodiscard]] std::string residuals() const;
   [[nodiscard]] std::string thumbnail(const std::string& name) const;
   [[nodiscard]] ExportedFile exported(const std::string& name) const;
+  /// The reference as it is drawn; null before `show-reference`.
+  [[nodiscard]] PicturePtr reference_picture() const;
   /// The curves in which a plane cuts the surface, as docs/service-api.md describes them.
   [[nodiscard]] std::string section(const std::string& plane_json) const;
   [[nodiscard]] LivePicture live_picture(LiveLayer layer, std::uint64_t after) const;
@@ -101,12 +103,19 @@ class Service::Implementation {
   Json start_preview(CommandArguments& arguments);
   Json drop_preview(CommandArguments& arguments);
   Json start_set_reference(CommandArguments& arguments);
+  Json show_reference(CommandArguments& arguments);
+  Json next_part(CommandArguments& arguments);
   Json set_plan(CommandArguments& arguments);
   Json open_plan(CommandArguments& arguments);
   /// Keeps a plan that arrived as text, in the folder and in the state.
   Json keep_plan(const std::string& text);
   Json start_inspect(CommandArguments& arguments);
   Json start_report(CommandArguments& arguments);
+  /// Writes a page as a PDF file.
+  void print_page(const ProjectFolder& project,
+                  const std::string& page,
+                  const std::filesystem::path& pdf,
+                  const Run& run) const;
   Json estimate_export(CommandArguments& arguments);
   Json start_select_component(CommandArguments& arguments);
   Json start_undo(CommandArguments& arguments);
