@@ -119,7 +119,7 @@ export class Measuring {
     const { app } = this;
     if (app.viewer.tool !== 'measure') this.places = [];
     const { all } = this;
-    const key = `${app.viewer.meshShown} ${all.map((one) => `${one.label}${one.value}`).join(' ')} ${t('measure.of.point')}`;
+    const key = `${app.session.state?.project?.name} ${app.viewer.meshShown} ${all.map((one) => `${one.label}${one.value}`).join(' ')} ${t('measure.of.point')}`;
     if (key === this.shown) return;
     this.shown = key;
     app.viewer.showMeasurements(

@@ -71,6 +71,11 @@ export class Ruler {
       return { at, width: LETTER * words.length, leader, text };
     });
   }
+  /** Shows or hides what was measured, and not what is being clicked. */
+  showKept(shown: boolean): void {
+    this.kept.visible = shown;
+    this.labels.style.display = shown ? '' : 'none';
+  }
   /** Puts the labels beside their measurements in the picture, pixels; one that would cover another moves down. */
   place(camera: THREE.Camera, width: number, height: number): void {
     const placed: Box[] = [];

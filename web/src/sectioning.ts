@@ -88,13 +88,14 @@ export class Sectioning {
     const { app } = this;
     const surface = app.session.state?.project?.surface;
     const plane = surface && app.viewer.meshShown === surface.mesh_revision ? this.plane : null;
-    const key = plane && surface ? JSON.stringify([surface.mesh_revision, plane]) : '';
+    const key = plane && surface ? JSON.stringify([app.project.name, surface.mesh_revision, plane]) : '';
     if (key === this.shown) return;
     if (this.found) {
       this.found = null;
       app.viewer.setCut(null);
       app.requestUpdate();
     }
+    if (!plane) this.shown = '';
     if (!plane || this.asking) return;
     this.asking = true;
     void this.ask(key, plane);

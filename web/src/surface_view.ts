@@ -43,7 +43,8 @@ export class SurfaceView {
   private pictures: Picture[] = [];
   private current: Picture | null = null;
   private moving = false;
-  private whole = false;
+  /** Both sides of the section plane are shown. */
+  whole = false;
   private shading: Shading = 'smooth';
   private coloring: Coloring = 'plain';
   private setups: readonly Float32Array[] = [];

@@ -10,30 +10,19 @@ import { type Drawn, Ruler } from './ruler';
 import { RigModel } from './rig_model';
 import { addLights, addTable } from './stage_props';
 import { Smoothing } from './smoothing';
-import type { Hit, Ray } from './ray';
+import type { Hit, Ray, ViewerEvents } from './viewer_events';
 import { ReferenceView } from './reference_view';
 import { SectionView } from './section_view';
-import { DRAWING, type ModifierKeys, places, type PlacingTool, PointerStrokes, type Tool } from './pointer_strokes';
+import { DRAWING, type ModifierKeys, places, PointerStrokes, type Tool } from './pointer_strokes';
 import { smallPicture } from './small_picture';
 import { type SectionLook, type Shading, SurfaceView } from './surface_view';
 import type { RigGeometry, Section, Triple } from './types';
-import { type Outline, ViewCamera } from './view_camera';
+import { ViewCamera } from './view_camera';
 import { ViewMarks } from './view_marks';
 
 export type { ModifierKeys, Tool } from './pointer_strokes';
-export type { Hit, Ray } from './ray';
+export type { Hit, Ray } from './viewer_events';
 export type { SectionAxis, SectionLook, Shading } from './surface_view';
-
-interface Events {
-  /** Asks for the point of the exact mesh on a ray. */
-  pick(ray: Ray): Promise<Hit | null>;
-  /** A place of the surface to measure from, or to put a plane through. */
-  placed(tool: PlacingTool, hit: Hit): void;
-  outlined(outline: Outline, through: boolean, keys: ModifierKeys): void;
-  partPicked(triangle: number, keys: ModifierKeys): void;
-  /** A point of the surface, or three of them for an alignment. */
-  picked(tool: Tool, points: [number, number, number][], keys: ModifierKeys): void;
-}
 
 /** After a move, until the finest level is drawn, ms: later where it takes long and would hold up the next move. */
 const REST_MS = 160;
@@ -66,6 +55,7 @@ export class Viewer {
   private readonly rig = new RigModel();
   private rigShown = 'null';
   private tableKnown = true;
+  private wanted = true;
   private picks: Triple[] = [];
   private answered = Promise.resolve();
   private due = false;
@@ -76,7 +66,7 @@ export class Viewer {
 
   constructor(
     private readonly host: HTMLElement,
-    private readonly events: Events,
+    private readonly events: ViewerEvents,
   ) {
     this.canvas = document.createElement('canvas');
     this.canvas.className = 'view-canvas';
@@ -177,8 +167,16 @@ export class Viewer {
   }
 
   showSurface(shown: boolean): void {
-    this.surface.group.visible = this.preview.group.visible = this.ruler.group.visible = this.cut.group.visible = shown;
-    this.ruler.labels.style.display = shown ? '' : 'none';
+    this.wanted = shown;
+    this.showParts();
+  }
+  /** The surface with what belongs to it, or the reference in its place. */
+  private showParts(): void {
+    const shown = this.wanted && !this.showsReference;
+    this.surface.group.visible = this.preview.group.visible = shown;
+    this.cut.group.visible = shown && !this.surface.whole;
+    this.ruler.group.visible = this.wanted;
+    this.ruler.showKept(shown);
     this.draw();
   }
   /** Draws the coarsest level until nothing has moved for a while. */
@@ -259,8 +257,7 @@ export class Viewer {
   setPreview(arrays: Map<string, ArrayLike<number>> | null): void {
     this.preview.set(arrays);
     this.surface.setWhole(arrays !== null);
-    this.cut.group.visible = this.surface.group.visible && arrays === null;
-    this.draw();
+    this.showParts();
   }
   /** Rings around some holes. */
   mark(holes: readonly Marked[]): void {
@@ -296,7 +293,7 @@ export class Viewer {
   setReference(arrays: MeshArrays | null): void {
     if (!arrays && !this.showsReference) return;
     this.reference.set(arrays);
-    this.surface.group.visible = this.cut.group.visible = arrays === null;
+    this.showParts();
     this.frame();
   }
   get showsReference(): boolean {
