@@ -2,7 +2,8 @@ import { html, type TemplateResult } from 'lit';
 import type { App } from './app';
 import { icon } from './icons';
 import { number, t } from './messages';
-import type { HandMeasurement, Quantity, Triple } from './types';
+import type { HandMeasurement, Quantity } from './measure_types';
+import type { Triple } from './types';
 import { choice } from './ui';
 import type { Hit } from './viewer';
 

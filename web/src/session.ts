@@ -1,5 +1,6 @@
 import type { Lan } from './link_dialog';
-import type { Section, State, Triple } from './types';
+import type { Section } from './measure_types';
+import type { State, Triple } from './types';
 import type { Hit, Ray } from './viewer';
 
 const KEY = 'frangia-key';
