@@ -23,17 +23,17 @@ using Eigen::Vector3d;
 using Json = nlohmann::ordered_json;
 
 constexpr const char* kFile = "measurements.json";
-constexpr std::uint64_t kMostBytes = 1'000'000;
+constexpr std::uint64_t kMostMeasurementBytes = 1'000'000;
 
-Json json_of_vector(const Vector3d& v) {
+Json json_of_triple(const Vector3d& v) {
   return {v.x(), v.y(), v.z()};
 }
 
-double number_of(const nlohmann::json& json) {
+double number_or_missing(const nlohmann::json& json) {
   return json.is_null() ? kMissing : json.get<double>();
 }
 
-Vector3d vector_of(const nlohmann::json& json) {
+Vector3d triple_of(const nlohmann::json& json) {
   return {json.at(0).get<double>(), json.at(1).get<double>(), json.at(2).get<double>()};
 }
 
@@ -56,7 +56,7 @@ HandMeasurement measurement_of_points(const nlohmann::json& json) {
   HandMeasurement one;
   for (const auto& point : json.at("points_mm")) {
     HandElement element{.kind = "point"};
-    element.point_mm = element.center_mm = vector_of(point);
+    element.point_mm = element.center_mm = triple_of(point);
     one.elements.push_back(element);
   }
   const bool angle = one.elements.size() == 3;
@@ -78,17 +78,17 @@ HandMeasurement measurement_of(const nlohmann::json& json) {
     one = measurement_of_points(json);
   } else {
     one.quantity = quantity_of(json.at("quantity").get<std::string>());
-    one.value = number_of(json.at("value"));
-    one.u95 = number_of(json.at("u95"));
-    one.from_mm = vector_of(json.at("from_mm"));
-    one.to_mm = vector_of(json.at("to_mm"));
+    one.value = number_or_missing(json.at("value"));
+    one.u95 = number_or_missing(json.at("u95"));
+    one.from_mm = triple_of(json.at("from_mm"));
+    one.to_mm = triple_of(json.at("to_mm"));
     for (const auto& element : json.at("elements")) {
       one.elements.push_back({element.at("kind").get<std::string>(),
-                              vector_of(element.at("point_mm")),
-                              vector_of(element.at("center_mm")),
-                              vector_of(element.at("axis")),
-                              number_of(element.at("diameter_mm")),
-                              number_of(element.at("form_mm"))});
+                              triple_of(element.at("point_mm")),
+                              triple_of(element.at("center_mm")),
+                              triple_of(element.at("axis")),
+                              number_or_missing(element.at("diameter_mm")),
+                              number_or_missing(element.at("form_mm"))});
     }
   }
   one.label = json.at("label").get<std::string>();
@@ -160,9 +160,9 @@ nlohmann::ordered_json json_of(const std::vector<HandMeasurement>& measurements)
     Json elements = Json::array();
     for (const HandElement& element : one.elements) {
       elements.push_back({{"kind", element.kind},
-                          {"point_mm", json_of_vector(element.point_mm)},
-                          {"center_mm", json_of_vector(element.center_mm)},
-                          {"axis", json_of_vector(element.axis)},
+                          {"point_mm", json_of_triple(element.point_mm)},
+                          {"center_mm", json_of_triple(element.center_mm)},
+                          {"axis", json_of_triple(element.axis)},
                           {"diameter_mm", element.diameter_mm},
                           {"form_mm", element.form_mm}});
     }
@@ -173,15 +173,15 @@ nlohmann::ordered_json json_of(const std::vector<HandMeasurement>& measurements)
                     {"unit", unit_of(one.quantity)},
                     {"u95", one.u95},  // NaN is written as null
                     {"elements", std::move(elements)},
-                    {"from_mm", json_of_vector(one.from_mm)},
-                    {"to_mm", json_of_vector(one.to_mm)}});
+                    {"from_mm", json_of_triple(one.from_mm)},
+                    {"to_mm", json_of_triple(one.to_mm)}});
   }
   return json;
 }
 
 std::vector<HandMeasurement> read_hand_measurements(const ProjectFolder& project) {
   try {
-    const auto json = nlohmann::json::parse(project.read_json(kFile, kMostBytes));
+    const auto json = nlohmann::json::parse(project.read_json(kFile, kMostMeasurementBytes));
     std::vector<HandMeasurement> all;
     for (const auto& one : json.at("measurements")) {
       if (all.size() == kMostMeasurements) break;

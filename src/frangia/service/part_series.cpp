@@ -28,7 +28,7 @@ Json limit_or_null(double limit) {
   return std::isfinite(limit) ? Json(limit) : Json();
 }
 
-Json json_of_row(const MeasuredCharacteristic& row) {
+Json json_of_series_row(const MeasuredCharacteristic& row) {
   return {{"name", row.name},
           {"unit", row.unit},
           {"nominal", row.nominal ? Json(*row.nominal) : Json()},
@@ -43,7 +43,7 @@ Json json_of_row(const MeasuredCharacteristic& row) {
 Json json_of_part(const SeriesPart& part) {
   Json rows = Json::array();
   for (const MeasuredCharacteristic& row : part.rows)
-    rows.push_back(json_of_row(row));
+    rows.push_back(json_of_series_row(row));
   return {{"name", part.project},
           {"serial", part.serial},
           {"verdict", part.verdict.empty() ? Json() : Json(part.verdict)},

@@ -26,7 +26,7 @@ namespace {
 
 constexpr std::size_t kMostNotes = 4000;         // bytes: a page
 constexpr std::size_t kMostThumbnail = 300'000;  // bytes: ten times that of a small picture
-constexpr std::size_t kMostNameBytes = 120;
+constexpr std::size_t kMostFileName = 120;
 constexpr std::size_t kMostFileBytes = 512UL * 1024 * 1024;
 
 void put_text(const std::filesystem::path& path, std::string_view text) {
@@ -209,7 +209,7 @@ nlohmann::ordered_json Service::Implementation::open_file(CommandArguments& argu
   const std::size_t bytes = arguments.whole("bytes", 1, kMostFileBytes);
   const std::string name = arguments.text_or("name", "");
   arguments.check_all_read();
-  require(name.size() <= kMostNameBytes, "name: has at most 120 letters; shorten it");
+  require(name.size() <= kMostFileName, "name: has at most 120 letters; shorten it");
   const std::filesystem::path named = "file." + format;
   const bool is_plain = !format.empty() && std::all_of(format.begin(), format.end(), [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9');
