@@ -25,10 +25,13 @@ const valueOf = (one: HandMeasurement): string =>
 
 function uncertaintyOf({ u95, unit, value }: HandMeasurement): string {
   if (u95 === null) return '';
-  if (unit === 'mm') return `± ${number(1000 * u95, 1)} µm`;
+  if (unit === 'mm') return u95 < 5e-5 ? `± < ${number(0.1, 1)} µm` : `± ${number(1000 * u95, 1)} µm`;
   if (unit === 'degrees') return `± ${number(u95, 3)}°`;
   return `± ${number(u95, Math.abs(value) < 100 ? 3 : 1)} ${UNITS[unit]}`;
 }
+
+/** With a minus as wide as a digit; what rounds to zero has none. */
+const signed = (mm: number): string => `${mm <= -5e-4 ? '−' : ''}${number(Math.abs(mm), 3)}`;
 
 /** The end of its line less the beginning, mm. */
 const deltaOf = ({ from_mm: from, to_mm: to }: HandMeasurement): Triple =>
@@ -198,7 +201,7 @@ export class Measuring {
                   ${
                     LENGTHS.includes(one.quantity)
                       ? html`<br /><span class="quiet delta"
-                            >${['x', 'y', 'z'].map((axis, i) => html`<span>Δ${axis} ${number(deltaOf(one)[i] as number, 3)}</span>`)}</span
+                            >${['x', 'y', 'z'].map((axis, i) => html`<span>Δ${axis} ${signed(deltaOf(one)[i] as number)}</span>`)}</span
                           >`
                       : ''
                   }

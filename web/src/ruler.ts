@@ -76,9 +76,10 @@ export class Ruler {
     this.kept.visible = shown;
     this.labels.style.display = shown ? '' : 'none';
   }
-  /** Puts the labels beside their measurements in the picture, pixels; one that would cover another moves down. */
+  /** Puts the labels beside their measurements in the picture, pixels; one that would cover another moves away. */
   place(camera: THREE.Camera, width: number, height: number): void {
-    const placed: Box[] = [];
+    // The scale bar, which stands at the lower left.
+    const placed: Box[] = [44, 26].map((up) => ({ x: 150, y: height - up, width: 300 }));
     for (const { at, width: wide, leader, text } of this.anchors) {
       const seen = at.clone().project(camera);
       const shown = Math.abs(seen.x) < 1 && Math.abs(seen.y) < 1 && seen.z < 1;
@@ -90,7 +91,8 @@ export class Ruler {
         y: Math.max(LINE, y - 14),
         width: wide,
       };
-      while (placed.some((one) => covers(one, box)) && box.y < height - LINE) box.y += 4;
+      const step = box.y > height / 2 ? -4 : 4;
+      while (placed.some((one) => covers(one, box)) && box.y < height - LINE && box.y > LINE) box.y += step;
       placed.push(box);
       text.setAttribute('x', box.x.toFixed(1));
       text.setAttribute('y', box.y.toFixed(1));

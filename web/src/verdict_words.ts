@@ -26,7 +26,8 @@ function valueText(name: string, value: Value): string {
 function clauseText({ id, values, text }: VerdictClause): string {
   const key = `clause.${id}`;
   if (!isMessage(key)) return text;
-  return t(key, Object.fromEntries(Object.entries(values).map(([name, value]) => [name, valueText(name, value)])));
+  const words = Object.fromEntries(Object.entries(values).map(([name, value]) => [name, valueText(name, value)]));
+  return t(key, words).replace(/, U95 · \S+?(?=[.;,)]|$)/g, ''); // it is not known
 }
 
 /** The sentence about a verdict. */

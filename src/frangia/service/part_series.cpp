@@ -85,7 +85,8 @@ SeriesPart part_of(const nlohmann::json& json) {
 std::vector<std::string> names_before(const ProjectFolder& project) {
   try {
     std::vector<std::string> names;
-    for (const auto& name : nlohmann::json::parse(project.read_json(kSeries)).at("parts"))
+    const auto json = nlohmann::json::parse(project.read_json(kSeries));
+    for (const auto& name : json.at("parts"))
       if (name.get<std::string>().size() <= kMostName) names.push_back(name.get<std::string>());
     return names;
   } catch (const std::exception&) {
