@@ -34,7 +34,7 @@ class HandMeasurements : public ServiceTest {
 
 TEST_F(HandMeasurements, AreKeptWithTheProject) {
   EXPECT_EQ(measure("distance", {place(-9, 0.2), place(9, 4.2)}).at("state"), "done");
-  EXPECT_EQ(measure("thickness", {place(-9, 0.2)}).at("state"), "done");
+  EXPECT_EQ(measure("thickness", Json::array({place(-9, 0.2)})).at("state"), "done");
   EXPECT_EQ(measure("area", Json::array()).at("state"), "done");
   const Json list = project().at("measurements");
   ASSERT_EQ(list.size(), 3U);
@@ -52,12 +52,12 @@ TEST_F(HandMeasurements, AreKeptWithTheProject) {
   EXPECT_EQ(project().at("measurements"), list);
   static_cast<void>(command("remove-measurements", {{"labels", {"A", "Z"}}}));
   EXPECT_EQ(project().at("measurements").size(), 2U);
-  EXPECT_EQ(measure("thickness", {place(9, 1.0)}).at("state"), "done");
+  EXPECT_EQ(measure("thickness", Json::array({place(9, 1.0)})).at("state"), "done");
   EXPECT_EQ(project().at("measurements").back().at("label"), "A");  // the first that is free
 }
 
 TEST_F(HandMeasurements, OfAFaceSayWhichShapeItIs) {
-  EXPECT_EQ(measure("diameter", {place(40, 0.1, true)}).at("state"), "done");
+  EXPECT_EQ(measure("diameter", Json::array({place(40, 0.1, true)})).at("state"), "done");
   const Json ball = project().at("measurements").at(0);
   EXPECT_EQ(ball.at("elements").at(0).at("kind"), "sphere");
   EXPECT_NEAR(ball.at("value").get<double>(), 6.0, 0.15);
@@ -78,7 +78,7 @@ TEST_F(HandMeasurements, OfASurfaceThatHasChangedAreRefused) {
   static_cast<void>(command("undo"));
   static_cast<void>(finish());
   EXPECT_EQ(mesh(), before);
-  static_cast<void>(command("edit", {{"operation", "select-all"}, {"value", ""}}));
+  static_cast<void>(command("edit", {{"operation", "invert"}, {"value", ""}}));
   static_cast<void>(finish());
   EXPECT_EQ(mesh(), before);  // a selection changes no mesh
 }
@@ -96,17 +96,18 @@ TEST_F(HandMeasurements, RefuseWhatIsNone) {
             std::string::npos);
   Json wrong = one;
   wrong["point_mm"] = {1.0, 2.0};
-  EXPECT_NE(
-      refused({{"quantity", "thickness"}, {"places", {wrong}}, {"mesh", "1"}}).find("point_mm"),
-      std::string::npos);
+  EXPECT_NE(refused({{"quantity", "thickness"}, {"places", Json::array({wrong})}, {"mesh", "1"}})
+                .find("point_mm"),
+            std::string::npos);
   wrong = one;
   wrong["evil"] = 1;
-  EXPECT_NE(refused({{"quantity", "thickness"}, {"places", {wrong}}, {"mesh", "1"}}).find("evil"),
+  EXPECT_NE(refused({{"quantity", "thickness"}, {"places", Json::array({wrong})}, {"mesh", "1"}})
+                .find("evil"),
             std::string::npos);
   EXPECT_NE(refusal("remove-measurements", R"({"labels": [3]})").find("labels"), std::string::npos);
   wrong = one;
   wrong["triangle"] = 4'000'000;
-  EXPECT_EQ(measure("thickness", {wrong}).at("state"), "failed");
+  EXPECT_EQ(measure("thickness", Json::array({wrong})).at("state"), "failed");
 }
 
 TEST_F(HandMeasurements, OfAnOlderProgramAreReadAndDamagedOnesAreNot) {
