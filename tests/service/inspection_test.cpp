@@ -126,7 +126,7 @@ TEST_F(ServiceTest, InspectsByAPlanThatThePageMakesAndTheFolderKeeps) {
 }
 
 TEST_F(ServiceTest, InspectsTheNextPartByTheSamePlan) {
-  open_box();
+  open_box(60);
   const Json side = {{"name", "ball"},
                      {"kind", "sphere"},
                      {"near_mm", {20, 0, 0}},

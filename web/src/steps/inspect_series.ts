@@ -11,6 +11,9 @@ const HIGH = 34;
 /** Share of the height of the tolerance in the drawing. */
 const BAND = 0.6;
 
+/** Of the drawing, mm or degrees: what is smaller is no trend. */
+const LEAST_SPAN = 0.01;
+
 /** The name of the next part: the number at the end of this one's grows. */
 export function nextName(name: string, taken: readonly string[]): string {
   const [, base, digits] = /^(.*?)(\d*)$/.exec(name) as unknown as [string, string, string];
@@ -36,7 +39,8 @@ function trend(values: readonly (SeriesRow | undefined)[]): TemplateResult {
     ...[...(limits ?? [])].filter((one): one is number => one !== null),
   ];
   const [low, high] = [Math.min(...numbers), Math.max(...numbers)];
-  const y = (value: number) => HIGH / 2 - ((value - (low + high) / 2) / (high - low || 1)) * HIGH * BAND;
+  const span = Math.max(high - low, LEAST_SPAN);
+  const y = (value: number) => HIGH / 2 - ((value - (low + high) / 2) / span) * HIGH * BAND;
   const x = (i: number) => 6 + (i / Math.max(1, values.length - 1)) * (WIDE - 12);
   const line = values.flatMap((row, i) =>
     row?.value == null ? [] : [`${x(i).toFixed(1)},${y(row.value).toFixed(1)}`],
