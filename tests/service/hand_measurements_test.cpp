@@ -12,7 +12,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-/// The box of `open_box` has sides at x = -5 and x = 5.
+/// The box of `open_box` has sides at x = -5 and x = 5; of the latter, half is missing.
 class HandMeasurements : public ServiceTest {
  protected:
   HandMeasurements() { open_box(60); }
@@ -33,14 +33,14 @@ class HandMeasurements : public ServiceTest {
 };
 
 TEST_F(HandMeasurements, AreKeptWithTheProject) {
-  EXPECT_EQ(measure("distance", {place(-9, 0.2), place(9, 4.2)}).at("state"), "done");
-  EXPECT_EQ(measure("thickness", Json::array({place(-9, 4.2)})).at("state"), "done");
+  EXPECT_EQ(measure("distance", {place(-9, 0.2), place(9, -4.2)}).at("state"), "done");
+  EXPECT_EQ(measure("thickness", Json::array({place(-9, -4.2)})).at("state"), "done");
   EXPECT_EQ(measure("area", Json::array()).at("state"), "done");
   const Json list = project().at("measurements");
   ASSERT_EQ(list.size(), 3U);
   EXPECT_EQ(list[0].at("label"), "A");
   EXPECT_EQ(list[0].at("mesh"), mesh());
-  EXPECT_NEAR(list[0].at("value").get<double>(), std::hypot(10.0, 4.0), 1e-5);
+  EXPECT_NEAR(list[0].at("value").get<double>(), std::hypot(10.0, 4.4), 1e-5);
   EXPECT_TRUE(list[0].at("u95").is_null());
   EXPECT_EQ(list[1].at("label"), "B");
   EXPECT_NEAR(list[1].at("value").get<double>(), 10.0, 1e-5);
@@ -52,7 +52,7 @@ TEST_F(HandMeasurements, AreKeptWithTheProject) {
   EXPECT_EQ(project().at("measurements"), list);
   static_cast<void>(command("remove-measurements", {{"labels", {"A", "Z"}}}));
   EXPECT_EQ(project().at("measurements").size(), 2U);
-  EXPECT_EQ(measure("thickness", Json::array({place(9, 1.0)})).at("state"), "done");
+  EXPECT_EQ(measure("thickness", Json::array({place(9, -1.0)})).at("state"), "done");
   EXPECT_EQ(project().at("measurements").back().at("label"), "A");  // the first that is free
 }
 
@@ -64,7 +64,7 @@ TEST_F(HandMeasurements, OfAFaceSayWhichShapeItIs) {
 }
 
 TEST_F(HandMeasurements, OfASurfaceThatHasChangedAreRefused) {
-  const Json places{place(-9, 0.2), place(9, 4.2)};
+  const Json places{place(-9, 0.2), place(9, -4.2)};
   const std::string before = mesh();
   static_cast<void>(command("edit", {{"operation", "offset"}, {"value", "0.1mm"}}));
   EXPECT_EQ(finish().at("state"), "done");
@@ -84,7 +84,7 @@ TEST_F(HandMeasurements, OfASurfaceThatHasChangedAreRefused) {
 }
 
 TEST_F(HandMeasurements, RefuseWhatIsNone) {
-  const Json one = place(9, 1.0);
+  const Json one = place(9, -1.0);
   const auto refused = [&](const Json& arguments) { return refusal("measure", arguments.dump()); };
   EXPECT_NE(
       refused({{"quantity", "weight"}, {"places", Json::array()}, {"mesh", "1"}}).find("quantity"),
