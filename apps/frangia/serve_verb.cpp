@@ -22,6 +22,7 @@
 #include "drivers.h"
 #include "interrupt.h"
 #include "option_values.h"
+#include "print_page.h"
 #include "print_text.h"
 #include "serve/app_address.h"
 #include "serve/app_routes.h"
@@ -149,6 +150,7 @@ void serve(ServeArguments& arguments, Terminal& terminal) {
   options.projects = arguments.projects;
   options.version = FRANGIA_VERSION;
   options.command_lines = command_lines;
+  options.print_page = print_page;
   options.on_picture = [&server, &door] {
     server->announce_picture();
     door.announce_picture();

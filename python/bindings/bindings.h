@@ -12,6 +12,7 @@ void bind_rig(pybind11::module_& module);
 void bind_scan(pybind11::module_& module);
 void bind_mesh(pybind11::module_& module);
 void bind_inspection(pybind11::module_& module);
+void bind_sections(pybind11::module_& module);
 void bind_reconstruct(pybind11::module_& module);
 
 }  // namespace frangia::python

@@ -11,5 +11,6 @@ PYBIND11_MODULE(_frangia, module) {
   bound::bind_mesh(module);
   bound::bind_scan(module);
   bound::bind_inspection(module);
+  bound::bind_sections(module);
   bound::bind_reconstruct(module);
 }

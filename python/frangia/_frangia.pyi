@@ -598,6 +598,40 @@ class ScanView:
         """Views of one setup share a pose of the part."""
         ...
 
+class Section:
+    """The curves in which a plane cuts a mesh, the longest first."""
+    @property
+    def area_mm2(self) -> float:
+        """Of the material; NaN where a curve is open."""
+        ...
+    @property
+    def closed(self) -> list[bool]:
+        """Whether the last point of each curve is followed by the first."""
+        ...
+    @property
+    def curves(self) -> list[NDArray[np.float64]]:
+        """N x 2 for each curve: along u and v, with the material at the left."""
+        ...
+    @property
+    def length_mm(self) -> float:
+        """Of all curves."""
+        ...
+    @property
+    def point_mm(self) -> NDArray[np.float64]:
+        """Origin."""
+        ...
+    @property
+    def u(self) -> NDArray[np.float64]:
+        """Unit, in the plane."""
+        ...
+    @property
+    def v(self) -> NDArray[np.float64]:
+        """Unit, normal x u."""
+        ...
+    def write(self, path: str | os.PathLike[str]) -> None:
+        """Writes .dxf (release 12) or .svg, in mm."""
+        ...
+
 class SurfacePlace:
     """A place of the surface that is out or undecided."""
     @property
@@ -762,6 +796,10 @@ def reconstruct(scan: Scan, *, algorithm: str | LinearAlgorithm = 'auto', direct
 
 def rig_preset(name: str) -> Rig:
     """A built-in rig: digital, binocular, angular or carducci."""
+    ...
+
+def section(mesh: Mesh, point_mm: ArrayLike, normal: ArrayLike) -> Section:
+    """Cuts a mesh by the plane through a point. Synthesized triangles are left out, so that curves are open at filled holes."""
     ...
 
 def simulate(folder: str | os.PathLike[str], part: str | Mesh = 'bust', rig: str | Rig = 'digital', *, views: int = 8, seed: int = 1, samples_per_px: int = 4, shifts: int = 4, periods_px: Iterable[float] = [], progress: Callable[[float, str], object] | None = None, **faults: float) -> Scan:

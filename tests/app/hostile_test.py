@@ -86,6 +86,7 @@ FREE = {
     ("duplicate-project", "copy"),
     ("keep-rig", "name"),
     ("set-notes", "text"),
+    ("next-part", "name"),
 }
 
 
@@ -232,7 +233,7 @@ class Hostile(HostileServer):
                         ("exposures_ms", "[]"),
                         ("devices", "{}"),
                         ("plan", "{}"),
-                        ("measurements", "[]"),
+                        ("labels", "[]"),
                     ):
                         continue  # no merging of exposures, no devices, a plan of defaults, no measurements
                     body = '{"%s": %s}' % (field, number)

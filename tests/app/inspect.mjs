@@ -135,7 +135,7 @@ await tell(home, async () => {
   await page.locator('#report-group [name=serial]').press('Tab');
   await until('the serial number', (project) => project.plan.report?.serial === 'No. 17');
   await idle();
-  const report = await saved('#report', 'report.html');
+  const report = await saved('#report-html', 'report.html');
   expect(report.includes('No. 17') && report.includes('balls as designed.stl') && /sphere 2 diameter/.test(report), 'the report lacks what was inspected');
   const plan = await saved('#save-plan', 'saved.toml');
   const before = (await state()).plan;
@@ -150,7 +150,41 @@ await tell(home, async () => {
   expect(JSON.stringify(again) === JSON.stringify(before), 'the plan was read back otherwise');
   await idle();
   check('state', await stateOf(page));
+  if (fs.existsSync('/usr/bin/weasyprint')) {
+    const printed = await saved('#report', 'report.pdf');
+    expect(printed.startsWith('%PDF-'), 'the report is no PDF file');
+  } else {
+    await page.click('#report');
+    await page.waitForSelector('.notice >> text=install the package weasyprint');
+    await idle();
+  }
   passed('report and plan are files');
+
+  // Three places, each clicked on the scan and then on the reference, put the part on it.
+  await page.locator('#reference-group .seg label').filter({ hasText: 'Points' }).click();
+  await page.waitForSelector('.floating .chip >> text=Place 1 of 3: click it on the scan');
+  for (const [i, [x, y, z, r]] of [[0, 0, 0, 15], [50, 0, 0, 10], [18, 30, 6, 6]].entries())
+    for (const onReference of [false, true]) {
+      await page.waitForFunction((wanted) => {
+        const { viewer, state } = document.querySelector('frangia-app');
+        return viewer.atRest && viewer.showsReference === wanted && state.project.reference.shown;
+      }, onReference);
+      const [u, v] = await page.evaluate(([x, y, z, r]) => {
+        const { camera } = document.querySelector('frangia-app').viewer.view;
+        const center = camera.position.clone().set(x, y, z);
+        const seen = center.addScaledVector(camera.position.clone().sub(center).normalize(), r).project(camera);
+        return [(seen.x + 1) / 2, (1 - seen.y) / 2];
+      }, [i === 1 && !onReference ? x + 0.1 : x, y, z, r]);
+      const answer = page.waitForResponse((response) => response.url().endsWith('/api/pick'));
+      await page.mouse.click(scene.x + u * scene.width, scene.y + v * scene.height);
+      await answer;
+    }
+  const put = await until('the alignment by points', (project) => project.plan.align === 'points' && project.surface.comparison);
+  expect(put.plan.points.length === 3 && put.surface.comparison.moved_mm < 1.5, `the points moved the part by ${put.surface.comparison.moved_mm} mm`);
+  await idle();
+  await page.locator('.panel').evaluate((panel) => (panel.scrollTop = 0));
+  await look('by-points');
+  passed('three places align the part');
 
   // The part on its datums, in another language and in the light theme.
   await page.getByText('Datums', { exact: true }).click();
@@ -161,6 +195,24 @@ await tell(home, async () => {
   await page.keyboard.press('d');
   await page.locator('.panel').evaluate((panel) => (panel.scrollTop = 0));
   await look('german');
+  const german = await page.locator('#verdict').innerText();
+  expect(/Merkmale: \d, davon \d innerhalb, 1 außerhalb/.test(german) && /Sollfläche/.test(german) && !/nominal area/.test(german), `the verdict is worded: ${german}`);
   await page.setViewportSize({ width: 1024, height: 700 });
   await look('small');
+
+  // The next part, from a file, is inspected by the same plan and stands beside the first.
+  await page.selectOption('#language', 'en');
+  await page.setInputFiles('#next-file', { name: 'second.stl', mimeType: 'model/stl', buffer: stlOf(nominal) });
+  await page.waitForSelector('#ask [data-answer="0"]');
+  await page.click('#ask [data-answer="0"]');
+  const second = await until('the next part', (project) => project.name === 'balls 2' && project.surface?.inspection);
+  await idle();
+  expect(second.series.length === 1 && second.series[0].serial === 'No. 17' && second.series[0].verdict === 'out', `the series is ${JSON.stringify(second.series)}`);
+  expect(second.surface.inspection.verdict === 'in', `the second part is ${second.surface.inspection.verdict}`);
+  expect(second.plan.report?.serial === undefined && second.plan.features.length === 2, 'the plan is another one');
+  await page.setViewportSize({ width: 1366, height: 768 });
+  await page.locator('#series-group').scrollIntoViewIfNeeded();
+  await page.waitForFunction(() => document.querySelectorAll('.trend circle').length === 6);
+  await look('series');
+  check('state', await stateOf(page));
 }, 'the inspection is told');

@@ -60,6 +60,7 @@ await tell(home, async () => {
   coarsenCamera(path.join(home, 'projects', 'Uploaded'));
   await reopen(page, 'Uploaded');
   await page.click('#choose-devices');
+  await page.locator('.chooser details summary').first().click();
   await page.waitForSelector('textarea.lines');
   await page.locator('textarea.lines').first().fill('driver = "simulated"\npart = "plate"\nsamples = 1\n');
   await page.keyboard.press('Tab');

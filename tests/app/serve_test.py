@@ -297,6 +297,8 @@ class Serve(ServerTest):
             """A value that a rule of the schema allows."""
             if "$ref" in rule:
                 return example(schema["definitions"][rule["$ref"].split("/")[-1]])
+            if rule.get("type") == "array":
+                return [example(rule["items"])] * rule.get("minItems", 0)
             return (
                 rule["enum"][0]
                 if "enum" in rule

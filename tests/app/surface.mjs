@@ -303,7 +303,8 @@ await tell(home, async () => {
   await idle();
   await page.reload();
   await page.waitForFunction(() => document.querySelector('frangia-app')?.meshes?.fine && document.querySelectorAll('.measured tr').length === 2);
-  expect((await page.locator('.view-labels text').allTextContents()).join() === 'A,B', 'the letters are not in the picture');
+  const labels = (await page.locator('.view-labels text').allTextContents()).join();
+  expect(/^A [\d.]+ mm,B [\d.]+ mm$/.test(labels), `the labels in the picture are ${labels}`);
   await page.keyboard.press('Escape');
 
   // A mesh that is chosen from the first page opens in a project of its own.

@@ -7,6 +7,7 @@
 
 #include "frangia/core/angles.h"
 #include "frangia/core/error.h"
+#include "frangia/geometry/vertex_data.h"
 #include "frangia/inspect/blade_section.h"
 
 #include "support/test_meshes.h"
@@ -26,6 +27,19 @@ double area_of(const SectionCurve& curve) {
     area += 0.5 * (a.x() * b.y() - a.y() * b.x());
   }
   return area;
+}
+
+TEST(SectionCurves, TheAreaIsThatOfTheMaterialAndNoneWhereACurveIsOpen) {
+  Mesh shell = testing::sphere({1, 2, 3}, 20.0);
+  Mesh inside = testing::sphere({1, 2, 3}, 15.0);
+  for (Mesh::Triangle& triangle : inside.triangles)
+    std::swap(triangle[0], triangle[1]);
+  append_mesh(shell, inside);
+  const SectionPlane middle = section_plane({1, 2, 3}, Vector3d::UnitY());
+  EXPECT_NEAR(area_mm2(section_curves(shell, middle)), kPi * (400.0 - 225.0), 2.0);
+  EXPECT_EQ(area_mm2({}), 0.0);
+  shell.triangles.resize(shell.triangles.size() / 4);  // half of the outer sphere is left
+  EXPECT_TRUE(std::isnan(area_mm2(section_curves(shell, middle))));
 }
 
 TEST(SectionCurves, OfASphereIsACircleWithTheMaterialAtItsLeft) {

@@ -278,6 +278,25 @@ class Inspections(unittest.TestCase):
             self.assertEqual(pathlib.Path(written[-1]).name, "report.html")
             self.assertIsNone(found.reference_from_mesh)
 
+    def test_sections(self):
+        ball = frangia.make_part("ball-bar")
+        low = ball.vertices.min(axis=0)
+        cut = frangia.section(ball, (0, 35, 60), (1, 0, 0))
+        # The balls of 40 mm, cut through their centers.
+        self.assertTrue(all(cut.closed))
+        radii = [np.linalg.norm(curve - curve.mean(axis=0), axis=1) for curve in cut.curves]
+        self.assertTrue(any(len(radius) > 20 and abs(radius - 20).max() < 0.5 for radius in radii))
+        self.assertGreater(cut.area_mm2, np.pi * 20**2)
+        self.assertEqual(frangia.section(ball, low - 1, (0, 0, 1)).curves, [])
+        with tempfile.TemporaryDirectory() as folder:
+            for name in ("cut.dxf", "cut.svg"):
+                cut.write(pathlib.Path(folder) / name)
+            self.assertIn("POLYLINE", (pathlib.Path(folder) / "cut.dxf").read_text())
+            with self.assertRaisesRegex(frangia.InputError, "dxf or .svg"):
+                cut.write(pathlib.Path(folder) / "cut.png")
+        with self.assertRaisesRegex(frangia.InputError, "normal of a section must not be zero"):
+            frangia.section(ball, (0, 0, 0), (0, 0, 0))
+
     def test_refuses_in_one_sentence(self):
         part = frangia.make_part("plate")
         with self.assertRaisesRegex(frangia.InputError, "there is no reference to align"):

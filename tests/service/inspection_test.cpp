@@ -97,12 +97,14 @@ TEST_F(ServiceTest, InspectsByAPlanThatThePageMakesAndTheFolderKeeps) {
     named += feature.at("name").is_null() ? 0U : 1U;
   EXPECT_EQ(named, 2U);
 
-  for (const char* format : {"html", "csv", "qif", "toml"}) {
+  for (const char* format : {"html", "pdf", "csv", "qif", "toml"}) {
     static_cast<void>(command("report", {{"format", format}}));
     EXPECT_EQ(finish().at("state"), "done") << format;
   }
   const auto text = [&](const char* name) { return read_text_file(service_->exported(name).path); };
   EXPECT_NE(text("box report.html").find("box ä"), std::string::npos);
+  EXPECT_NE(text("box report.pdf").find("box ä"), std::string::npos) << "the page is printed";
+  EXPECT_FALSE(std::filesystem::exists(folder_.path() / "projects" / "box" / "report.part.html"));
   EXPECT_NE(text("box report.csv").find("\"height\",mm,10,9.99,10.01,10,"), std::string::npos);
   EXPECT_NE(text("inspection.toml").find("name = \"height\""), std::string::npos);
   // The plan that was saved is read back, and the one in the folder after a restart.
@@ -121,6 +123,108 @@ TEST_F(ServiceTest, InspectsByAPlanThatThePageMakesAndTheFolderKeeps) {
   static_cast<void>(finish());
   EXPECT_TRUE(state().at("project").at("plan").is_null());
   EXPECT_NE(state().at("project").at("plan_fault"), "");
+}
+
+TEST_F(ServiceTest, InspectsTheNextPartByTheSamePlan) {
+  open_box(60);
+  const Json side = {{"name", "ball"},
+                     {"kind", "sphere"},
+                     {"near_mm", {20, 0, 0}},
+                     {"diameter_mm", 6},
+                     {"tolerance_mm", {-0.2, 0.2}}};
+  static_cast<void>(command("set-plan", {{"plan", {{"features", Json::array({side})}}}}));
+  static_cast<void>(command("inspect"));
+  ASSERT_EQ(finish().at("state"), "done");
+  EXPECT_TRUE(state().at("project").at("series").empty());
+  Json plan = state().at("project").at("plan");
+  plan["report"] = {{"serial", "No. 1"}};
+  static_cast<void>(command("set-plan", {{"plan", plan}}));
+  EXPECT_NE(refusal("next-part", R"({"name": "box"})"), "") << "the name is taken";
+  EXPECT_NE(refusal("next-part", R"({"name": "../evil"})"), "");
+  static_cast<void>(command("next-part", {{"name", "box 2"}}));
+  static_cast<void>(finish());
+  const Json next = state().at("project");
+  EXPECT_EQ(next.at("name"), "box 2");
+  EXPECT_EQ(next.at("plan").at("features").size(), 1U);
+  EXPECT_FALSE(next.at("plan").contains("report")) << "the serial number is of the part before";
+  ASSERT_EQ(next.at("series").size(), 1U);
+  const Json before = next.at("series")[0];
+  EXPECT_EQ(before.at("name"), "box");
+  EXPECT_EQ(before.at("serial"), "No. 1");
+  EXPECT_EQ(before.at("verdict"), "in");
+  ASSERT_EQ(before.at("rows").size(), 1U);
+  EXPECT_NEAR(before.at("rows")[0].at("value").get<double>(), 6.0, 0.2);
+  EXPECT_EQ(before.at("rows")[0].at("verdict"), "in");
+
+  // The third part knows both; results that are damaged are none, a project that is gone is none.
+  static_cast<void>(command("next-part", {{"name", "box 3"}}));
+  static_cast<void>(finish());
+  const Json series = state().at("project").at("series");
+  ASSERT_EQ(series.size(), 2U);
+  EXPECT_TRUE(series[1].at("verdict").is_null()) << "the second was not inspected";
+  std::ofstream(folder_.path() / "projects" / "box" / "results.json") << "{";
+  static_cast<void>(command("discard-project", {{"name", "box 2"}}));
+  restart();
+  static_cast<void>(command("open-project", {{"name", "box 3"}}));
+  static_cast<void>(finish());
+  const Json left = state().at("project").at("series");
+  ASSERT_EQ(left.size(), 1U);
+  EXPECT_TRUE(left[0].at("verdict").is_null());
+}
+
+TEST_F(ServiceTest, AlignsByPlacesThatArePickedOnSurfaceAndReference) {
+  open_box();
+  const auto file = folder_.path() / "moved.stl";
+  Mesh nominal = testing::sphere({20, 0, 0}, 3.0, 12);
+  append_mesh(nominal, testing::box({-5, -5, -5}, {5, 5, 5}));
+  for (Eigen::Vector3f& vertex : nominal.vertices_mm)
+    vertex += Eigen::Vector3f(100.0F, 0.0F, 0.0F);
+  write_mesh(file, nominal);
+  const std::string bytes = read_text_file(file);
+  EXPECT_NE(refusal("show-reference", "{}").find("no reference"), std::string::npos);
+  service_->add_to_reference(0, bytes);
+  static_cast<void>(command("set-reference",
+                            {{"name", "moved.stl"}, {"format", "stl"}, {"bytes", bytes.size()}}));
+  static_cast<void>(finish());
+  const auto shown = [&] { return state().at("project").at("reference").at("shown"); };
+  EXPECT_EQ(shown(), false);
+  EXPECT_TRUE(service_->reference_picture().empty());
+  Json ray{{"eye", {190, 0.5, 0.3}}, {"direction", {-1, 0, 0}}, {"reference", true}};
+  EXPECT_NE(error_of([&] { static_cast<void>(service_->pick(ray.dump())); }).find("show it first"),
+            std::string::npos);
+  static_cast<void>(command("show-reference"));
+  EXPECT_EQ(finish().at("state"), "done");
+  EXPECT_EQ(shown(), true);
+  EXPECT_FALSE(service_->reference_picture().empty());
+
+  // Rays through the ball and two sides of the box, on the surface and on the reference.
+  Json points = Json::array();
+  const std::vector<std::pair<Json, Json>> rays{
+      {{90, 0.5, 0.3}, {-1, 0, 0}}, {{1, 2, 50}, {0, 0, -1}}, {{-3, 50, 1}, {0, -1, 0}}};
+  for (const auto& [eye, direction] : rays) {
+    const auto picked = [&](double moved, bool reference) {
+      Json from = eye;
+      from[0] = from[0].get<double>() + moved;
+      const Json asked{{"eye", from}, {"direction", direction}, {"reference", reference}};
+      return Json::parse(service_->pick(asked.dump())).at("hit").at("point_mm");
+    };
+    points.push_back({{"scan_mm", picked(0.0, false)}, {"reference_mm", picked(100.0, true)}});
+  }
+  static_cast<void>(command("set-plan", {{"plan", {{"align", "points"}, {"points", points}}}}));
+  EXPECT_EQ(state().at("project").at("plan").at("points").size(), 3U);
+  static_cast<void>(command("inspect"));
+  const Json job = finish();
+  ASSERT_EQ(job.at("state"), "done") << job.at("error");
+  const Json found = state().at("project").at("surface");
+  EXPECT_NEAR(found.at("comparison").at("moved_mm").get<double>(), 100.0, 1e-3);
+  EXPECT_NEAR(found.at("comparison").at("max_mm").get<double>(), 0.0, 1e-3);
+  EXPECT_FALSE(found.at("inspection").at("reasons").empty());
+  // Another reference is not the one that is shown.
+  service_->add_to_reference(0, bytes);
+  static_cast<void>(command("set-reference",
+                            {{"name", "other.stl"}, {"format", "stl"}, {"bytes", bytes.size()}}));
+  static_cast<void>(finish());
+  EXPECT_EQ(shown(), false);
 }
 
 }  // namespace

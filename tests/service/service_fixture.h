@@ -7,6 +7,7 @@
 #include <functional>
 #include <memory>
 #include <mutex>
+#include <stop_token>
 #include <string>
 #include <thread>
 #include <utility>
@@ -38,6 +39,11 @@ class ServiceTest : public ::testing::Test {
     options.capture.drivers = testing::all_drivers;
     options.capture.board_drivers = testing::board_drivers;
     options.version = "test";
+    options.print_page = [](const std::filesystem::path& page,
+                            const std::filesystem::path& pdf,
+                            const std::stop_token& /*stop*/) {
+      std::filesystem::copy_file(page, pdf, std::filesystem::copy_options::overwrite_existing);
+    };
     options.command_lines = [](const ProjectProgress& project) {
       return CommandLines{{"edit", {project.folder.name, std::to_string(project.steps.size())}}};
     };

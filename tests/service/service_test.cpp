@@ -294,8 +294,13 @@ TEST_F(ServiceTest, OpensAMeshInAProjectOfItsOwnAndLeavesNothingOfWhatItCannotRe
   EXPECT_NE(refusal("open-file", R"({"format": "stl", "bytes": 3})"), "") << "it has a surface";
 
   send("Broken", "solid x\nfacet");
-  static_cast<void>(command("open-file", {{"format", "stl"}, {"bytes", 13}}));
-  EXPECT_EQ(finish().at("state"), "failed");
+  static_cast<void>(
+      command("open-file", {{"format", "stl"}, {"bytes", 13}, {"name", "my part.stl"}}));
+  const Json broken = finish();
+  EXPECT_EQ(broken.at("state"), "failed");
+  const std::string why = broken.at("error");
+  EXPECT_NE(why.find("my part.stl"), std::string::npos) << why;
+  EXPECT_EQ(why.find("arrived"), std::string::npos) << why;
   EXPECT_TRUE(state().at("project").at("surface").is_null());
   static_cast<void>(command("discard-project", {{"name", "Broken"}}));
   EXPECT_TRUE(state().at("project").is_null());

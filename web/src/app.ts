@@ -17,8 +17,10 @@ import { MeshSource } from './mesh_source';
 import { type Language, setLanguage, t } from './messages';
 import { applyPreferences } from './preferences';
 import { Opening } from './opening';
+import { Pairing } from './pairing';
 import { Projects } from './projects';
 import { CONFLICT, Refusal, Session } from './session';
+import { Sectioning } from './sectioning';
 import { Setups } from './setups';
 import { acts, blankPage, notices } from './shell';
 import { StationClouds } from './station_clouds';
@@ -31,14 +33,11 @@ import { rigStep } from './steps/rig';
 import { scanStep } from './steps/scan';
 import { surfaceStep } from './steps/surface';
 import type { Job, Project, State } from './types';
-import { type Hit, type Ray, type SectionAxis, type Shading, type Tool, Viewer } from './viewer';
+import { type Hit, type Ray, type SectionLook, type Shading, type Tool, Viewer } from './viewer';
 
-interface Look {
+interface Look extends SectionLook {
   shading: Shading;
   coloring: Coloring;
-  axis: SectionAxis;
-  share: number;
-  flipped: boolean;
 }
 
 const PANELS: Record<Exclude<StepName, 'project'>, (app: App) => TemplateResult> = {
@@ -58,7 +57,7 @@ const ACTING: ReadonlySet<StepName> = new Set(['rig', 'live', 'scan', 'edit']);
 @customElement('frangia-app')
 export class App extends LitElement {
   step: StepName = 'project';
-  look: Look = { shading: 'smooth', coloring: 'plain', axis: 'off', share: 0.5, flipped: false };
+  look: Look = { shading: 'smooth', coloring: 'plain', axis: 'off', normal: null, at: null, flipped: false };
   readonly session = new Session(
     () => this.onState(),
     (picture) => this.live.draw(picture),
@@ -73,6 +72,8 @@ export class App extends LitElement {
   readonly editing = new Editing(this);
   readonly exporting = new Exporting(this);
   readonly measuring = new Measuring(this);
+  readonly sectioning = new Sectioning(this);
+  readonly pairing = new Pairing(this);
   readonly host = document.createElement('div');
   viewer!: Viewer;
   meshes!: MeshSource;
@@ -98,7 +99,8 @@ export class App extends LitElement {
     this.host.className = 'view';
     this.viewer = new Viewer(this.host, {
       pick: (ray) => this.pick(ray),
-      measured: (result) => this.measuring.add(result),
+      placed: (tool, hit) =>
+        void { measure: this.measuring, section: this.sectioning, pair: this.pairing }[tool].picked(hit),
       outlined: (outline, through, keys) =>
         void this.editing.selectBy(through ? 'select-outline-through' : 'select-outline', outline, keys),
       partPicked: (triangle, keys) => void this.editing.selectPart(triangle, keys),
@@ -252,7 +254,7 @@ export class App extends LitElement {
     if (change.shading) viewer.setShading(look.shading);
     if (change.coloring) viewer.setColoring(look.coloring);
     if (look.coloring === 'setup') void this.meshes.showSetups();
-    viewer.setSection(look.axis, look.share, look.flipped);
+    viewer.setSection(look);
     this.requestUpdate();
   }
   say(error: unknown): void {
@@ -276,6 +278,8 @@ export class App extends LitElement {
     void this.exporting.follow();
     this.editing.follow();
     this.measuring.follow();
+    this.sectioning.follow();
+    this.pairing.follow();
     if (this.session.state) this.projects.follow();
     const key = `${this.step} ${this.session.state?.project?.calibration?.active ?? false}`;
     if (key === this.panelKey) return;

@@ -44,6 +44,18 @@ export class Exporting {
       this.app.say(error);
     }
   }
+  /** Writes what the section plane cuts, and downloads it when it is there. */
+  async section(format: 'dxf' | 'svg'): Promise<void> {
+    const { plane } = this.app.sectioning;
+    if (!plane) return;
+    try {
+      const { job } = await this.app.session.command<{ job: number }>('export-section', { ...plane, format });
+      this.wanted = { job, name: `${this.app.project.name} section.${format}` };
+      this.fetchWanted();
+    } catch (error) {
+      this.app.say(error);
+    }
+  }
   private wanted: { job: number; name: string } | null = null;
   private fetchWanted(): void {
     const job = this.app.state.jobs.find((one) => one.number === this.wanted?.job);

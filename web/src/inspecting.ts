@@ -1,6 +1,7 @@
 import type { App } from './app';
 import { t } from './messages';
 import { requireSendable } from './opening';
+import { nextName } from './steps/inspect_series';
 import type {
   CharacteristicKind,
   FoundFeature,
@@ -94,6 +95,22 @@ export class Inspecting {
     }
     this.sent = null;
     app.requestUpdate();
+  }
+
+  /** Begins the next part by the same plan: in a project of its own, to be scanned or from a file. */
+  async next(file?: File): Promise<void> {
+    const { app } = this;
+    const format = file && /\.(stl|ply|obj|3mf)$/i.exec(file.name)?.[1]?.toLowerCase();
+    if (file && !format) return app.say(t('inspect.wrongFile'));
+    const taken = app.state.projects.map(({ name }) => name);
+    const wanted = await app.asking.write(t('series.ask'), nextName(app.project.name, taken), t('series.begin'));
+    if (wanted === null || !(await app.command('next-part', { name: wanted }))) return;
+    if (!file || !format) return app.go('scan');
+    try {
+      await app.opening.into(file, format);
+    } catch (error) {
+      app.say(error);
+    }
   }
 
   /** Inspects by the present plan; `features` looks for all features, to choose from. */
@@ -191,7 +208,7 @@ export class Inspecting {
   }
 
   /** Writes a report, or the plan, and downloads it when it is there. */
-  async write(format: 'html' | 'csv' | 'qif' | 'toml'): Promise<void> {
+  async write(format: 'html' | 'pdf' | 'csv' | 'qif' | 'toml'): Promise<void> {
     try {
       const { job } = await this.app.session.command<{ job: number }>('report', { format });
       const name = format === 'toml' ? 'inspection.toml' : `${this.app.project.name} report.${format}`;

@@ -12,8 +12,6 @@ export interface Comparison {
   scale_mm: [number, number];
   histogram: number[];
   verdict: 'in' | 'out' | 'undecided';
-  /** The verdict in words, with the reason and what to do. */
-  sentence: string;
   /** Shares of the nominal area; they sum to 1. */
   in_share: number;
   out_share: number;
@@ -92,6 +90,16 @@ export interface Inspection {
   }[];
   thickness_mm: [number | null, number | null, number | null] | null;
 }
+/** What was found of a characteristic of an earlier part. */
+export type SeriesRow = Pick<MeasuredRow, 'name' | 'unit' | 'nominal' | 'limits' | 'value' | 'u95' | 'verdict'>;
+/** A part that was inspected by the same plan, in a project of its own. */
+export interface SeriesPart {
+  name: string;
+  serial: string;
+  /** Null: it was not inspected. */
+  verdict: Inspection['verdict'] | null;
+  rows: SeriesRow[];
+}
 export type CharacteristicKind =
   | 'distance'
   | 'angle'
@@ -126,10 +134,18 @@ export interface Plan {
   format: string;
   version: number;
   part?: string;
-  align?: 'best-fit' | 'datum' | 'none';
+  align?: 'best-fit' | 'datum' | 'points' | 'none';
+  /** The same places on the surface and on its reference. */
+  points?: { scan_mm: [number, number, number]; reference_mm: [number, number, number] }[];
   datums?: string[];
   start?: number;
   tolerance_mm?: [number, number];
+  /** How the surface is judged; 0 or null: by the usual rule. */
+  min_feature_mm?: number | null;
+  edge_mm?: number | null;
+  min_coverage?: number;
+  max_gap_mm?: number | null;
+  thickness?: boolean;
   features?: PlannedFeature[];
   characteristics?: PlannedCharacteristic[];
   report?: Partial<Record<'drawing' | 'order' | 'serial' | 'customer' | 'operator' | 'date' | 'paper', string>>;

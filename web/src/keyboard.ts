@@ -1,5 +1,5 @@
 import type { App } from './app';
-import { type StepName, STEPS } from './app_steps';
+import { ON_SURFACE, type StepName, STEPS } from './app_steps';
 import type { IconName } from './icons';
 import type { MessageKey } from './messages';
 import { toggleTheme } from './preferences';
@@ -15,8 +15,10 @@ export const KEYS: readonly (readonly [MessageKey | IconName, string])[] = [
   ['edit.lasso', 'L'],
   ['edit.rectangle', 'R'],
   ['edit.part', 'P'],
-  ['surface.measure', 'M'],
-  ['surface.measureAngle', 'A'],
+  ['measure.distance', 'M'],
+  ['measure.angle', 'A'],
+  ['section.axes', 'X Y Z'],
+  ['section.move', '+ −'],
   ['edit.delete', 'Del'],
   ['edit.invert', 'I'],
   ['edit.undo', 'Ctrl Z'],
@@ -58,6 +60,7 @@ export function onKey(app: App, event: KeyboardEvent): void {
     !target.matches('button, summary')
   )
     app.editing.applyPreview();
+  else if (key === 'escape' && app.viewer.tool === 'measure' && app.measuring.cancel()) return;
   else if (key === 'escape') app.setTool('orbit');
   else if (
     key === 'enter' &&
@@ -67,8 +70,11 @@ export function onKey(app: App, event: KeyboardEvent): void {
   )
     void app.command('capture-pose');
   else if (!surface) return;
-  else if (key === 'm') app.setTool('measure');
-  else if (key === 'a') app.setTool('angle');
+  else if (key === 'm') app.measuring.begin('distance');
+  else if (key === 'a') app.measuring.begin('angle');
+  else if (ON_SURFACE.has(app.step) && (key === 'x' || key === 'y' || key === 'z')) app.sectioning.toggle(key);
+  else if (key === '+' || key === '=') app.sectioning.move(1);
+  else if (key === '-') app.sectioning.move(-1);
   else if (app.step !== 'edit') return;
   else if (key === 'l') app.setTool('lasso');
   else if (key === 'b') app.setTool('brush');

@@ -1,156 +1,207 @@
 import { html, type TemplateResult } from 'lit';
-import { Vector3 } from 'three';
 import type { App } from './app';
 import { icon } from './icons';
 import { number, t } from './messages';
-import { type HandMeasurement, type Measurement, measured } from './ruler';
-import type { Surface } from './types';
+import type { HandMeasurement, Quantity } from './measure_types';
+import type { Triple } from './types';
+import { choice } from './ui';
+import type { Hit } from './viewer';
 
-interface Measured {
-  label: string;
-  result: Measurement;
+/** What can be measured, in the order of the buttons. */
+export const QUANTITIES: readonly Quantity[] = ['distance', 'angle', 'diameter', 'thickness', 'area', 'volume'];
+
+const UNITS: Record<HandMeasurement['unit'], string> = { mm: 'mm', degrees: '°', mm2: 'mm²', mm3: 'mm³' };
+
+/** Digits of a value: to a tenth of a micrometre, a hundredth of a degree, a thousandth of an area. */
+const digitsOf = ({ unit, value }: HandMeasurement): number => {
+  if (unit === 'mm') return 3;
+  if (unit === 'degrees') return 2;
+  return Math.abs(value) < 100 ? 3 : Math.abs(value) < 10_000 ? 2 : 0;
+};
+const gap = (unit: HandMeasurement['unit']): string => (unit === 'degrees' ? '' : ' ');
+
+const valueOf = (one: HandMeasurement): string =>
+  `${one.quantity === 'diameter' ? '⌀ ' : ''}${number(one.value, digitsOf(one))}${gap(one.unit)}${UNITS[one.unit]}`;
+
+function uncertaintyOf({ u95, unit, value }: HandMeasurement): string {
+  if (u95 === null) return '';
+  if (unit === 'mm') return u95 < 5e-5 ? `± < ${number(0.1, 1)} µm` : `± ${number(1000 * u95, 1)} µm`;
+  if (unit === 'degrees') return `± ${number(u95, 3)}°`;
+  return `± ${number(u95, Math.abs(value) < 100 ? 3 : 1)} ${UNITS[unit]}`;
 }
 
-/** "A" to "Z", then "A2", ... */
-const letter = (index: number): string =>
-  String.fromCharCode(65 + (index % 26)) + (index < 26 ? '' : String(Math.floor(index / 26) + 1));
+/** With a minus as wide as a digit; what rounds to zero has none. */
+const signed = (mm: number): string => `${mm <= -5e-4 ? '−' : ''}${number(Math.abs(mm), 3)}`;
 
-const value = ({ distance_mm, angle_deg }: Measurement): string =>
-  angle_deg === null ? `${number(distance_mm ?? 0, 3)} mm` : `${number(angle_deg, 2)}°`;
+/** The end of its line less the beginning, mm. */
+const deltaOf = ({ from_mm: from, to_mm: to }: HandMeasurement): Triple =>
+  [0, 1, 2].map((i) => (to[i] as number) - (from[i] as number)) as Triple;
 
-const uncertainty = ({ u95_mm, u95_deg }: Measurement): string =>
-  u95_mm !== null ? `± ${number(1000 * u95_mm, 1)} µm` : u95_deg !== null ? `± ${number(u95_deg, 3)}°` : '';
+/** What it is of, such as "plane – point". */
+const wordsOf = ({ elements }: HandMeasurement): string =>
+  elements.map(({ kind }) => t(`measure.of.${kind}`)).join(' – ');
 
-/** The last point less the first, mm. */
-function delta({ points }: Measurement): [number, number, number] {
-  const [a, b] = [points[0], points.at(-1)] as [number[], number[]];
-  return [0, 1, 2].map((i) => (b[i] as number) - (a[i] as number)) as [number, number, number];
-}
-
-/** Operations that choose triangles and leave the mesh as it is. */
-const CHOOSES = /^(select|invert$|grow$|shrink$|add$|without$|within$)/;
-
-/** Names the mesh that is shown, also after a restart: the version, and the edits that made it. */
-function meshOf({ version, steps, steps_done: done }: Surface): string {
-  const edits = steps.slice(0, done).filter(({ operation }) => !CHOOSES.test(operation));
-  let hash = 2166136261; // FNV-1a
-  for (const letter of JSON.stringify(edits.map(({ operation, value }) => [operation, value])))
-    hash = Math.imul(hash ^ (letter.codePointAt(0) as number), 16777619) >>> 0;
-  return `${version}-${hash.toString(16)}`;
-}
-
-const measuredBy = ({ label, points_mm: points, sigmas_mm: sigmas }: HandMeasurement): Measured => ({
-  label,
-  result: measured(
-    points.map((point) => new Vector3(...point)),
-    sigmas.map((sigma) => sigma ?? NaN),
-  ),
-});
+const LENGTHS: readonly Quantity[] = ['distance', 'thickness'];
 
 /** What was measured on the surface by hand, kept with the project. It belongs to the mesh on which it was clicked. */
 export class Measuring {
-  /** The list as it is sent, until the server has it. */
-  private sent: HandMeasurement[] | null = null;
-  private known: { of: string; all: Measured[] } = { of: '', all: [] };
+  /** What the tool measures. */
+  quantity: Quantity = 'distance';
+  /** Whether a click takes the whole face around it. */
+  faces = false;
+  private places: { point_mm: Triple; triangle: number; face: boolean }[] = [];
   private shown = '';
 
   constructor(private readonly app: App) {}
 
-  private get kept(): readonly HandMeasurement[] {
-    return this.sent ?? this.app.session.state?.project?.measurements ?? [];
-  }
-  get all(): readonly Measured[] {
+  get all(): readonly HandMeasurement[] {
     const { app } = this;
-    const surface = app.session.state?.project?.surface;
+    const project = app.session.state?.project;
+    const surface = project?.surface;
     if (!surface || !app.viewer.shown || app.viewer.meshShown !== surface.mesh_revision) return [];
-    const mesh = meshOf(surface);
-    const own = this.kept.filter((one) => one.mesh === mesh);
-    const of = JSON.stringify(own);
-    if (of !== this.known.of) this.known = { of, all: own.map(measuredBy) };
-    return this.known.all;
+    return project.measurements.filter((one) => one.mesh === surface.mesh);
   }
   /** The newest one, which the picture shows large. */
-  get last(): Measured | undefined {
+  get last(): HandMeasurement | undefined {
     return this.all.at(-1);
   }
   forget(): void {
-    this.sent = null;
+    this.places = [];
     this.follow();
   }
-  add(result: Measurement): void {
-    const surface = this.app.session.state?.project?.surface;
-    if (!surface) return;
-    const taken = new Set(this.kept.map(({ label }) => label));
-    let index = 0;
-    while (taken.has(letter(index))) ++index;
-    const one = {
-      label: letter(index),
-      mesh: meshOf(surface),
-      points_mm: [...result.points],
-      sigmas_mm: result.sigmas_mm.map((sigma) => (Number.isFinite(sigma) ? sigma : null)),
-    };
-    void this.keep([...this.kept, one]);
+
+  /** Begins to measure, or measures at once what needs no click; again, ends. */
+  begin(quantity: Quantity): void {
+    const { app } = this;
+    if (quantity === 'area' || quantity === 'volume') return void this.ask(quantity, []);
+    const same = app.viewer.tool === 'measure' && this.quantity === quantity;
+    this.quantity = quantity;
+    this.places = [];
+    app.setTool(same ? 'orbit' : 'measure');
   }
-  private async keep(list: HandMeasurement[]): Promise<void> {
-    this.sent = list;
-    this.follow();
-    const kept = await this.app.command('set-measurements', { measurements: list });
-    if (this.sent !== list) return; // a newer one is on its way
-    if (kept) await this.arrived(list);
-    this.sent = null;
-    this.follow();
+  takeFaces(faces: boolean): void {
+    this.faces = faces;
+    this.app.requestUpdate();
   }
-  /** Until the state holds what was sent, so that nothing flickers. */
-  private async arrived(list: HandMeasurement[]): Promise<void> {
-    const wanted = list.map(({ label }) => label).join();
-    const has = () => this.app.session.state?.project?.measurements.map(({ label }) => label).join() === wanted;
-    for (let i = 0; i < 40 && !has(); ++i) await new Promise((resolve) => setTimeout(resolve, 50));
+  /** Whether a click takes a face now. */
+  private get takesFace(): boolean {
+    return this.quantity === 'diameter' || (this.quantity !== 'thickness' && this.faces);
   }
-  private remove(label: string): void {
-    void this.keep(this.kept.filter((one) => one.label !== label));
+  private get wanted(): number {
+    if (this.quantity === 'distance') return 2;
+    if (this.quantity !== 'angle') return 1;
+    return (this.places[0]?.face ?? this.faces) ? 2 : 3;
   }
+  /** A click on the surface. */
+  picked({ point_mm, triangle }: Hit): void {
+    const { quantity, app } = this;
+    // The corner of an angle is of points alone.
+    const face = quantity === 'angle' && this.places[0] ? this.places[0].face : this.takesFace;
+    this.places.push({ point_mm, triangle, face });
+    const complete = this.places.length >= this.wanted;
+    const { places } = this;
+    if (complete) this.places = [];
+    app.viewer.showPending(this.places.map((place) => place.point_mm));
+    app.requestUpdate();
+    if (complete) void this.ask(quantity, places);
+  }
+  private async ask(quantity: Quantity, places: Measuring['places']): Promise<void> {
+    const mesh = this.app.project.surface?.mesh;
+    if (mesh) await this.app.command('measure', { quantity, places, mesh });
+  }
+  /** Drops what was clicked so far; whether there was anything. */
+  cancel(): boolean {
+    const begun = this.places.length > 0;
+    this.places = [];
+    this.app.viewer.showPending([]);
+    this.app.requestUpdate();
+    return begun;
+  }
+
   /** Brings the measurements of the mesh into the picture. */
   follow(): void {
     const { app } = this;
-    const key = `${app.viewer.meshShown} ${this.all.map(({ label }) => label).join(' ')}`;
+    if (app.viewer.tool !== 'measure') this.places = [];
+    const { all } = this;
+    const key = `${app.session.state?.project?.name} ${app.viewer.meshShown} ${all.map((one) => `${one.label}${one.value}`).join(' ')} ${t('measure.of.point')}`;
     if (key === this.shown) return;
     this.shown = key;
-    app.viewer.showMeasurements(this.all);
+    app.viewer.showMeasurements(
+      all.map((one) => ({
+        text: `${one.label} ${valueOf(one)}`,
+        points: one.elements.map(({ point_mm }) => point_mm),
+        from: one.from_mm,
+        to: one.to_mm,
+      })),
+    );
     app.requestUpdate();
   }
   private save(): void {
-    const row = ({ label, result }: Measured) =>
-      [
-        label,
-        result.distance_mm?.toFixed(4) ?? '',
-        result.u95_mm?.toFixed(4) ?? '',
-        result.angle_deg?.toFixed(4) ?? '',
-        result.u95_deg?.toFixed(4) ?? '',
-        ...delta(result).map((one) => one.toFixed(4)),
-      ].join(',');
-    const text = ['name,distance_mm,u95_mm,angle_deg,u95_deg,dx_mm,dy_mm,dz_mm', ...this.all.map(row), ''].join('\n');
+    const row = (one: HandMeasurement) => {
+      const delta = LENGTHS.includes(one.quantity) ? deltaOf(one).map((length) => length.toFixed(4)) : ['', '', ''];
+      const of = one.elements.map(({ kind }) => kind).join(' - ');
+      return [one.label, one.quantity, of, one.value.toFixed(4), one.unit, one.u95?.toFixed(4) ?? '', ...delta].join(
+        ',',
+      );
+    };
+    const text = ['name,quantity,of,value,unit,u95,dx_mm,dy_mm,dz_mm', ...this.all.map(row), ''].join('\n');
     this.app.exporting.save(new Blob([text], { type: 'text/csv' }), `${this.app.project.name} measured.csv`);
   }
 
-  /** The list in the panel. */
-  panel(): TemplateResult | string {
+  /** What can be measured, and the list of what was. */
+  panel(): TemplateResult {
+    const { app } = this;
+    const active = app.viewer.tool === 'measure';
+    const off = app.session.watches;
+    const chooses = active && (this.quantity === 'distance' || this.quantity === 'angle');
+    return html`<section class="group" id="measuring">
+      <h2>${t('measure.title')}</h2>
+      <div class="quantities">
+        ${QUANTITIES.map(
+          (quantity) =>
+            html`<button
+              class="btn small"
+              data-quantity=${quantity}
+              aria-pressed=${active && this.quantity === quantity}
+              title=${quantity === 'area' ? t('measure.areaHint') : quantity === 'volume' ? t('measure.volumeHint') : ''}
+              ?disabled=${off}
+              @click=${() => this.begin(quantity)}
+            >
+              ${t(`measure.${quantity}`)}
+            </button>`,
+        )}
+      </div>
+      ${
+        chooses
+          ? choice<'points' | 'faces'>(
+              t('measure.takes'),
+              this.faces ? 'faces' : 'points',
+              [
+                ['points', t('measure.points')],
+                ['faces', t('measure.faces')],
+              ],
+              (taken) => this.takeFaces(taken === 'faces'),
+            )
+          : ''
+      }
+      ${active ? html`<p class="quiet">${this.hint}</p>` : ''} ${this.list()}
+    </section>`;
+  }
+  private list(): TemplateResult | string {
     if (this.all.length === 0) return '';
     return html`<table class="table measured">
         <tbody class="num">
           ${this.all.map(
-            ({ label, result }) =>
-              html`<tr>
-                <th scope="row">${label}</th>
+            (one) =>
+              html`<tr data-measured=${one.label}>
+                <th scope="row">${one.label}</th>
                 <td>
-                  <b>${value(result)}</b> <span class="quiet">${uncertainty(result)}</span>
+                  <b>${valueOf(one)}</b> <span class="quiet">${uncertaintyOf(one)}</span><br />
+                  <span class="quiet">${t(`measure.${one.quantity}`)}, ${wordsOf(one)}</span>
                   ${
-                    result.angle_deg === null
-                      ? html`<br /><span class="quiet"
-                            >Δ
-                            ${delta(result)
-                              .map((one) => number(one, 2))
-                              .join('  ')}
-                            mm</span
+                    LENGTHS.includes(one.quantity)
+                      ? html`<br /><span class="quiet delta"
+                            >${['x', 'y', 'z'].map((axis, i) => html`<span>Δ${axis} ${signed(deltaOf(one)[i] as number)}</span>`)}</span
                           >`
                       : ''
                   }
@@ -159,9 +210,9 @@ export class Measuring {
                   <button
                     class="icon-btn"
                     title=${t('measure.remove')}
-                    aria-label="${t('measure.remove')} ${label}"
+                    aria-label="${t('measure.remove')} ${one.label}"
                     ?disabled=${this.app.session.watches}
-                    @click=${() => this.remove(label)}
+                    @click=${() => this.app.command('remove-measurements', { labels: [one.label] })}
                   >
                     ${icon('close')}
                   </button>
@@ -174,15 +225,24 @@ export class Measuring {
         ${icon('download')}${t('measure.save')}
       </button>`;
   }
-  /** The newest one on the picture, while a tool measures. */
+  /** What the tool waits for. */
+  private get hint(): string {
+    const { quantity } = this;
+    const left = this.wanted - this.places.length;
+    if (quantity === 'thickness') return t('measure.hint.thickness');
+    if (quantity === 'diameter') return t('measure.hint.diameter');
+    const face = quantity === 'angle' ? (this.places[0]?.face ?? this.faces) : this.faces;
+    return t(face ? 'measure.hint.faces' : 'measure.hint.points', { count: left });
+  }
+  /** What the tool waits for, and the newest one, on the picture, while the tool measures. */
   chip(): TemplateResult | string {
     const { last } = this;
-    const { tool } = this.app.viewer;
-    if (!last || (tool !== 'measure' && tool !== 'angle')) return '';
-    const u = uncertainty(last.result);
+    if (this.app.viewer.tool !== 'measure') return '';
+    if (!last || this.places.length > 0) return html`<div class="chip">${this.hint}</div>`;
+    const u = uncertaintyOf(last);
     return html`<div class="chip">
-      <div class="big">${last.label} = ${value(last.result)}</div>
-      ${u ? html`<div class="num quiet">${u} (k = 2)</div>` : ''}
+      <div class="big">${last.label} = ${valueOf(last)}</div>
+      ${u ? html`<div class="num quiet">${u} (U95)</div>` : ''}
     </div>`;
   }
 }

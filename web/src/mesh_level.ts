@@ -12,13 +12,16 @@ export class MeshLevel {
   private wires: THREE.LineSegments | null = null;
   private picked: THREE.Mesh | null = null;
 
-  constructor(readonly arrays: MeshArrays) {
+  constructor(
+    readonly arrays: MeshArrays,
+    color = PLAIN,
+  ) {
     const geometry = new THREE.BufferGeometry();
     geometry.setAttribute('position', new THREE.BufferAttribute(arrays.positions, 3));
     geometry.setAttribute('normal', new THREE.BufferAttribute(arrays.normals, 3));
     geometry.setIndex(new THREE.BufferAttribute(arrays.triangles, 1));
     geometry.computeBoundingSphere();
-    this.mesh = new THREE.Mesh(geometry, new SurfaceMaterial(PLAIN));
+    this.mesh = new THREE.Mesh(geometry, new SurfaceMaterial(color));
     this.group.add(this.mesh);
   }
 

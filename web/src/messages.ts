@@ -5,9 +5,11 @@ import { FRAME } from './messages/frame';
 import { HOME } from './messages/home';
 import { INSPECT } from './messages/inspect';
 import { LIVE } from './messages/live';
+import { MEASURE } from './messages/measure';
 import { RIG } from './messages/rig';
 import { SCAN } from './messages/scan';
 import { SURFACE } from './messages/surface';
+import { VERDICT } from './messages/verdict';
 
 /** The message catalogue, put together from its areas. */
 const CATALOGUE = {
@@ -18,9 +20,11 @@ const CATALOGUE = {
   ...SCAN,
   ...CHECK,
   ...SURFACE,
+  ...MEASURE,
   ...EDIT,
   ...INSPECT,
   ...EXPORT,
+  ...VERDICT,
 } as const;
 
 export type MessageKey = keyof typeof CATALOGUE;
@@ -51,6 +55,9 @@ export function t(key: MessageKey, values: Record<string, string | number> = {})
   const text: string = CATALOGUE[key][column];
   return text.replace(/\{(\w+)\}/g, (_, name: string) => String(values[name] ?? ''));
 }
+
+/** Whether the catalogue has a text. */
+export const isMessage = (key: string): key is MessageKey => key in CATALOGUE;
 
 /** A text with a number in it, which has a row of its own for one. */
 export const count = (

@@ -32,13 +32,16 @@ export function requireSendable(bytes: number): void {
 }
 
 /** Opens what is dropped on the page or chosen where it belongs: surfaces, scans and rigs. */
+/** The step that shows what arrived. */
+type Arrived = 'surface' | 'scan' | 'inspect';
+
 export class Opening {
   /** Whether something is held over the page that could be dropped. */
   over = false;
   /** Share of a file that has been sent; null while none is. */
   sent: number | null = null;
   /** The job that reads a file into a project of its own. */
-  private pending: { job: number; name: string; step: 'surface' | 'scan' } | null = null;
+  private pending: { job: number; name: string; step: Arrived } | null = null;
 
   constructor(private readonly app: App) {
     addEventListener('dragover', (event) => this.onOver(event));
@@ -94,8 +97,8 @@ export class Opening {
         const folder = scan.path.split('/').at(-2);
         if (files.length > MOST_FILES) throw new Error(t('open.many', { files: number(files.length) }));
         requireSendable(files.reduce((sum, { file }) => sum + file.size, 0));
-        await this.own(await zipOf(files), 'zip', folder ?? 'Scan', 'scan');
-      } else if (zip) await this.own(zip.file, 'zip', stem(zip.file.name), 'scan');
+        await this.own(await zipOf(files), folder ?? 'scan.toml', 'zip', folder ?? 'Scan', 'scan');
+      } else if (zip) await this.own(zip.file, zip.file.name, 'zip', stem(zip.file.name), 'scan');
       else if (surface) await this.surface(surface.file);
       else if (rig) await this.rig(rig.file, named(/\.csv$/i)?.file);
       else app.say(t('open.unknown', { name: files[0]?.file.name ?? '' }));
@@ -118,7 +121,7 @@ export class Opening {
         return app.inspecting.send(file);
       }
     }
-    await this.own(file, format, stem(file.name), 'surface');
+    await this.own(file, file.name, format, stem(file.name), 'surface');
   }
   private async rig(file: File, covariance?: File): Promise<void> {
     const { app } = this;
@@ -137,32 +140,47 @@ export class Opening {
   }
 
   /** Opens a file in a project that is made for it. */
-  private async own(file: Blob, format: string, wanted: string, step: 'surface' | 'scan'): Promise<void> {
+  private async own(file: Blob, fileName: string, format: string, wanted: string, step: Arrived): Promise<void> {
     const { app } = this;
     requireSendable(file.size);
     const name = this.freeName(wanted);
     await app.session.command('create-project', { name, stations: 8, devices: true });
     try {
-      this.sent = 0;
-      await app.session.send(file, (share) => {
-        this.sent = share;
-        app.requestUpdate();
-      });
-      const { job } = await app.session.command<{ job: number }>('open-file', { format, bytes: file.size });
-      this.pending = { job, name, step };
-      this.follow();
+      await this.arrive(file, fileName, format, name, step);
     } catch (error) {
       await app.session.command('discard-project', { name }).catch(() => undefined); // the first error says more
       throw error;
     }
   }
+  /** Sends a file to a project without a surface and a scan. */
+  private async arrive(file: Blob, fileName: string, format: string, name: string, step: Arrived): Promise<void> {
+    const { app } = this;
+    this.sent = 0;
+    await app.session.send(file, (share) => {
+      this.sent = share;
+      app.requestUpdate();
+    });
+    const arguments_ = { format, bytes: file.size, name: fileName.slice(0, 120) };
+    const { job } = await app.session.command<{ job: number }>('open-file', arguments_);
+    this.sent = null;
+    this.pending = { job, name, step };
+    this.follow();
+  }
+  /** Makes a file the surface of the open project, which has none, and inspects it. */
+  async into(file: File, format: string): Promise<void> {
+    requireSendable(file.size);
+    await this.arrive(file, file.name, format, this.app.project.name, 'inspect');
+  }
+
   /** Goes to what was opened when it is there; what could not be read leaves no project behind. */
   follow(): void {
     const { app, pending } = this;
     const job = app.state.jobs.find((one) => one.number === pending?.job);
     if (!pending || !job || job.state === 'waiting' || job.state === 'running') return;
     this.pending = null;
-    if (job.state === 'done') app.go(pending.step);
-    else void app.session.command('discard-project', { name: pending.name }).catch((error) => app.say(error));
+    if (job.state === 'done') {
+      app.go(pending.step);
+      if (pending.step === 'inspect') void app.inspecting.run();
+    } else void app.session.command('discard-project', { name: pending.name }).catch((error) => app.say(error));
   }
 }

@@ -1,10 +1,15 @@
 import { brushOutline, type Point } from './strokes';
 
 export type Tool =
-  'orbit' | 'measure' | 'angle' | 'brush' | 'lasso' | 'rectangle' | 'part' | 'loop' | 'align' | 'feature';
+  'orbit' | 'measure' | 'section' | 'pair' | 'brush' | 'lasso' | 'rectangle' | 'part' | 'loop' | 'align' | 'feature';
 
 export const DRAWING: ReadonlySet<Tool> = new Set(['lasso', 'rectangle', 'brush']);
-const CLICKING: ReadonlySet<Tool> = new Set(['measure', 'angle', 'part', 'loop', 'align', 'feature']);
+const CLICKING: ReadonlySet<Tool> = new Set(['measure', 'section', 'pair', 'part', 'loop', 'align', 'feature']);
+
+/** Tools whose clicks are places of the surface. */
+const PLACING = ['measure', 'section', 'pair'] as const satisfies readonly Tool[];
+export type PlacingTool = (typeof PLACING)[number];
+export const places = (tool: Tool): tool is PlacingTool => (PLACING as readonly Tool[]).includes(tool);
 
 /** The keys that are held while the pointer draws. */
 export interface ModifierKeys {

@@ -1,68 +1,46 @@
 import * as THREE from 'three';
 
-export type MeasureKind = 'distance' | 'angle' | 'points';
-export interface Measurement {
-  points: readonly [number, number, number][];
-  /** Of the points; NaN where not known. */
-  sigmas_mm: readonly number[];
-  distance_mm: number | null;
-  /** Expanded uncertainty of the distance, k = 2. */
-  u95_mm: number | null;
-  angle_deg: number | null;
-  /** Expanded uncertainty of the angle, k = 2. */
-  u95_deg: number | null;
-}
+import type { Triple } from './types';
 
-/** Points that were clicked on a mesh: two for a distance, three for an angle. */
-export interface HandMeasurement {
-  label: string;
-  mesh: string;
-  points_mm: [number, number, number][];
-  sigmas_mm: (number | null)[];
+/** What the picture draws of a measurement. */
+export interface Drawn {
+  text: string;
+  points: readonly Triple[];
+  from: Triple;
+  to: Triple;
 }
 
 const COLOR = 0xff8a4c;
+/** Size of a line of text, pixels. */
+const LINE = 18;
+const LETTER = 7.6;
 
-/** The distance of two points, or the angle at the second of three, with its uncertainty from those of the points, mm. */
-export function measured(points: readonly THREE.Vector3[], sigmas: readonly number[]): Measurement {
-  const [a, b, c] = points as [THREE.Vector3, THREE.Vector3, THREE.Vector3 | undefined];
-  const [sa, sb, sc] = sigmas as [number, number, number | undefined];
-  const known = (value: number): number | null => (Number.isFinite(value) ? 2 * value : null);
-  const places = points.map((point) => point.toArray() as [number, number, number]);
-  if (!c)
-    return {
-      points: places,
-      sigmas_mm: sigmas,
-      distance_mm: a.distanceTo(b),
-      u95_mm: known(Math.hypot(sa, sb)),
-      angle_deg: null,
-      u95_deg: null,
-    };
-  const [u, v] = [a.clone().sub(b), c.clone().sub(b)];
-  // The angle moves with the part of each error across its leg, in the plane of both legs.
-  const axis = u.clone().cross(v).normalize();
-  const ga = axis.clone().cross(u).divideScalar(-u.lengthSq());
-  const gc = axis.clone().cross(v).divideScalar(v.lengthSq());
-  const u95 = known(Math.hypot(sa * ga.length(), (sc as number) * gc.length(), sb * ga.add(gc).length()));
-  return {
-    points: places,
-    sigmas_mm: sigmas,
-    distance_mm: null,
-    u95_mm: null,
-    angle_deg: (u.angleTo(v) * 180) / Math.PI,
-    u95_deg: u95 === null ? null : (u95 * 180) / Math.PI,
-  };
+interface Anchor {
+  at: THREE.Vector3;
+  width: number;
+  leader: SVGLineElement;
+  text: SVGTextElement;
+}
+interface Box {
+  x: number;
+  y: number;
+  width: number;
 }
 
-/** Points that are being clicked on the surface, and what was measured between others before, each with its letter. */
+const element = <T extends SVGElement>(name: string): T =>
+  document.createElementNS('http://www.w3.org/2000/svg', name) as T;
+
+/** Whether two labels, each given by its middle, cover each other. */
+const covers = (a: Box, b: Box): boolean =>
+  Math.abs(a.x - b.x) < (a.width + b.width) / 2 + 6 && Math.abs(a.y - b.y) < LINE;
+
+/** Measurements in the scene, each with its label, and the points of the one that is being clicked. */
 export class Ruler {
   readonly group = new THREE.Group();
-  readonly labels = document.createElementNS('http://www.w3.org/2000/svg', 'svg');
+  readonly labels = element<SVGSVGElement>('svg');
   private readonly kept = new THREE.Group();
   private readonly present = new THREE.Group();
-  private ends: THREE.Vector3[] = [];
-  private sigmas: number[] = [];
-  private anchors: { at: THREE.Vector3; text: SVGTextElement }[] = [];
+  private anchors: Anchor[] = [];
 
   constructor() {
     this.group.add(this.kept, this.present);
@@ -70,51 +48,59 @@ export class Ruler {
     this.labels.setAttribute('aria-hidden', 'true');
   }
 
-  /** Drops the points that do not make a measurement yet. */
-  clear(): void {
-    this.ends = [];
-    this.sigmas = [];
+  /** Shows points that do not make a measurement yet; balls are of a size, mm. */
+  showPending(points: readonly THREE.Vector3[], size: number): void {
     this.present.clear();
+    for (const point of points) this.present.add(ball(point, size));
   }
 
-  /** Shows measurements with their letters; balls are of a size, mm. */
-  show(list: readonly { label: string; result: Measurement }[], size: number): void {
+  show(list: readonly Drawn[], size: number): void {
     this.kept.clear();
     this.labels.replaceChildren();
-    this.anchors = list.map(({ label, result }) => {
-      const points = result.points.map((point) => new THREE.Vector3(...point));
-      for (const point of points) this.kept.add(ball(point, size));
-      this.kept.add(line(points));
-      const text = document.createElementNS('http://www.w3.org/2000/svg', 'text');
-      text.textContent = label;
-      this.labels.append(text);
-      const at =
-        result.angle_deg === null
-          ? (points[0] as THREE.Vector3).clone().lerp(points[1] as THREE.Vector3, 0.5)
-          : (points[1] as THREE.Vector3).clone();
-      return { at, text };
+    this.anchors = list.map(({ text: words, points, from, to }) => {
+      for (const point of points) this.kept.add(ball(new THREE.Vector3(...point), size));
+      const [a, b] = [new THREE.Vector3(...from), new THREE.Vector3(...to)];
+      // The corner of an angle stands between the ends of its legs.
+      const middle = points.length === 3 ? [new THREE.Vector3(...(points[1] as Triple))] : [];
+      this.kept.add(line([a, ...middle, b]));
+      const leader = element<SVGLineElement>('line');
+      const text = element<SVGTextElement>('text');
+      text.textContent = words;
+      this.labels.append(leader, text);
+      const at = middle[0]?.clone() ?? a.clone().lerp(b, 0.5);
+      return { at, width: LETTER * words.length, leader, text };
     });
   }
-  /** Puts the letters where their measurements are in the picture, pixels. */
-  place(camera: THREE.Camera, width: number, height: number): void {
-    for (const { at, text } of this.anchors) {
-      const seen = at.clone().project(camera);
-      text.setAttribute('x', ((0.5 + seen.x / 2) * width).toFixed(1));
-      text.setAttribute('y', ((0.5 - seen.y / 2) * height - 8).toFixed(1));
-    }
+  /** Shows or hides what was measured, and not what is being clicked. */
+  showKept(shown: boolean): void {
+    this.kept.visible = shown;
+    this.labels.style.display = shown ? '' : 'none';
   }
-
-  /** Adds a point; returns a measurement once two points, or three for an angle, are there. */
-  add(point: THREE.Vector3, sigma: number, kind: MeasureKind, size: number): Measurement | null {
-    const wanted = kind === 'distance' ? 2 : 3;
-    if (this.ends.length === wanted) this.clear();
-    this.ends.push(point.clone());
-    this.sigmas.push(sigma);
-    this.present.add(ball(point, size));
-    if (this.ends.length < wanted || kind === 'points') return null;
-    const result = measured(this.ends, [...this.sigmas]);
-    this.clear();
-    return result;
+  /** Puts the labels beside their measurements in the picture, pixels; one that would cover another moves away. */
+  place(camera: THREE.Camera, width: number, height: number): void {
+    // The scale bar, which stands at the lower left.
+    const placed: Box[] = [44, 26].map((up) => ({ x: 150, y: height - up, width: 300 }));
+    for (const { at, width: wide, leader, text } of this.anchors) {
+      const seen = at.clone().project(camera);
+      const shown = Math.abs(seen.x) < 1 && Math.abs(seen.y) < 1 && seen.z < 1;
+      for (const one of [leader, text]) one.style.display = shown ? '' : 'none';
+      if (!shown) continue;
+      const [x, y] = [(0.5 + seen.x / 2) * width, (0.5 - seen.y / 2) * height];
+      const box = {
+        x: Math.min(width - wide / 2 - 6, Math.max(wide / 2 + 6, x)),
+        y: Math.max(LINE, y - 14),
+        width: wide,
+      };
+      const step = box.y > height / 2 ? -4 : 4;
+      while (placed.some((one) => covers(one, box)) && box.y < height - LINE && box.y > LINE) box.y += step;
+      placed.push(box);
+      text.setAttribute('x', box.x.toFixed(1));
+      text.setAttribute('y', box.y.toFixed(1));
+      leader.setAttribute('x1', x.toFixed(1));
+      leader.setAttribute('y1', y.toFixed(1));
+      leader.setAttribute('x2', box.x.toFixed(1));
+      leader.setAttribute('y2', (box.y - 4).toFixed(1));
+    }
   }
 }
 

@@ -1,5 +1,6 @@
 import type { Lan } from './link_dialog';
-import type { State } from './types';
+import type { Section } from './measure_types';
+import type { State, Triple } from './types';
 import type { Hit, Ray } from './viewer';
 
 const KEY = 'frangia-key';
@@ -171,6 +172,11 @@ export class Session {
   async pick(ray: Ray): Promise<Hit | null> {
     const response = await this.post('/api/pick', ray);
     return ((await response.json()) as { hit: Hit | null }).hit;
+  }
+
+  /** Where a plane cuts the exact mesh. */
+  async cut(plane: { point_mm: Triple; normal: Triple }): Promise<Section> {
+    return (await this.post('/api/section', plane)).json() as Promise<Section>;
   }
 
   async newLink(): Promise<string> {

@@ -4,9 +4,20 @@ import type { MeshArrays } from './arrays';
 import { type Coloring, type Legend, scaleOf } from './mesh_colors';
 import { MeshLevel } from './mesh_level';
 import { setupsAt } from './setup_cells';
+import type { Triple } from './types';
 
 export type Shading = 'smooth' | 'flat' | 'wire';
-export type SectionAxis = 'off' | 'x' | 'y' | 'z';
+export type SectionAxis = 'off' | 'x' | 'y' | 'z' | 'points';
+/** A plane normal to an axis, or through three points, at a position along its normal; null: in the middle of the part. */
+export interface SectionLook {
+  axis: SectionAxis;
+  /** Of the plane through three points; null until they were picked. */
+  normal: Triple | null;
+  at: number | null;
+  flipped: boolean;
+}
+
+const AXES: Record<'x' | 'y' | 'z', Triple> = { x: [1, 0, 0], y: [0, 1, 0], z: [0, 0, 1] };
 
 /** Wires of more triangles than these are a grey area. */
 const MOST_WIRED = 300_000;
@@ -28,11 +39,12 @@ export class SurfaceView {
   readonly plane = new THREE.Plane(new THREE.Vector3(1, 0, 0), 0);
   readonly box = new THREE.Box3();
   legend: Legend | null = null;
-  section: { axis: SectionAxis; share: number; flipped: boolean } = { axis: 'off', share: 0.5, flipped: false };
+  section: SectionLook = { axis: 'off', normal: null, at: null, flipped: false };
   private pictures: Picture[] = [];
   private current: Picture | null = null;
   private moving = false;
-  private whole = false;
+  /** Both sides of the section plane are shown. */
+  whole = false;
   private shading: Shading = 'smooth';
   private coloring: Coloring = 'plain';
   private setups: readonly Float32Array[] = [];
@@ -131,15 +143,29 @@ export class SurfaceView {
     this.colorAll();
   }
 
-  /** Position of the section plane, mm. */
+  /** Normal of the section plane; null without one. */
+  get sectionNormal(): Triple | null {
+    const { axis, normal } = this.section;
+    if (axis === 'off') return null;
+    return axis === 'points' ? normal : AXES[axis];
+  }
+  /** The ends of the part along the normal of the section plane, mm. */
+  get sectionRange(): [number, number] {
+    const normal = this.sectionNormal;
+    if (!normal || this.box.isEmpty()) return [0, 0];
+    const center = this.box.getCenter(new THREE.Vector3()).dot(new THREE.Vector3(...normal));
+    const { x, y, z } = this.box.getSize(new THREE.Vector3());
+    const half = (Math.abs(normal[0]) * x + Math.abs(normal[1]) * y + Math.abs(normal[2]) * z) / 2;
+    return [center - half, center + half];
+  }
+  /** Position of the section plane along its normal, mm. */
   get sectionAt(): number {
-    const { axis, share } = this.section;
-    if (axis === 'off' || this.box.isEmpty()) return 0;
-    return this.box.min[axis] + share * (this.box.max[axis] - this.box.min[axis]);
+    const [low, high] = this.sectionRange;
+    return this.section.at ?? (low + high) / 2;
   }
   /** Normal and offset of the half-space that stays; null without a section. */
   get kept(): [number, number, number, number] | null {
-    return this.section.axis === 'off' ? null : [...this.plane.normal.toArray(), this.plane.constant];
+    return this.sectionNormal && [...this.plane.normal.toArray(), this.plane.constant];
   }
 
   get size(): THREE.Vector3 {
@@ -153,13 +179,13 @@ export class SurfaceView {
   }
 
   cut(): void {
-    const { axis, flipped } = this.section;
-    const sign = flipped ? 1 : -1;
-    if (axis !== 'off') {
-      this.plane.normal.set(axis === 'x' ? sign : 0, axis === 'y' ? sign : 0, axis === 'z' ? sign : 0);
+    const normal = this.sectionNormal;
+    const sign = this.section.flipped ? 1 : -1;
+    if (normal) {
+      this.plane.normal.set(...normal).multiplyScalar(sign);
       this.plane.constant = -sign * this.sectionAt;
     }
-    for (const level of this.levels) level.cut(axis === 'off' || this.whole ? [] : [this.plane]);
+    for (const level of this.levels) level.cut(!normal || this.whole ? [] : [this.plane]);
   }
 
   setShading(shading: Shading): void {

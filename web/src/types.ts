@@ -1,5 +1,5 @@
-import type { Comparison, Inspection, Plan } from './inspection_types';
-import type { HandMeasurement } from './ruler';
+import type { Comparison, Inspection, Plan, SeriesPart } from './inspection_types';
+import type { HandMeasurement } from './measure_types';
 
 /** The state that the server sends; docs/service-schema.json describes it. */
 export type JobState = 'waiting' | 'running' | 'done' | 'failed' | 'stopped';
@@ -21,6 +21,7 @@ export interface Job {
     | 'reconstruct'
     | 'edit'
     | 'preview'
+    | 'measure'
     | 'reference'
     | 'inspect'
     | 'report'
@@ -226,6 +227,8 @@ export interface Version {
 export interface Surface {
   /** Its number among the versions. */
   version: number;
+  /** Names the mesh, also after a restart. */
+  mesh: string;
   /** Levels of detail, the coarsest first. */
   levels: { triangles: number; error_mm: number }[];
   comparison: Comparison | null;
@@ -330,8 +333,11 @@ export interface Project {
   current_version: number;
   /** Of which version and revision an exported surface is. */
   exports: ExportedFile[];
-  reference: { name: string; format: string } | null;
+  /** `shown`: it was read, and can be drawn and picked. */
+  reference: { name: string; format: string; shown: boolean } | null;
   measurements: HandMeasurement[];
+  /** Parts before this one that were inspected by the same plan, the oldest first. */
+  series: SeriesPart[];
   /** That the surface is inspected by; null: none was made. */
   plan: Plan | null;
   plan_fault: string;

@@ -48,8 +48,8 @@ export function viewOverlay(app: App): TemplateResult {
   const scene = viewer.supported && !app.showsCamera && !app.showsResiduals;
   const showsSurface = scene && ON_SURFACE.has(app.step);
   return html`<div class="floating">
-      ${previewBar(app)} ${viewer.tool === 'measure' && !app.measuring.last ? chip(t('surface.measureHint')) : ''}
-      ${viewer.tool === 'angle' && !app.measuring.last ? chip(t('surface.angleHint')) : ''}
+      ${previewBar(app)} ${viewer.tool === 'section' ? chip(app.sectioning.hint) : ''}
+      ${viewer.tool === 'pair' ? chip(app.pairing.hint) : ''}
       ${viewer.tool === 'align' && !app.project.surface?.preview ? chip(t('edit.alignHint')) : ''}
       ${viewer.tool === 'feature' ? chip(t('inspect.pickHint')) : ''}
       ${viewer.tool === 'loop' ? chip(t('edit.loopHint')) : ''} ${app.measuring.chip()}

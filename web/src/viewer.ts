@@ -6,41 +6,24 @@ import { CloudsView } from './clouds_view';
 import type { Coloring, Legend } from './mesh_colors';
 import { EditPreview } from './edit_preview';
 import { HoleMarks, type Marked } from './hole_marks';
-import { type Measurement, type MeasureKind, Ruler } from './ruler';
+import { type Drawn, Ruler } from './ruler';
 import { RigModel } from './rig_model';
 import { addLights, addTable } from './stage_props';
 import { Smoothing } from './smoothing';
-import { DRAWING, type ModifierKeys, PointerStrokes, type Tool } from './pointer_strokes';
-import { type SectionAxis, type Shading, SurfaceView } from './surface_view';
-import type { RigGeometry } from './types';
-import { type Outline, ViewCamera } from './view_camera';
+import type { Hit, Ray, ViewerEvents } from './viewer_events';
+import { ReferenceView } from './reference_view';
+import { SectionView } from './section_view';
+import { DRAWING, type ModifierKeys, places, PointerStrokes, type Tool } from './pointer_strokes';
+import { smallPicture } from './small_picture';
+import { type SectionLook, type Shading, SurfaceView } from './surface_view';
+import type { Section } from './measure_types';
+import type { RigGeometry, Triple } from './types';
+import { ViewCamera } from './view_camera';
 import { ViewMarks } from './view_marks';
 
 export type { ModifierKeys, Tool } from './pointer_strokes';
-export type { SectionAxis, Shading } from './surface_view';
-
-/** A ray through the picture, and the half-space that a section leaves. */
-export interface Ray {
-  eye: number[];
-  direction: number[];
-  section?: number[];
-}
-/** A point of the exact mesh. */
-export interface Hit {
-  point_mm: [number, number, number];
-  triangle: number;
-  sigma_mm: number | null;
-}
-
-interface Events {
-  /** Asks for the point of the exact mesh on a ray. */
-  pick(ray: Ray): Promise<Hit | null>;
-  measured(result: Measurement): void;
-  outlined(outline: Outline, through: boolean, keys: ModifierKeys): void;
-  partPicked(triangle: number, keys: ModifierKeys): void;
-  /** A point of the surface, or three of them for an alignment. */
-  picked(tool: Tool, points: [number, number, number][], keys: ModifierKeys): void;
-}
+export type { Hit, Ray } from './viewer_events';
+export type { SectionAxis, SectionLook, Shading } from './surface_view';
 
 /** After a move, until the finest level is drawn, ms: later where it takes long and would hold up the next move. */
 const REST_MS = 160;
@@ -66,12 +49,15 @@ export class Viewer {
   private readonly table = new THREE.Group();
   private readonly surface = new SurfaceView();
   private readonly ruler = new Ruler();
+  private readonly cut = new SectionView();
   private readonly preview = new EditPreview();
+  private readonly reference = new ReferenceView();
   private readonly holes = new HoleMarks();
   private readonly rig = new RigModel();
   private rigShown = 'null';
   private tableKnown = true;
-  private picks: THREE.Vector3[] = [];
+  private wanted = true;
+  private picks: Triple[] = [];
   private answered = Promise.resolve();
   private due = false;
   private resting = 0;
@@ -81,7 +67,7 @@ export class Viewer {
 
   constructor(
     private readonly host: HTMLElement,
-    private readonly events: Events,
+    private readonly events: ViewerEvents,
   ) {
     this.canvas = document.createElement('canvas');
     this.canvas.className = 'view-canvas';
@@ -116,6 +102,8 @@ export class Viewer {
       this.clouds.group,
       this.table,
       this.surface.group,
+      this.cut.group,
+      this.reference.group,
       this.preview.group,
       this.holes.group,
       this.ruler.group,
@@ -176,21 +164,20 @@ export class Viewer {
   /** The present view in a small JPEG, base64; empty where the browser makes none. */
   async thumbnail(width: number, height: number): Promise<string> {
     this.drawNow();
-    const { width: w, height: h } = this.canvas;
-    const scale = Math.max(width / w, height / h);
-    const small = document.createElement('canvas');
-    small.width = width;
-    small.height = height;
-    const pen = small.getContext('2d') as CanvasRenderingContext2D;
-    pen.fillStyle = '#20292b';
-    pen.fillRect(0, 0, width, height);
-    pen.drawImage(this.canvas, (width - w * scale) / 2, (height - h * scale) / 2, w * scale, h * scale);
-    return small.toDataURL('image/jpeg', 0.85).split(',')[1] ?? '';
+    return smallPicture(this.canvas, width, height);
   }
 
   showSurface(shown: boolean): void {
-    this.surface.group.visible = this.preview.group.visible = this.ruler.group.visible = shown;
-    this.ruler.labels.style.display = shown ? '' : 'none';
+    this.wanted = shown;
+    this.showParts();
+  }
+  /** The surface with what belongs to it, or the reference in its place. */
+  private showParts(): void {
+    const shown = this.wanted && !this.showsReference;
+    this.surface.group.visible = this.preview.group.visible = shown;
+    this.cut.group.visible = shown && !this.surface.whole;
+    this.ruler.group.visible = this.wanted;
+    this.ruler.showKept(shown);
     this.draw();
   }
   /** Draws the coarsest level until nothing has moved for a while. */
@@ -271,7 +258,7 @@ export class Viewer {
   setPreview(arrays: Map<string, ArrayLike<number>> | null): void {
     this.preview.set(arrays);
     this.surface.setWhole(arrays !== null);
-    this.draw();
+    this.showParts();
   }
   /** Rings around some holes. */
   mark(holes: readonly Marked[]): void {
@@ -293,9 +280,9 @@ export class Viewer {
     this.surface.setColoring(coloring);
     this.draw();
   }
-  setSection(axis: SectionAxis, share: number, flipped: boolean): void {
+  setSection({ axis, normal, at, flipped }: SectionLook): void {
     const before = JSON.stringify(this.surface.section);
-    this.surface.section = { axis, share, flipped };
+    this.surface.section = { axis, normal, at, flipped };
     if (before !== JSON.stringify(this.surface.section)) this.move();
     this.surface.cut();
     this.draw();
@@ -303,9 +290,25 @@ export class Viewer {
   get legend(): Legend | null {
     return this.surface.legend;
   }
-  /** Position of the section plane, mm. */
-  get sectionAt(): number {
-    return this.surface.sectionAt;
+  /** Shows the reference in place of the surface; null shows the surface again. */
+  setReference(arrays: MeshArrays | null): void {
+    if (!arrays && !this.showsReference) return;
+    this.reference.set(arrays);
+    this.showParts();
+    this.frame();
+  }
+  get showsReference(): boolean {
+    return this.reference.shown;
+  }
+  /** Shows what the section plane cuts; null shows nothing. */
+  setCut(section: Section | null): void {
+    this.cut.set(section);
+    this.draw();
+  }
+  /** The section plane: its normal, null without one; the ends of the part along it, and its position there, mm. */
+  get section(): { normal: Triple | null; range: [number, number]; at: number } {
+    const { sectionNormal: normal, sectionRange: range, sectionAt: at } = this.surface;
+    return { normal, range, at };
   }
   get size(): THREE.Vector3 {
     return this.surface.size;
@@ -315,7 +318,8 @@ export class Viewer {
   frame(direction?: [number, number, number]): void {
     if (!this.supported) return;
     const rig = this.rig.box();
-    this.view.frame(rig ?? this.surface.box, rig ? 0.78 : 1.12, direction);
+    const part = this.showsReference ? this.reference.box : this.surface.box;
+    this.view.frame(rig ?? part, rig ? 0.78 : 1.12, direction);
     this.draw();
   }
 
@@ -329,40 +333,40 @@ export class Viewer {
 
   /** Drops points that were clicked and make nothing yet. */
   clearMeasurement(): void {
-    this.ruler.clear();
+    this.showPending([]);
     this.picks = [];
     this.draw();
   }
-  showMeasurements(list: readonly { label: string; result: Measurement }[]): void {
+  showMeasurements(list: readonly Drawn[]): void {
     this.ruler.show(list, this.size.length() / 260);
+    this.draw();
+  }
+  /** Marks points that were clicked and make nothing yet. */
+  showPending(points: readonly Triple[]): void {
+    this.ruler.showPending(
+      points.map((point) => new THREE.Vector3(...point)),
+      this.size.length() / 260,
+    );
     this.draw();
   }
 
   private onHit(hit: Hit, keys: ModifierKeys): void {
     if (this.tool === 'part') return this.events.partPicked(hit.triangle, keys);
     if (this.tool === 'loop' || this.tool === 'feature') return this.events.picked(this.tool, [hit.point_mm], keys);
-    const kind: MeasureKind = this.tool === 'measure' ? 'distance' : this.tool === 'angle' ? 'angle' : 'points';
-    const point = new THREE.Vector3(...hit.point_mm);
-    const result = this.ruler.add(point, hit.sigma_mm ?? NaN, kind, this.size.length() / 260);
-    if (result) this.events.measured(result);
-    if (this.tool === 'align') {
-      this.picks.push(point);
-      if (this.picks.length === 3) {
-        this.events.picked(
-          'align',
-          this.picks.map((one) => one.toArray()),
-          keys,
-        );
-        this.clearMeasurement();
-      }
-    }
-    this.draw();
+    if (places(this.tool)) return this.events.placed(this.tool, hit);
+    if (this.tool !== 'align') return;
+    this.picks.push(hit.point_mm);
+    this.showPending(this.picks);
+    if (this.picks.length < 3) return;
+    this.events.picked('align', this.picks, keys);
+    this.clearMeasurement();
   }
 
   private pickRay(point: [number, number]): Ray {
     const { origin, direction } = this.view.rayAt(point);
     const { kept } = this.surface;
-    return { eye: origin.toArray(), direction: direction.toArray(), ...(kept ? { section: kept } : {}) };
+    const of = this.showsReference ? { reference: true as const } : kept ? { section: kept } : {};
+    return { eye: origin.toArray(), direction: direction.toArray(), ...of };
   }
 
   private resize(): void {

@@ -266,6 +266,8 @@ HttpResponse AppRoutes::get(const std::string& path) const {
     return found(path == "/api/mesh" ? service_.mesh() : service_.selection(),
                  "there is no surface");
   }
+  if (path == "/api/reference")
+    return found(service_.reference_picture(), "the reference is not shown; show it first");
   if (const auto level = number_after(path, "/api/levels/"))
     return found(service_.level(*level), "the surface has no such level");
   if (const auto level = number_after(path, "/api/selection/"))
@@ -296,6 +298,7 @@ HttpResponse AppRoutes::post(const std::string& path,
                              const std::string& body,
                              const std::string& key) const {
   if (path == "/api/pick") return {.body = service_.pick(body)};
+  if (path == "/api/section") return {.body = service_.section(body)};
   if (path == "/api/operator") {
     keys_.take_over(key);
     on_operator_();

@@ -2,6 +2,8 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
+#include <span>
 #include <vector>
 
 #include <Eigen/Core>
@@ -56,5 +58,24 @@ struct FindFeaturesOptions {
 [[nodiscard]] std::vector<Feature> find_features(const Mesh& mesh,
                                                  const FindFeaturesOptions& options = {},
                                                  const Run& run = {});
+
+/// A place that someone points at.
+struct FeaturePlace {
+  Eigen::Vector3d point_mm = Eigen::Vector3d::Zero();  ///< on the surface, or near it
+  Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();   ///< unit, outward, of the surface there
+};
+
+/// The plane, cylinder, sphere, cone or torus on which the surface around each place lies, grown
+/// and fitted as `find_features` does.
+///
+/// @shape    one for each place
+/// @units    mm
+/// @missing  none where the surface around the place lies on no such shape
+/// @errors   as find_features
+[[nodiscard]] std::vector<std::optional<Feature>> features_at(
+    const Mesh& mesh,
+    std::span<const FeaturePlace> places,
+    const FindFeaturesOptions& options = {},
+    const Run& run = {});
 
 }  // namespace frangia

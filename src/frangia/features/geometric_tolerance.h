@@ -67,6 +67,18 @@ struct MeasuredFeature {
                                                        const std::vector<Feature>& features,
                                                        const Run& run = {});
 
+/// The two points whose distance is that of two shapes.
+struct ShapeEnds {
+  Eigen::Vector3d from_mm = Eigen::Vector3d::Zero();  ///< on the shape, or its center or axis
+  Eigen::Vector3d to_mm = Eigen::Vector3d::Zero();    ///< likewise, of the datum
+};
+
+/// Between which points the distance of two shapes is: from the center of the first along the
+/// normal of a plane; along the common perpendicular of two axes; between centers.
+///
+/// @units    mm
+[[nodiscard]] ShapeEnds ends_between(const Shape& shape, const Shape& datum);
+
 /// A measured characteristic.
 struct MeasuredValue {
   double value = 0.0;  ///< mm; degrees for an angle

@@ -6,6 +6,7 @@
 #include <unordered_map>
 
 #include "frangia/core/error.h"
+#include "frangia/core/missing.h"
 #include "frangia/geometry/vertex_data.h"
 
 namespace frangia {
@@ -146,6 +147,19 @@ double length_mm(const SectionCurve& curve) {
   if (curve.closed && count > 1)
     length += (curve.points_mm.front() - curve.points_mm.back()).norm();
   return length;
+}
+
+double area_mm2(const std::vector<SectionCurve>& curves) {
+  double doubled = 0.0;
+  for (const SectionCurve& curve : curves) {
+    if (!curve.closed) return kMissing;
+    Vector2d before = curve.points_mm.back();
+    for (const Vector2d& point : curve.points_mm) {
+      doubled += before.x() * point.y() - before.y() * point.x();
+      before = point;
+    }
+  }
+  return 0.5 * doubled;
 }
 
 }  // namespace frangia

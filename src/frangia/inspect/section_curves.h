@@ -45,4 +45,10 @@ struct SectionCurve {
 /// @units    mm
 [[nodiscard]] double length_mm(const SectionCurve& curve);
 
+/// Area of the material in a section: what outer curves enclose, less what holes do.
+///
+/// @units    mm^2
+/// @missing  NaN where a curve is open
+[[nodiscard]] double area_mm2(const std::vector<SectionCurve>& curves);
+
 }  // namespace frangia

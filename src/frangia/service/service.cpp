@@ -10,11 +10,11 @@
 
 #include "frangia/core/error.h"
 #include "frangia/core/read_text_file.h"
+#include "frangia/geometry/pick_surface.h"
 #include "frangia/service/encode_arrays.h"
 #include "frangia/service/internal/answered_commands.h"
 #include "frangia/service/internal/array_packer.h"
 #include "frangia/service/internal/implementation.h"
-#include "frangia/service/pick_surface.h"
 
 namespace frangia {
 namespace {
@@ -56,7 +56,8 @@ std::string Service::Implementation::command(const std::string& name, const std:
       {"take-back-project", &Implementation::take_back_project},
       {"set-notes", &Implementation::set_notes},
       {"set-thumbnail", &Implementation::set_thumbnail},
-      {"set-measurements", &Implementation::set_measurements},
+      {"measure", &Implementation::start_measure},
+      {"remove-measurements", &Implementation::remove_measurements},
       {"open-file", &Implementation::open_file},
       {"set-capture", &Implementation::set_capture},
       {"start-live", &Implementation::start_live},
@@ -85,6 +86,8 @@ std::string Service::Implementation::command(const std::string& name, const std:
       {"preview", &Implementation::start_preview},
       {"drop-preview", &Implementation::drop_preview},
       {"set-reference", &Implementation::start_set_reference},
+      {"next-part", &Implementation::next_part},
+      {"show-reference", &Implementation::show_reference},
       {"set-plan", &Implementation::set_plan},
       {"open-plan", &Implementation::open_plan},
       {"inspect", &Implementation::start_inspect},
@@ -95,6 +98,7 @@ std::string Service::Implementation::command(const std::string& name, const std:
       {"redo", &Implementation::start_redo},
       {"fit", &Implementation::start_fit},
       {"export", &Implementation::start_export},
+      {"export-section", &Implementation::start_export_section},
       {"stop-job", &Implementation::stop_job}};
   const auto found = kCommands.find(name);
   require(found != kCommands.end(), "there is no such command");
@@ -294,6 +298,11 @@ std::string Service::level(std::size_t level) const {
   return surface ? surface->picture->packed_level(level) : std::string();
 }
 
+std::string Service::reference_picture() const {
+  const PicturePtr picture = implementation_->reference_picture();
+  return picture ? picture->packed_level(0) : std::string();
+}
+
 std::string Service::selection() const {
   const SurfacePtr surface = implementation_->surface();
   return surface ? encode_selection(*surface->selection, surface->selection_revision)
@@ -340,10 +349,13 @@ std::string Service::pick(const std::string& ray_json) const {
     ray.section_normal = {section[0], section[1], section[2]};
     ray.section_offset_mm = section[3];
   }
+  const bool of_reference = arguments.flag("reference");
   arguments.check_all_read();
   const SurfacePtr surface = implementation_->surface();
   require(surface != nullptr, "there is no surface to point at; reconstruct it first");
-  const auto picked = pick_surface(surface->picture->mesh(), ray);
+  const PicturePtr picture = of_reference ? implementation_->reference_picture() : surface->picture;
+  require(picture != nullptr, "the reference is not shown yet; show it first");
+  const auto picked = pick_surface(picture->mesh(), ray);
   nlohmann::ordered_json json{{"mesh_revision", surface->mesh_revision}, {"hit", nullptr}};
   if (picked) {
     const Eigen::Vector3d& p = picked->point_mm;
@@ -352,6 +364,10 @@ std::string Service::pick(const std::string& ray_json) const {
     if (std::isfinite(picked->sigma_mm)) json["hit"]["sigma_mm"] = picked->sigma_mm;
   }
   return json.dump();
+}
+
+std::string Service::section(const std::string& plane_json) const {
+  return implementation_->section(plane_json);
 }
 
 std::string Service::cloud(std::size_t station) const {

@@ -7,6 +7,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -66,6 +67,12 @@ struct ServiceOptions {
   std::string version;             ///< of the program, for the state
   /// Called when a live preview has a new picture, on any thread; may be empty.
   std::function<void()> on_picture;
+  /// Makes a PDF file of an HTML page; empty: the program cannot. It throws Error(Input), which
+  /// says what to install, where that is missing.
+  std::function<void(const std::filesystem::path& page,
+                     const std::filesystem::path& pdf,
+                     const std::stop_token& stop)>
+      print_page;
   /// Words the command lines that do the same as a project's steps; empty: the state has none.
   std::function<CommandLines(const ProjectProgress&)> command_lines;
 };
@@ -127,6 +134,8 @@ class Service {
   [[nodiscard]] std::string preview() const;
   /// The deviations from the reference at the vertices of a level; empty without a comparison.
   [[nodiscard]] std::string deviations(std::size_t level) const;
+  /// The reference as it is drawn, packed as a level; empty before the command `show-reference`.
+  [[nodiscard]] std::string reference_picture() const;
   /// Adds a piece to the file that becomes the reference by the command `set-reference`; at offset
   /// 0 it begins anew.
   ///
@@ -134,10 +143,16 @@ class Service {
   ///          be written
   void add_to_reference(std::size_t offset, const std::string& bytes);
   /// The point of the exact mesh on a ray, as JSON: "hit" is null where there is none. The ray is
-  /// a JSON object with "eye", "direction" and, if something is cut away, "section".
+  /// a JSON object with "eye", "direction" and, if something is cut away, "section"; with
+  /// "reference", the point is one of the reference.
   ///
   /// @errors   Error(Input) that names what is missing
   [[nodiscard]] std::string pick(const std::string& ray_json) const;
+  /// The curves in which a plane cuts the exact mesh, as JSON. The plane is a JSON object with
+  /// "point_mm" and "normal".
+  ///
+  /// @errors   Error(Input) that names what is missing
+  [[nodiscard]] std::string section(const std::string& plane_json) const;
   /// The points of a station as encode_points packs them; empty without any.
   [[nodiscard]] std::string cloud(std::size_t station) const;
   /// The registered points of a joined setup, counted from 0, as encode_points packs them; empty

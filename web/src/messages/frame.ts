@@ -151,6 +151,7 @@ export const FRAME = {
   'job.reconstruct': ['Building the surface', 'Fläche wird berechnet', 'Calcolo della superficie'],
   'job.edit': ['Editing', 'Bearbeitung', 'Modifica'],
   'job.preview': ['Preview', 'Vorschau', 'Anteprima'],
+  'job.measure': ['Measuring', 'Messung', 'Misura'],
   'job.reference': ['Keeping the reference', 'Referenz wird gespeichert', 'Salvataggio del riferimento'],
   'job.inspect': ['Inspecting', 'Prüfung', 'Ispezione'],
   'job.report': ['Writing the report', 'Bericht wird geschrieben', 'Scrittura del rapporto'],

@@ -38,6 +38,8 @@ export const RIG = {
   'rig.drivers': ['Other, by driver', 'Andere, nach Treiber', 'Altri, per driver'],
   'rig.noDevice': ['None', 'Keins', 'Nessuno'],
   'rig.optional': ['optional', 'optional', 'facoltativo'],
+  'rig.simulated': ['Simulated', 'Simuliert', 'Simulati'],
+  'rig.asText': ['Settings as text', 'Einstellungen als Text', 'Impostazioni come testo'],
   'rig.settings': ['Settings', 'Einstellungen', 'Impostazioni'],
   'rig.use': ['Use these', 'Diese benutzen', 'Usa questi'],
   'rig.keep': ['Cancel', 'Abbrechen', 'Annulla'],

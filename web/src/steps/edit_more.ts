@@ -3,7 +3,6 @@ import type { App } from '../app';
 import { number, t } from '../messages';
 import type { Fit } from '../types';
 import { numberForm } from '../ui';
-import { sectionPlane } from './surface';
 
 /** Selections by what is known of each triangle instead of by a stroke. */
 export function selectingByValue(app: App): TemplateResult {
@@ -61,16 +60,12 @@ export function fitting(app: App): TemplateResult {
 
 /** Operations that change the whole mesh. */
 export function shaping(app: App): TemplateResult {
-  const { look, viewer } = app;
-  const plane = () => {
-    const sign = look.flipped ? 1 : -1;
-    const normal = (['x', 'y', 'z'] as const).map((axis) => (axis === look.axis ? sign : 0)).join(',');
-    return `${normal},${(sign * viewer.sectionAt).toFixed(4)}`;
-  };
-  const off = app.busy || look.axis === 'off';
+  const { viewer } = app;
+  const plane = () => app.sectioning.half;
+  const off = app.busy || viewer.section.normal === null;
   return html`<section class="group">
     <h2>${t('edit.shape')}</h2>
-    ${sectionPlane(app)}
+    ${app.sectioning.panel(false)}
     <div class="pair">
       <button
         class="btn"
@@ -85,7 +80,7 @@ export function shaping(app: App): TemplateResult {
         ${t('edit.mirrorAt')}
       </button>
     </div>
-    ${look.axis === 'off' ? html`<p class="quiet">${t('edit.needsSection')}</p>` : ''}
+    ${viewer.section.normal === null ? html`<p class="quiet">${t('edit.needsSection')}</p>` : ''}
     ${numberForm('offset', t('edit.offsetBy'), 0.5, t('edit.offset'), app.busy, (value) => app.editing.preview('offset', `${value}`))}
     ${numberForm('islands', t('edit.islandsUpTo'), 5, t('edit.delete'), app.busy, (value) => app.editing.preview('remove-islands', `${value}mm`))}
     <button

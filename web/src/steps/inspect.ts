@@ -5,7 +5,10 @@ import { icon } from '../icons';
 import { number, t } from '../messages';
 import type { Comparison, Inspection, MeasuredRow, Plan } from '../inspection_types';
 import { choice, nextStep } from '../ui';
+import { verdictSentence } from '../verdict_words';
 import { planned } from './inspect_plan';
+import { reporting } from './inspect_report';
+import { series } from './inspect_series';
 
 /** With its sign, which a value that rounds to zero does not have. */
 export const signed = (value: number | null, digits = 3): string => {
@@ -27,26 +30,16 @@ const light = (verdict: Verdict): TemplateResult =>
     )}
   </svg>`;
 
-/** Why the part is what it is: the surface in words, and how many characteristics are in. */
+/** Why the part is what it is, in words, and where. */
 function verdict(app: App, found: Inspection): TemplateResult | string {
   const { inspecting } = app;
-  const { comparison } = app.project.surface ?? {};
-  const judged = found.characteristics.filter((row) => row.verdict !== null);
-  if (!comparison && judged.length === 0) return '';
-  const of = (one: Verdict) => judged.filter((row) => row.verdict === one).length;
+  if (found.reasons.length === 0) return '';
   return html`<section class="group" id="verdict">
     <div class="verdict-line ${found.verdict}">
       ${light(found.verdict)}
       <div>
         <b>${t(`inspect.${found.verdict}`)}</b>
-        ${comparison ? html`<p class="quiet">${comparison.sentence}</p>` : ''}
-        ${
-          judged.length > 0
-            ? html`<p class="quiet">
-                ${t('inspect.rows', { in: of('in'), out: of('out'), open: of('undecided'), count: judged.length })}
-              </p>`
-            : ''
-        }
+        ${found.reasons.map(({ clauses }) => html`<p class="quiet">${verdictSentence(clauses)}</p>`)}
       </div>
     </div>
     ${
@@ -166,10 +159,11 @@ function deviations(app: App, found: Comparison): TemplateResult {
       ${
         app.inspecting.plan.align === 'none'
           ? t('inspect.stands', { overlap: percent(found.overlap) })
-          : t('inspect.fitted', {
+          : t(app.inspecting.plan.align === 'points' ? 'inspect.byPoints' : 'inspect.fitted', {
               turned: number(found.turned_deg, 2),
               moved: number(found.moved_mm, 2),
               overlap: percent(found.overlap),
+              count: (app.inspecting.plan.points ?? []).length,
             })
       }
       ${found.left_out ? t('inspect.leftOut', { count: number(found.left_out) }) : ''}
@@ -231,6 +225,7 @@ function reference(app: App): TemplateResult {
   };
   const [lower, upper] = plan.tolerance_mm ?? [-0.1, 0.1];
   const align = (how: NonNullable<Plan['align']>) => {
+    if (how === 'points' && (plan.points ?? []).length < 3) return void app.pairing.begin('points');
     const first = plan.features?.[0]?.name;
     void inspecting.change({
       align: how,
@@ -259,11 +254,12 @@ function reference(app: App): TemplateResult {
               [
                 ['best-fit', t('inspect.bestFit')],
                 ...(plan.features?.length ? ([['datum', t('inspect.datum')]] as const) : []),
+                ['points', t('inspect.points')],
                 ['none', t('inspect.none')],
               ],
               align,
             )}
-            ${plan.align === 'datum' ? datums(app, plan) : ''}
+            ${plan.align === 'datum' ? datums(app, plan) : ''} ${app.pairing.panel(plan, off)}
             ${surface?.comparison ? poses(app, surface.comparison) : ''}
             <form class="row" @submit=${run}>
               <label class="field grow"
@@ -281,61 +277,67 @@ function reference(app: App): TemplateResult {
   </section>`;
 }
 
-/** What stands at the head of the report, and the files. */
-function reporting(app: App, found: Inspection | null): TemplateResult {
+/** How the surface is judged, and whether walls are measured. */
+function rule(app: App): TemplateResult {
   const { inspecting } = app;
   const { plan } = inspecting;
   const off = app.occupied || app.session.watches;
-  const field = (key: 'serial' | 'order' | 'customer' | 'operator' | 'drawing') =>
+  const walls = app.project.surface?.inspection?.thickness_mm;
+  const change = (event: SubmitEvent) => {
+    event.preventDefault();
+    const form = new FormData(event.target as HTMLFormElement);
+    const of = (name: string) => (form.get(name) === '' ? null : Number(form.get(name)));
+    void inspecting.change({
+      min_feature_mm: of('patch'),
+      edge_mm: of('edge'),
+      min_coverage: (of('coverage') ?? 90) / 100,
+      max_gap_mm: of('gap'),
+    });
+  };
+  const input = (name: 'patch' | 'edge' | 'coverage' | 'gap', value: number | null | undefined, usual: string) =>
     html`<label class="field"
-      ><span>${t(`inspect.field.${key}`)}</span
+      ><span>${t(`inspect.rule.${name}`)}</span
       ><input
-        name=${key}
-        maxlength="120"
+        class="num"
+        name=${name}
+        type="number"
+        step="any"
+        min="0"
+        max=${name === 'coverage' ? 100 : 10_000}
+        placeholder=${usual}
         ?disabled=${off}
-        .value=${plan.report?.[key] ?? ''}
-        @change=${(event: Event) => {
-          const { [key]: _, ...others } = plan.report ?? {};
-          const text = (event.target as HTMLInputElement).value.trim();
-          inspecting.head({ report: text ? { ...others, [key]: text } : others });
-        }}
+        .defaultValue=${value ? String(value) : ''}
     /></label>`;
-  return html`<section class="group" id="report-group">
-    <h2>${t('inspect.report')}</h2>
+  return html`<section class="group" id="rule-group">
+    <label class="switch"
+      >${t('inspect.thickness')}<input
+        type="checkbox"
+        name="thickness"
+        ?disabled=${off}
+        .checked=${plan.thickness ?? false}
+        @change=${(event: Event) => void inspecting.change({ thickness: (event.target as HTMLInputElement).checked })}
+    /></label>
+    ${
+      walls
+        ? html`<dl class="figures" id="walls">
+            ${(['thinnest', 'median', 'thickest'] as const).map(
+              (name, i) =>
+                html`<dt>${t(`inspect.wall.${name}`)}</dt>
+                  <dd class="num">${walls[i] == null ? '·' : number(walls[i], 3)}<span>mm</span></dd>`,
+            )}
+          </dl>`
+        : ''
+    }
     <details>
-      <summary>${t('inspect.head')}</summary>
-      <label class="field"
-        ><span>${t('inspect.field.part')}</span
-        ><input
-          name="part"
-          maxlength="120"
-          ?disabled=${off}
-          .value=${plan.part ?? ''}
-          @change=${(event: Event) => inspecting.head({ part: (event.target as HTMLInputElement).value.trim() })}
-      /></label>
-      ${field('drawing')}${field('serial')}${field('order')}${field('customer')}${field('operator')}
+      <summary>${t('inspect.rule')}</summary>
+      <form class="rule" @submit=${change}>
+        ${input('patch', plan.min_feature_mm, t('inspect.rule.auto'))}
+        ${input('edge', plan.edge_mm, t('inspect.rule.auto'))}
+        ${input('coverage', plan.min_coverage === undefined ? null : 100 * plan.min_coverage, '90')}
+        ${input('gap', plan.max_gap_mm, t('inspect.rule.auto'))}
+        <button class="btn" ?disabled=${off}>${t('inspect.set')}</button>
+      </form>
     </details>
-    <button
-      class="btn wide ${found ? 'primary' : ''}"
-      id="report"
-      ?disabled=${off || !found}
-      @click=${() => void inspecting.write('html')}
-    >
-      ${icon('download')}${t('inspect.writeReport')}
-    </button>
-    <p class="quiet">${t('inspect.print')}</p>
-    <div class="pair">
-      ${(['csv', 'qif'] as const).map(
-        (format) =>
-          html`<button
-            class="btn"
-            ?disabled=${off || !found?.characteristics.length}
-            @click=${() => void inspecting.write(format)}
-          >
-            ${format.toUpperCase()}
-          </button>`,
-      )}
-    </div>
   </section>`;
 }
 
@@ -343,6 +345,6 @@ export function inspectStep(app: App): TemplateResult {
   const { surface } = app.project;
   const found = surface?.inspection ?? null;
   return html`${found ? verdict(app, found) : ''} ${reference(app)} ${found ? rows(found) : ''} ${planned(app, found)}
-  ${surface?.comparison ? deviations(app, surface.comparison) : ''} ${reporting(app, found)}
-  ${nextStep(app, 'export', Boolean(found))}`;
+  ${surface?.comparison ? deviations(app, surface.comparison) : ''} ${rule(app)} ${app.measuring.panel()}
+  ${reporting(app, found)} ${series(app, found)} ${nextStep(app, 'export', Boolean(found))}`;
 }

@@ -3,6 +3,7 @@ import type { App } from '../app';
 import { icon } from '../icons';
 import { type MessageKey, t } from '../messages';
 import { type Table, TABLES } from '../types';
+import { deviceForm } from './device_form';
 import type { RigStage } from './rig_stages';
 
 /** The settings of each table as they stand in the form: lines of rig.toml, empty for no device. */
@@ -18,7 +19,10 @@ export const draftOf = (app: App): DeviceDraft =>
 
 const driverOf = (lines: string): string => /^\s*driver\s*=\s*"([^"]*)"/m.exec(lines)?.[1] ?? '';
 
-/** One table: what was found, then every driver, then the settings as text. */
+/** Whether a device exists in software alone. */
+const isSimulated = (one?: { driver: string }): boolean => one?.driver.startsWith('simulated') ?? false;
+
+/** One table: what was found, then every driver, the simulated ones last; then the settings as a form. */
 function chooser(app: App, draft: DeviceDraft, table: Table): TemplateResult {
   const search = app.state.search;
   const found = search?.connected.filter((one) => one.table === table) ?? [];
@@ -34,28 +38,31 @@ function chooser(app: App, draft: DeviceDraft, table: Table): TemplateResult {
   const driver = drivers.findIndex((one) => one.driver === driverOf(lines));
   const value = lines === '' ? '' : chosen >= 0 ? `f${chosen}` : driver >= 0 ? `d${driver}` : 'as is';
   const option = (key: string, text: string) => html`<option value=${key} ?selected=${key === value}>${text}</option>`;
+  const foundOption = (one: { name: string }, i: number) => option(`f${i}`, one.name);
+  const driverOption = (one: { description: string }, i: number) => option(`d${i}`, one.description);
+  const group = (name: MessageKey, options: TemplateResult[]) =>
+    options.length ? html`<optgroup label=${t(name)}>${options}</optgroup>` : '';
   return html`<div class="chooser">
     <label class="field"
       ><span
         >${t(`table.${table}` as MessageKey)}${REQUIRED.has(table) ? '' : html`<small>${t('rig.optional')}</small>`}</span
       ><select data-table=${table} @change=${(event: Event) => pick((event.target as HTMLSelectElement).value)}>
         ${option('', t('rig.noDevice'))} ${value === 'as is' ? option('as is', driverOf(lines)) : ''}
-        ${found.length ? html`<optgroup label=${t('rig.connected')}>${found.map((one, i) => option(`f${i}`, one.name))}</optgroup>` : ''}
-        ${drivers.length ? html`<optgroup label=${t('rig.drivers')}>${drivers.map((one, i) => option(`d${i}`, one.description))}</optgroup>` : ''}
+        ${group(
+          'rig.connected',
+          found.map(foundOption).filter((_, i) => !isSimulated(found[i])),
+        )}
+        ${group(
+          'rig.drivers',
+          drivers.map(driverOption).filter((_, i) => !isSimulated(drivers[i])),
+        )}
+        ${group('rig.simulated', [
+          ...found.map(foundOption).filter((_, i) => isSimulated(found[i])),
+          ...drivers.map(driverOption).filter((_, i) => isSimulated(drivers[i])),
+        ])}
       </select></label
     >
-    ${
-      lines
-        ? html`<textarea
-            class="lines"
-            rows=${Math.min(7, lines.split('\n').length)}
-            spellcheck="false"
-            aria-label="${t('rig.settings')}: ${t(`table.${table}` as MessageKey)}"
-            .value=${lines}
-            @change=${(event: Event) => change((event.target as HTMLTextAreaElement).value)}
-          ></textarea>`
-        : ''
-    }
+    ${lines ? deviceForm(lines, t(`table.${table}` as MessageKey), change) : ''}
   </div>`;
 }
 

@@ -1,6 +1,5 @@
 import { html, type TemplateResult } from 'lit';
 import type { App } from '../app';
-import { icon } from '../icons';
 import { joinedSetups } from '../legend';
 import type { Coloring } from '../mesh_colors';
 import { number, t } from '../messages';
@@ -9,7 +8,7 @@ import { findings } from './surface_findings';
 import { joins } from './scan_setups';
 import { versions } from './surface_versions';
 import type { Summary } from '../types';
-import type { SectionAxis, Shading } from '../viewer';
+import type { Shading } from '../viewer';
 
 const um = (value: number | null): TemplateResult =>
   value === null ? html`<dd class="num">·</dd>` : html`<dd class="num">${number(1000 * value, 1)}<span>µm</span></dd>`;
@@ -64,46 +63,6 @@ export function appearance(app: App): TemplateResult {
   </section>`;
 }
 
-/** The axis of the section plane, and where on it the plane stands. */
-export function sectionPlane(app: App): TemplateResult {
-  const { look } = app;
-  return html`${choice<SectionAxis>(
-    t('surface.section'),
-    look.axis,
-    [
-      ['off', t('surface.off')],
-      ['x', 'x'],
-      ['y', 'y'],
-      ['z', 'z'],
-    ],
-    (axis) => app.setLook({ axis }),
-  )}
-  ${
-    look.axis === 'off'
-      ? ''
-      : html`<div class="row">
-          <input
-            class="grow"
-            type="range"
-            min="0"
-            max="1"
-            step="0.002"
-            .value=${String(look.share)}
-            aria-label=${t('surface.position')}
-            @input=${(event: Event) => app.setLook({ share: Number((event.target as HTMLInputElement).value) })}
-          />
-          <button
-            class="icon-btn"
-            title=${t('surface.flip')}
-            aria-label=${t('surface.flip')}
-            @click=${() => app.setLook({ flipped: !look.flipped })}
-          >
-            ${icon('flip')}
-          </button>
-        </div>`
-  }`;
-}
-
 /** The surface is not in memory: it is being read, its reading was stopped, or there is none. */
 function absent(app: App): TemplateResult {
   const { surface_loading: loading, versions: all, current_version: current } = app.project;
@@ -128,30 +87,14 @@ function absent(app: App): TemplateResult {
 export function surfaceStep(app: App): TemplateResult {
   const { surface } = app.project;
   if (!surface) return absent(app);
-  const { look, viewer } = app;
-  const size = viewer.size;
+  const { size } = app.viewer;
   const { summary } = surface;
   return html`${findings(app)}${appearance(app)}
-    <section class="group">
-      <h2>
-        ${t('surface.section')}<small class="num"
-          >${look.axis === 'off' ? '' : `${look.axis} = ${number(viewer.sectionAt, 2)} mm`}</small
-        >
-      </h2>
-      ${sectionPlane(app)}
-      ${(['measure', 'angle'] as const).map(
-        (tool) =>
-          html`<button
-            class="btn wide"
-            aria-pressed=${app.viewer.tool === tool}
-            @click=${() => app.setTool(app.viewer.tool === tool ? 'orbit' : tool)}
-          >
-            ${icon(tool)}${t(tool === 'measure' ? 'surface.measure' : 'surface.measureAngle')}
-          </button>`,
-      )}
-      ${app.measuring.panel()}
+    <section class="group" id="section">
+      <h2>${t('section.title')}</h2>
+      ${app.sectioning.panel()}
     </section>
-    ${joins(app)}
+    ${app.measuring.panel()} ${joins(app)}
     <section class="group">
       <h2>${t('surface.figures')}</h2>
       <dl class="figures">

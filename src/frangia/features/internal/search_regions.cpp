@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <utility>
 
 #include "frangia/core/interruptible_chunks.h"
 #include "frangia/core/random.h"
@@ -78,10 +79,7 @@ class RegionSearch {
   }
 
   FoundRegions search() {
-    FoundRegions found;
-    scatter_mm_ = measure_scatter();
-    limits_.gate_mm = options_.gate_mm > 0.0 ? options_.gate_mm : kGateFactor * scatter_mm_;
-    found.gate_mm = limits_.gate_mm;
+    FoundRegions found = begun();
     for (int round = 0; round < kSearchRounds; ++round) {
       run_.report(0.8 * round / kSearchRounds);
       std::vector<ShapeRegion> candidates = candidates_of(seeds_of(round));
@@ -92,7 +90,52 @@ class RegionSearch {
     return found;
   }
 
+  FoundRegions at(std::span<const FeaturePlace> places) {
+    FoundRegions found = begun();
+    RegionGrower grower(cells_, cell_points_);
+    for (const FeaturePlace& place : places) {
+      ShapeRegion there;
+      for (const std::uint32_t seed : cells_at(place)) {
+        run_.check();
+        const auto region = best_at(seed, grower);
+        if (!region || region->cells.size() < kLeastCells) continue;
+        there = *region;
+        break;
+      }
+      found.regions.push_back(std::move(there));
+    }
+    return found;
+  }
+
  private:
+  /// Without regions, and with the gate by which they grow.
+  FoundRegions begun() {
+    scatter_mm_ = measure_scatter();
+    limits_.gate_mm = options_.gate_mm > 0.0 ? options_.gate_mm : kGateFactor * scatter_mm_;
+    FoundRegions found;
+    found.gate_mm = limits_.gate_mm;
+    return found;
+  }
+
+  /// The cells of the side of the surface that faces alike, the nearest first: the one that is
+  /// pointed at may be cut by an edge.
+  [[nodiscard]] std::vector<std::uint32_t> cells_at(const FeaturePlace& place) const {
+    constexpr double kAlike = 0.7;     // cosine: 45 degrees
+    constexpr double kFarthest = 3.0;  // in edges of a cell
+    constexpr std::size_t kTried = 6;
+    std::vector<std::pair<double, std::uint32_t>> near;
+    for (std::uint32_t cell = 0; cell < cells_.size(); ++cell) {
+      if (cells_.normals[cell].dot(place.normal) < kAlike) continue;
+      const double away = (cells_.points_mm[cell] - place.point_mm).norm();
+      if (away < kFarthest * cells_.edge_mm) near.emplace_back(away, cell);
+    }
+    std::sort(near.begin(), near.end());
+    std::vector<std::uint32_t> cells;
+    for (std::size_t i = 0; i < std::min(kTried, near.size()); ++i)
+      cells.push_back(near[i].second);
+    return cells;
+  }
+
   [[nodiscard]] std::vector<std::uint32_t> seeds_of(int round) const {
     std::vector<std::uint32_t> free;
     for (std::uint32_t cell = 0; cell < cells_.size(); ++cell)
@@ -211,6 +254,14 @@ FoundRegions search_regions(const FeaturePoints& points,
                             const FindFeaturesOptions& options,
                             const Run& run) {
   return RegionSearch(points, cells, options, run).search();
+}
+
+FoundRegions regions_at(const FeaturePoints& points,
+                        const SurfaceCells& cells,
+                        std::span<const FeaturePlace> places,
+                        const FindFeaturesOptions& options,
+                        const Run& run) {
+  return RegionSearch(points, cells, options, run).at(places);
 }
 
 }  // namespace frangia

@@ -1,6 +1,9 @@
 #pragma once
 
+#include <span>
 #include <vector>
+
+#include <Eigen/Core>
 
 #include "frangia/core/run.h"
 #include "frangia/features/find_features.h"
@@ -19,5 +22,13 @@ struct FoundRegions {
                                           const SurfaceCells& cells,
                                           const FindFeaturesOptions& options,
                                           const Run& run);
+
+/// The region at each place of the surface, which may share cells; one without cells where the
+/// surface lies on no shape there.
+[[nodiscard]] FoundRegions regions_at(const FeaturePoints& points,
+                                      const SurfaceCells& cells,
+                                      std::span<const FeaturePlace> places,
+                                      const FindFeaturesOptions& options,
+                                      const Run& run);
 
 }  // namespace frangia

@@ -44,6 +44,10 @@ class Service::Implementation {
   [[nodiscard]] std::string residuals() const;
   [[nodiscard]] std::string thumbnail(const std::string& name) const;
   [[nodiscard]] ExportedFile exported(const std::string& name) const;
+  /// The reference as it is drawn; null before `show-reference`.
+  [[nodiscard]] PicturePtr reference_picture() const;
+  /// The curves in which a plane cuts the surface, as docs/service-api.md describes them.
+  [[nodiscard]] std::string section(const std::string& plane_json) const;
   [[nodiscard]] LivePicture live_picture(LiveLayer layer, std::uint64_t after) const;
 
  private:
@@ -66,7 +70,6 @@ class Service::Implementation {
   Json take_back_project(CommandArguments& arguments);
   Json set_notes(CommandArguments& arguments);
   Json set_thumbnail(CommandArguments& arguments);
-  Json set_measurements(CommandArguments& arguments);
   Json open_file(CommandArguments& arguments);
   /// Leaves the open project when it has this name, and says whether it had.
   bool leave(const std::string& name);
@@ -100,18 +103,31 @@ class Service::Implementation {
   Json start_preview(CommandArguments& arguments);
   Json drop_preview(CommandArguments& arguments);
   Json start_set_reference(CommandArguments& arguments);
+  Json show_reference(CommandArguments& arguments);
+  Json next_part(CommandArguments& arguments);
   Json set_plan(CommandArguments& arguments);
   Json open_plan(CommandArguments& arguments);
   /// Keeps a plan that arrived as text, in the folder and in the state.
   Json keep_plan(const std::string& text);
   Json start_inspect(CommandArguments& arguments);
   Json start_report(CommandArguments& arguments);
+  /// Writes a page as a PDF file.
+  void print_page(const ProjectFolder& project,
+                  const std::string& page,
+                  const std::filesystem::path& pdf,
+                  const Run& run) const;
   Json estimate_export(CommandArguments& arguments);
   Json start_select_component(CommandArguments& arguments);
   Json start_undo(CommandArguments& arguments);
   Json start_redo(CommandArguments& arguments);
   Json start_fit(CommandArguments& arguments);
   Json start_export(CommandArguments& arguments);
+  Json start_measure(CommandArguments& arguments);
+  Json remove_measurements(CommandArguments& arguments);
+  /// Changes what was measured by hand: writes it, and shows it.
+  void keep_measurements(const ProjectFolder& project,
+                         const std::function<void(std::vector<HandMeasurement>&)>& edit);
+  Json start_export_section(CommandArguments& arguments);
   Json start_zip(const ProjectFolder& project);
   /// On the queue's thread: writes an export and shows it.
   void put_export(const ProjectFolder& project,
@@ -197,6 +213,7 @@ class Service::Implementation {
   std::function<void()> on_change_;  ///< does not throw
   std::mutex command_mutex_;         ///< one command at a time is accepted
   AnsweredCommands answered_;
+  std::mutex measurements_mutex_;  ///< one change of them at a time
   mutable std::mutex mutex_;
   std::vector<ProjectEntry> projects_;
   std::vector<LibraryRig> kept_rigs_;

@@ -162,20 +162,68 @@ nlohmann::ordered_json Service::Implementation::start_inspect(CommandArguments& 
         InspectionRequest asked{std::move(wanted), reference.name, features, nullptr};
         if (measures && lies_as_scanned(*model.snapshot()) && opened().scan_complete)
           asked.scan = std::make_shared<const Scan>(read_scan(project.scan, run));
-        return model.inspected(asked, count, run);
+        SurfaceModel inspected = model.inspected(asked, count, run);
+        write_series_results(project, inspected.snapshot()->inspection->found, asked.plan);
+        return inspected;
       });
 }
 
+nlohmann::ordered_json Service::Implementation::next_part(CommandArguments& arguments) {
+  const std::string name = arguments.text("name");
+  arguments.check_all_read();
+  require_idle();
+  const OpenProject now = opened();
+  require(now.folder.scan != now.folder.folder,
+          "the next part needs a project; this is a plain scan folder");
+  // The serial number may have been stated since the inspection.
+  if (now.surface && now.surface->inspection && now.lock)
+    write_series_results(now.folder,
+                         now.surface->inspection->found,
+                         now.plan.value_or(now.surface->inspection->asked.plan));
+  const ProjectFolder next = library_.create(name);
+  try {
+    prepare_next_part(now.folder, now.plan, next);
+    write_stations(next, planned_stations(std::max<std::size_t>(now.stations.size(), 1)));
+  } catch (...) {
+    std::error_code ignored;
+    std::filesystem::remove_all(next.folder, ignored);  // created above, holds nothing else
+    throw;
+  }
+  refresh_projects();
+  open(next);
+  return Json::object();
+}
+
+void Service::Implementation::print_page(const ProjectFolder& project,
+                                         const std::string& page,
+                                         const std::filesystem::path& pdf,
+                                         const Run& run) const {
+  const auto file = project.in_derived("report.part.html");
+  write_text_file(file, page);
+  run.stage("report");
+  std::error_code ignored;
+  try {
+    options_.print_page(file, pdf, run.stop);
+  } catch (...) {
+    std::filesystem::remove(file, ignored);
+    throw;
+  }
+  std::filesystem::remove(file, ignored);
+  run.check();
+}
+
 nlohmann::ordered_json Service::Implementation::start_report(CommandArguments& arguments) {
-  static constexpr std::array<std::string_view, 4> kFormats{"html", "csv", "qif", "toml"};
+  static constexpr std::array<std::string_view, 5> kFormats{"html", "pdf", "csv", "qif", "toml"};
   const ProjectFolder project = folder();
   const std::string format = arguments.text_or("format", "html");
   arguments.check_all_read();
   require(std::find(kFormats.begin(), kFormats.end(), format) != kFormats.end(),
-          "format: is html, csv, qif or toml");
+          "format: is html, pdf, csv, qif or toml");
   const SurfacePtr shown = surface();
   require(format == "toml" || (shown && shown->inspection),
           "there is no inspection to report; inspect the surface first");
+  require(format != "pdf" || options_.print_page,
+          "this program makes no PDF files; write the report as HTML and print it");
   return started("report", [this, project, format](const Run& run) {
     const SurfaceModel& model =
         model_of(project, "there is no surface yet; reconstruct it first", run);
@@ -212,7 +260,8 @@ nlohmann::ordered_json Service::Implementation::start_report(CommandArguments& a
                                   .version = "Frangia " + options_.version};
       InspectionReport report = report_of(part, plan, sources, run);
       report.mesh = project.name;
-      write_text_file(file, html_of(report));
+      if (format == "html") return write_text_file(file, html_of(report));
+      print_page(project, html_of(report), file, run);
     };
     put_export(project, project.name + " report." + format, origin, write, run);
   });

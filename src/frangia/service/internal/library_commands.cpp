@@ -17,6 +17,7 @@
 #include "frangia/files/zip_folder.h"
 #include "frangia/service/internal/implementation.h"
 #include "frangia/service/internal/move_folder.h"
+#include "frangia/service/internal/name_for_people.h"
 #include "frangia/service/internal/surface_build.h"
 
 namespace frangia {
@@ -24,6 +25,7 @@ namespace {
 
 constexpr std::size_t kMostNotes = 4000;         // bytes: a page
 constexpr std::size_t kMostThumbnail = 300'000;  // bytes: ten times that of a small picture
+constexpr std::size_t kMostFileName = 120;
 constexpr std::size_t kMostFileBytes = 512UL * 1024 * 1024;
 
 void put_text(const std::filesystem::path& path, std::string_view text) {
@@ -180,14 +182,6 @@ nlohmann::ordered_json Service::Implementation::set_thumbnail(CommandArguments& 
   return Json::object();
 }
 
-nlohmann::ordered_json Service::Implementation::set_measurements(CommandArguments& arguments) {
-  std::vector<HandMeasurement> wanted = hand_measurements_of(arguments.value("measurements"));
-  arguments.check_all_read();
-  write_hand_measurements(folder(), wanted);
-  change([&](OpenProject& project) { project.measurements.swap(wanted); });
-  return Json::object();
-}
-
 std::string Service::Implementation::thumbnail(const std::string& name) const {
   const ProjectFolder project = library_.find(name);
   std::error_code ignored;
@@ -200,7 +194,9 @@ std::string Service::Implementation::thumbnail(const std::string& name) const {
 nlohmann::ordered_json Service::Implementation::open_file(CommandArguments& arguments) {
   const std::string format = arguments.text("format");
   const std::size_t bytes = arguments.whole("bytes", 1, kMostFileBytes);
+  const std::string name = arguments.text_or("name", "");
   arguments.check_all_read();
+  require(name.size() <= kMostFileName, "name: has at most 120 letters; shorten it");
   const std::filesystem::path named = "file." + format;
   const bool is_plain = !format.empty() && std::all_of(format.begin(), format.end(), [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9');
@@ -221,17 +217,18 @@ nlohmann::ordered_json Service::Implementation::open_file(CommandArguments& argu
   const auto file = std::make_shared<const ArrivedFile>(project.folder, format);
   return started(
       "open",
-      [this, folder = project.folder, file, is_scan, key = arguments.key()](const Run& run) {
+      [this, folder = project.folder, file, is_scan, name, key = arguments.key()](const Run& run) {
         run.stage("files");
         if (!is_scan) {
-          const Mesh mesh = surface_in(file->path(), run);
+          const Mesh mesh =
+              naming(file->path(), name, [&] { return surface_in(file->path(), run); });
           return add_version(
               folder,
               key,
               [&](const std::filesystem::path& into) { write_given_surface(into, mesh, run); },
               run);
         }
-        unpack_scan(folder, file->path(), run);
+        naming(file->path(), name, [&] { unpack_scan(folder, file->path(), run); });
         std::error_code ignored;
         std::filesystem::remove(folder.stations(), ignored);
         const auto stations = read_stations(folder, run);

@@ -149,6 +149,7 @@ void Service::Implementation::open(const ProjectFolder& folder) {
   project.exports = exports_of(folder);
   project.reference = reference_of(folder);
   project.measurements = read_hand_measurements(folder);
+  project.series = read_series(library_, folder);
   read_plan_of(folder, project);
   bool loads = true;
   try {

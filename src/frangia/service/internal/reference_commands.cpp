@@ -16,6 +16,7 @@
 #include "frangia/core/open_below.h"
 #include "frangia/core/sync_to_disk.h"
 #include "frangia/service/internal/implementation.h"
+#include "frangia/service/internal/name_for_people.h"
 
 namespace frangia {
 namespace {
@@ -137,8 +138,35 @@ void Service::Implementation::keep_reference(const ProjectFolder& project,
     }
     throw;
   }
-  change([&](OpenProject& opened) { std::swap(opened.reference, wanted); });
+  change([&](OpenProject& opened) {
+    std::swap(opened.reference, wanted);
+    opened.reference_picture.reset();
+  });
   std::filesystem::remove(project.reference(before.format, before.number), ignored);
+}
+
+nlohmann::ordered_json Service::Implementation::show_reference(CommandArguments& arguments) {
+  const ProjectFolder project = folder();
+  arguments.check_all_read();
+  require(!opened().reference.name.empty(), "there is no reference to show; choose one");
+  return started("open", [this, project](const Run& run) {
+    const OpenProject now = opened();
+    ReferenceOptions options;
+    if (now.plan) options.unit_mm = now.plan->unit_mm;
+    run.stage("reference");
+    const auto file = project.reference(now.reference.format, now.reference.number);
+    const InspectionReference read = naming(
+        file, now.reference.name, [&] { return read_inspection_reference(file, options, run); });
+    const auto picture = std::make_shared<const SurfacePicture>(read.scene.mesh(), 0, run);
+    change([&](OpenProject& opened) {
+      if (opened.reference == now.reference) opened.reference_picture = picture;
+    });
+  });
+}
+
+PicturePtr Service::Implementation::reference_picture() const {
+  const std::lock_guard lock(mutex_);
+  return project_ ? project_->reference_picture : nullptr;
 }
 
 bool Service::Implementation::awaits_reference() const {

@@ -11,6 +11,7 @@
 #include "frangia/core/missing.h"
 #include "frangia/inspection/tolerance_use.h"
 #include "frangia/report/inspection_json.h"
+#include "frangia/service/internal/name_for_people.h"
 
 namespace frangia {
 namespace {
@@ -98,7 +99,9 @@ std::shared_ptr<const ShownInspection> shown_inspection(const Mesh& mesh,
   std::optional<InspectionReference> nominal;
   if (!plan.reference.empty()) {
     run.stage("reference");
-    nominal = read_inspection_reference(plan.reference, {.unit_mm = plan.unit_mm}, run);
+    nominal = naming(plan.reference, asked.reference, [&] {
+      return read_inspection_reference(plan.reference, {.unit_mm = plan.unit_mm}, run);
+    });
   }
   const InspectOptions options{.features = asked.features,
                                .statistics = false,
@@ -140,7 +143,6 @@ nlohmann::ordered_json json_of_comparison(const ShownInspection& shown) {
           {"scale_mm", {shown.low_mm, shown.high_mm}},
           {"histogram", shown.histogram},
           {"verdict", std::string(name_of(verdict.conformity))},
-          {"sentence", sentence_of(verdict)},
           {"in_share", verdict.share_of(PatchDecision::In)},
           {"out_share", verdict.share_of(PatchDecision::Out)},
           {"undecided_share",

@@ -49,6 +49,7 @@ Json json_of_change(const StepChange& change) {
 nlohmann::ordered_json json_of_surface(const SurfaceSnapshot& surface) {
   const std::string& summary = *surface.summary;
   Json json{{"version", surface.version},
+            {"mesh", mesh_name(surface)},
             {"mesh_revision", surface.mesh_revision},
             {"selection_revision", surface.selection_revision},
             {"vertices", surface.vertices},
@@ -191,9 +192,12 @@ Json json_of_project(const OpenProject& project, const CommandLines& commands) {
                                {"revision", file.origin ? Json(file.origin->revision) : Json()}});
   }
   json["measurements"] = json_of(project.measurements);
-  json["reference"] = project.reference.name.empty() ? Json()
-                                                     : Json{{"name", project.reference.name},
-                                                            {"format", project.reference.format}};
+  json["series"] = json_of(project.series);
+  json["reference"] = project.reference.name.empty()
+                          ? Json()
+                          : Json{{"name", project.reference.name},
+                                 {"format", project.reference.format},
+                                 {"shown", project.reference_picture != nullptr}};
   json["plan"] = project.plan ? Json::parse(inspection_plan_json(*project.plan, {})) : Json();
   json["plan_fault"] = project.plan_fault;
   json["commands"] = Json::object();

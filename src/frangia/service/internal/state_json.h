@@ -24,6 +24,7 @@
 #include "frangia/service/internal/surface_versions.h"
 #include "frangia/service/job_queue.h"
 #include "frangia/service/live_preview.h"
+#include "frangia/service/part_series.h"
 #include "frangia/service/project_folder.h"
 #include "frangia/service/project_scan.h"
 #include "frangia/service/rig_history.h"
@@ -86,7 +87,9 @@ struct OpenProject {
   int open_job = 0;              ///< number of the job; 0: it begins in a moment
   std::vector<ExportEntry> exports;
   ProjectReference reference;
+  PicturePtr reference_picture;  ///< since it was asked for; null before
   std::vector<HandMeasurement> measurements;
+  std::vector<SeriesPart> series;      ///< parts before this one, the oldest first
   std::optional<InspectionPlan> plan;  ///< without its reference; none: none was made
   std::string plan_fault;              ///< why the plan in the folder cannot be read
 };

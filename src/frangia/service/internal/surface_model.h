@@ -104,6 +104,9 @@ struct SurfaceSnapshot {
 };
 using SurfacePtr = std::shared_ptr<const SurfaceSnapshot>;
 
+/// The name of its mesh, by which measurements know what they are of.
+[[nodiscard]] std::string mesh_name(const SurfaceSnapshot& surface);
+
 /// A version of the surface under edit, in memory. Every change is worked out completely as another
 /// model, which shares what is the same and takes the place of this one without failing: whoever
 /// writes it to the disk in between may fail or be stopped. Revisions are those of SurfaceVersions;

@@ -1,4 +1,4 @@
-#include "frangia/service/pick_surface.h"
+#include "frangia/geometry/pick_surface.h"
 
 #include <cmath>
 

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <optional>
+
+#include "frangia/core/run.h"
+#include "frangia/features/find_features.h"
+#include "frangia/features/internal/grow_region.h"
+
+namespace frangia {
+
+/// Fits the shape of a region to the points that are not at its border, and simpler shapes too; the
+/// simplest that fits nearly as well is the feature. None when no shape is determined.
+[[nodiscard]] std::optional<Feature> refine_feature(const FeaturePoints& points,
+                                                    const SurfaceCells& cells,
+                                                    const ShapeRegion& region,
+                                                    double gate_mm,
+                                                    const Run& run);
+
+}  // namespace frangia

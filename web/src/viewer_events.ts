@@ -1,0 +1,29 @@
+import type { ModifierKeys, PlacingTool, Tool } from './pointer_strokes';
+import type { Outline } from './view_camera';
+
+/** A ray through the picture, and the half-space that a section leaves. */
+export interface Ray {
+  eye: number[];
+  direction: number[];
+  section?: number[];
+  /** The point is one of the reference. */
+  reference?: true;
+}
+/** A point of the exact mesh. */
+export interface Hit {
+  point_mm: [number, number, number];
+  triangle: number;
+  sigma_mm: number | null;
+}
+
+/** What the picture asks for, and tells of clicks and strokes. */
+export interface ViewerEvents {
+  /** Asks for the point of the exact mesh on a ray. */
+  pick(ray: Ray): Promise<Hit | null>;
+  /** A place of the surface to measure from, or to put a plane through. */
+  placed(tool: PlacingTool, hit: Hit): void;
+  outlined(outline: Outline, through: boolean, keys: ModifierKeys): void;
+  partPicked(triangle: number, keys: ModifierKeys): void;
+  /** A point of the surface, or three of them for an alignment. */
+  picked(tool: Tool, points: [number, number, number][], keys: ModifierKeys): void;
+}
