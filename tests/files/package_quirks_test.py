@@ -148,6 +148,24 @@ def gltf_files():
     yield "unknown.gltf", plain.text(extensionsRequired=["EXT_odd"]), refused("it requires the extension EXT_odd")
     packed = "EXT_meshopt_compression"
     yield "packed.gltf", plain.text(extensionsRequired=[packed]), refused(f"extension {packed}, which is not read")
+    fallback = [{"byteLength": 64, "extensions": {"EXT_meshopt_compression": {"fallback": True}}}]
+    yield "meshopt-fallback.gltf", plain.text().replace(
+        '"buffers": [', '"buffers": [' + json.dumps(fallback)[1:-1] + ", "
+    ), refused("it is compressed (EXT_meshopt_compression)")
+    draco = {"KHR_draco_mesh_compression": {"bufferView": 0, "attributes": {"POSITION": 0}}}
+    beside = Gltf()
+    beside.primitive()["extensions"] = draco
+    yield "draco-beside.gltf", beside.text(extensionsUsed=list(draco))
+    alone = Gltf()
+    alone.primitive()["extensions"] = draco
+    del alone.accessors[0]["bufferView"]
+    yield "draco-alone.gltf", alone.text(extensionsUsed=list(draco)), refused("export it without compression")
+    hidden = {"extensions": {"KHR_node_visibility": {"visible": False}}}
+    nodes = [{"mesh": 0}, {"mesh": 0, "translation": [1, 0, 0], **hidden}]
+    yield "hidden-node.gltf", plain.text(nodes=nodes, scenes=[{"nodes": [0, 1]}]), warned(
+        "left out 1 node that is hidden"
+    )
+    yield "shown-node.gltf", plain.text(nodes=[{"mesh": 0, "extensions": {"KHR_node_visibility": {"visible": True}}}])
     yield "materials.gltf", plain.text(extensionsRequired=["KHR_materials_unlit", "KHR_texture_transform"])
     yield "skin.gltf", plain.text(nodes=[{"mesh": 0, "skin": 0}]), warned("is read at rest")
     yield "my box.bin", plain.data, None
