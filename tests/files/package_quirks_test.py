@@ -263,6 +263,20 @@ def three_mf_files():
         f'<object id="1">{solid(vertices=SOUP, triangles=[tuple(range(3 * i, 3 * i + 3)) for i in range(12)])}</object>'
     )
     yield "own-vertices.3mf", package({MODEL: model(own)}), JOINED
+    lattice = 'xmlns:b="http://schemas.microsoft.com/3dmanufacturing/beamlattice/2017/02"'
+    beams = (
+        '<b:beamlattice minlength="1"><b:beams><b:beam v1="0" v2="7"/><b:beam v1="1" v2="6"/></b:beams></b:beamlattice>'
+    )
+    of_beams = f'<object id="1">{solid().replace("</mesh>", beams + "</mesh>")}</object>'
+    yield "beams.3mf", package({MODEL: model(of_beams, more=lattice)}), warned(
+        "left out 2 beams or shapes of extensions"
+    )
+    required_beams = package({MODEL: model(of_beams, more=lattice + ' requiredextensions="b"')})
+    yield "required-beams.3mf", required_beams, refused("beamlattice/2017/02; export it as triangles")
+    boolean = 'xmlns:bo="http://schemas.3mf.io/3dmanufacturing/booleanoperations/2023/07"'
+    cut = '<object id="2"><bo:booleanshape objectid="1"><bo:boolean objectid="1"/></bo:booleanshape></object>'
+    both = model(f'<object id="1">{solid()}</object>{cut}', '<item objectid="1"/><item objectid="2"/>', more=boolean)
+    yield "boolean.3mf", package({MODEL: both}), warned("left out 1 beam or shape of extensions")
     yield "nothing.3mf", package({MODEL: model(build="")}), refused("its build items have no triangles")
     yield "gzip.3mf", gzip.compress(package({MODEL: model()})), refused("unpack it with gunzip")
 

@@ -168,7 +168,7 @@ bool sees_a_common_point(const CameraModel& camera,
   constexpr int kPixels = 9;
   constexpr int kDistances = 24;
   constexpr double kOpposite = -0.5;  // cosine of 120 degrees: each ray is 60 from the normal
-  constexpr double kStep = 1.288;       // 0.3 baselines times its power of 23 are 100 baselines
+  constexpr double kStep = 1.288;     // 0.3 baselines times its power of 23 are 100 baselines
   for (int i = 0; i < kPixels * kPixels; ++i) {
     const Eigen::Vector2d pixel(camera.width_px * (i % kPixels) / (kPixels - 1.0),
                                 camera.height_px * (i / kPixels) / (kPixels - 1.0));

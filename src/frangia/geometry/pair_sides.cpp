@@ -42,19 +42,6 @@ std::vector<std::size_t> pair_sides(const Eigen::Vector3d& first_end_mm,
     partner[a] = b;
     partner[b] = a;
   };
-  std::vector<std::size_t> order(sides.size());
-  for (std::size_t i = 0; i < order.size(); ++i)
-    order[i] = i;
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    return sides[a].shell < sides[b].shell;
-  });
-  for (std::size_t begin = 0; begin < order.size();) {
-    std::size_t end = begin;
-    while (end < order.size() && sides[order[end]].shell == sides[order[begin]].shell)
-      ++end;
-    if (end - begin == 2) connect(order[begin], order[begin + 1]);
-    begin = end;
-  }
   const Eigen::Vector3d along = (second_end_mm - first_end_mm).normalized();
   const Eigen::Vector3d across = along.unitOrthogonal();
   struct Turned {
@@ -62,10 +49,21 @@ std::vector<std::size_t> pair_sides(const Eigen::Vector3d& first_end_mm,
     std::size_t side;
   };
   std::vector<Turned> turned;
-  for (std::size_t i = 0; i < sides.size(); ++i) {
-    if (partner[i] == kNoPartner)
-      turned.push_back({angle_about_edge(sides[i].apex_mm - first_end_mm, along, across), i});
+  for (std::size_t i = 0; i < sides.size(); ++i)
+    turned.push_back({angle_about_edge(sides[i].apex_mm - first_end_mm, along, across), i});
+  std::stable_sort(turned.begin(), turned.end(), [&](const Turned& a, const Turned& b) {
+    return sides[a.side].shell < sides[b.side].shell;
+  });
+  for (std::size_t begin = 0; begin < turned.size();) {
+    std::size_t end = begin;
+    while (end < turned.size() && sides[turned[end].side].shell == sides[turned[begin].side].shell)
+      ++end;
+    // A triangle and its back, which run together, are no pair.
+    if (end - begin == 2 && turned[begin].angle != turned[begin + 1].angle)
+      connect(turned[begin].side, turned[begin + 1].side);
+    begin = end;
   }
+  std::erase_if(turned, [&](const Turned& one) { return partner[one.side] != kNoPartner; });
   std::sort(turned.begin(), turned.end(), [&](const Turned& a, const Turned& b) {
     // At one angle an upward side comes first: bodies that touch with a face stay apart.
     return std::tuple(a.angle, !sides[a.side].upward, a.side) <

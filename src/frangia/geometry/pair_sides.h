@@ -27,8 +27,8 @@ inline constexpr std::size_t kNoPartner = std::numeric_limits<std::size_t>::max(
 [[nodiscard]] bool is_inside_out(const Mesh& mesh);
 
 /// Pairs the triangles that meet at an edge so that shells which touch there stay apart: two of one
-/// shell are a pair; the others are paired as they enclose material, behind an upward side, against
-/// the sense of rotation, the next downward one.
+/// shell are a pair unless they are front and back of one face; the others are paired as they
+/// enclose material, behind an upward side, against the sense of rotation, the next downward one.
 ///
 /// @shape    the partner of each side, by its index
 /// @missing  kNoPartner

@@ -18,11 +18,10 @@ Eigen::AlignedBox3f box_of_vertices(const Mesh& mesh) {
   return box;
 }
 
-constexpr float kApart = 0.01F;  // of the size of the reference: a part may be out by less
-
 /// Refuses a mesh that lies beside the reference: a face of one that looks at the other from afar
 /// is no deviation.
 void refuse_apart(const Mesh& mesh, const Mesh& reference) {
+  constexpr float kApart = 0.01F;  // of the size of the reference: a part may be out by less
   const Eigen::AlignedBox3f own = box_of_vertices(mesh);
   const Eigen::AlignedBox3f nominal = box_of_vertices(reference);
   if (own.isEmpty() || nominal.isEmpty()) return;
@@ -38,11 +37,12 @@ void refuse_apart(const Mesh& mesh, const Mesh& reference) {
 /// Refuses a mesh of which nothing lies on the reference, such as a small one inside of it: there
 /// is no overlap of which a verdict could be.
 void refuse_without_overlap(const Deviations& deviations, const Mesh& reference) {
+  constexpr float kFar = 0.05F;  // of the size of the reference: castings have an allowance of less
   float nearest_mm = std::numeric_limits<float>::infinity();
   for (const float deviation_mm : deviations.deviation_mm)
     nearest_mm = std::fmin(nearest_mm, std::abs(deviation_mm));  // not NaN
   const float size_mm = box_of_vertices(reference).diagonal().norm();
-  if (!std::isfinite(nearest_mm) || !(nearest_mm > kApart * size_mm)) return;
+  if (!std::isfinite(nearest_mm) || !(nearest_mm > kFar * size_mm)) return;
   throw Error(
       ErrorKind::Input,
       fmt::format("no point of the mesh lies within {:.3g} mm of the reference, so that nothing of "
