@@ -153,6 +153,9 @@ def xyz_files():
     yield "decimal-commas.xyz", xyz().replace("30", "30,5").replace("0 ", "0,0 "), decimal
     yield "decimal-commas-tabs.xyz", "1,5\t2,5\t3,5\n", decimal
     yield "decimal-commas-semicolons.xyz", "1,5;2,5;3,5\n", decimal
+    missing = refused("a value is missing beside a comma or semicolon")
+    for number, line in enumerate(["1,2,,200,100,50", ",", "1,2, ,3", ";1;2;3", "1\t,\t,2,3"]):
+        yield f"missing-value-{number}.xyz", xyz(",") + line + "\n", missing
     yield "remark-with-commas.xyz", "# x, y; z\n" + xyz(behind=" # a, b; c"), POINTS
     yield "count.xyz", "8\n" + xyz(), POINTS
     yield "count-commas.xyz", "8\n" + xyz(","), POINTS

@@ -84,20 +84,34 @@ bool has_decimal_commas(std::string_view line) {
   return inner && count >= 3;
 }
 
+/// Whether nothing stands in front of a comma or semicolon of a line, or between two of them.
+bool has_empty_value(std::string_view line) {
+  bool empty = true;
+  for (const char c : line) {
+    const bool separates = c == ',' || c == ';';
+    if (separates && empty) return true;
+    if (c != ' ' && c != '\t') empty = separates;
+  }
+  return false;
+}
+
 /// Replaces commas and semicolons between numbers by blanks.
 ///
-/// @errors   Error(Input) for decimal commas
+/// @errors   Error(Input) for decimal commas, and for values that are missing
 void separate_by_blanks(std::string& text, const std::filesystem::path& path) {
   std::size_t number = 1;
   for (std::size_t begin = 0; begin < text.size(); ++number) {
     const std::size_t end = std::min(text.find('\n', begin), text.size());
     std::string_view line(text.data() + begin, end - begin);
     line = line.substr(0, std::min(line.find('#'), line.find("//")));
-    if (has_decimal_commas(line)) {
+    const bool decimal = has_decimal_commas(line);
+    if (decimal || has_empty_value(line)) {
       throw Error(ErrorKind::Input,
-                  fmt::format("{}, line {}: its numbers have decimal commas; write points, 1.5",
+                  fmt::format("{}, line {}: {}",
                               path.string(),
-                              number));
+                              number,
+                              decimal ? "its numbers have decimal commas; write points, 1.5"
+                                      : "a value is missing beside a comma or semicolon"));
     }
     const auto first = text.begin() + static_cast<std::ptrdiff_t>(begin);
     std::replace_if(
