@@ -8,6 +8,7 @@
 #include <variant>
 #include <vector>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "frangia/exchange/read_calibration_file.h"
@@ -203,15 +204,28 @@ TEST(ForeignCalibrations, OfOtherLensModelsAreRefusedByTheirName) {
                            "fisheye: true",
                            "use_fisheye: \"True\"",
                            "calibration: \"cv::fisheye\"",
+                           "camera_model2: pinhole-equi",
+                           "model: Inverse Brown Conrady",
+                           "xi: 1.2",
+                           "fisheye_D: [0.1, 0.2, 0.3, 0.4]",
                            "lens_type: MEI"}) {
     const std::string error = import_text(text + line + "\n", "a.yaml").error;
     EXPECT_NE(error.find("a lens model that no rig can hold"), std::string::npos) << line << error;
   }
   for (const char* json : {"{\"cams\": [{\"camera_type\": \"kb4\"}]}",
                            "{\"fisheye\": true}",
+                           "{\"camera\": {\"distortion\": {\"name\": \"equidistant\"}}}",
                            "{\"camera\": {\"model\": \"opencv_fisheye\"}}"}) {
     const std::string error = import_text(json, "a.json").error;
     EXPECT_NE(error.find("a lens model that no rig can hold"), std::string::npos) << json << error;
+  }
+  for (const char* attribute : {"model=\"fisheye\"", "type='Equidistant'"}) {
+    const std::string xml = fmt::format(
+        "<Calibration><Camera {}><Matrix>1400 0 640 0 1402 512 0 0 1</Matrix></Camera>"
+        "</Calibration>",
+        attribute);
+    const std::string error = import_text(xml, "a.xml").error;
+    EXPECT_NE(error.find("a lens model that no rig can hold"), std::string::npos) << error;
   }
   // As Kalibr writes it.
   const std::string kalibr =
@@ -226,6 +240,26 @@ TEST(ForeignCalibrations, OfOtherLensModelsAreRefusedByTheirName) {
                            "camera_name: omnivision_fisheye",
                            "fisheye: false"})
     expect_the_values(import_text(text + line + "\n", "a.yaml"), line);
+}
+
+TEST(ForeignCalibrations, WithCoefficientsThatAreNoneOfOpenCvAreRefused) {
+  const auto error_with = [](const std::string& distortion) {
+    return import_text(
+               yaml_of_rows({"K1", "other", "K2", "D2", "R", "T"}) + "D1: " + distortion + "\n",
+               "a.yaml")
+        .error;
+  };
+  EXPECT_NE(error_with("[0.1, 0.2, 0.3]").find("has 3 distortion coefficients"), std::string::npos);
+  EXPECT_NE(error_with("[0.1, 0, 0, 0, 0, 0.1]").find("has 6 distortion coefficients"),
+            std::string::npos);
+  EXPECT_NE(error_with(kRowsOfCamera).find("a distortion is a matrix of 3 x 3"), std::string::npos);
+  for (const char* distortion : {"[-0.1]",
+                                 "[-0.1, 0.05]",
+                                 "[-0.1, 0.05, 0, 0]",
+                                 "[[-0.1], [0.05], [0], [0], [0]]",
+                                 "[0, 0, 0]",
+                                 "[-0.1, 0.05, 0, 0, 0, 0, 0, 0]"})
+    EXPECT_EQ(error_with(distortion), "") << distortion;
 }
 
 TEST(ForeignCalibrations, ThatAddNothingAreNamed) {
@@ -258,6 +292,11 @@ TEST(ForeignCalibrations, ThatNoDeviceHasAreNamed) {
   EXPECT_EQ(warnings(kRowsOfCamera, "[-0.1, 0.05, 0, 0]", kRowsOfNoRotation, aside), "");
   EXPECT_NE(
       warnings(kRowsOfCamera, none, "[[-1, 0, 0], [0, 1, 0], [0, 0, -1]]", "[150, 0, 0]")
+          .find("the camera and the projector see no common point: their axes are 180 degree"),
+      std::string::npos);
+  // Face to face: there are common points, but no surface that both see.
+  EXPECT_NE(
+      warnings(kRowsOfCamera, none, "[[-1, 0, 0], [0, 1, 0], [0, 0, -1]]", "[0, 0, 500]")
           .find("the camera and the projector see no common point: their axes are 180 degree"),
       std::string::npos);
   EXPECT_NE(

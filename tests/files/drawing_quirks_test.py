@@ -144,10 +144,30 @@ def xyz_files():
     yield "black.xyz", xyz(behind=" 0 0 0"), colored((0, 0, 0), POINTS)
     yield "intensity.xyz", xyz(behind=" 123"), left_out
     yield "intensity-colors.xyz", xyz(behind=" 0.5 200 100 50"), left_out
-    yield "commas.xyz", xyz(","), refused("is not a number")
-    yield "semicolons.xyz", xyz(";"), refused("is not a number")
-    yield "count.xyz", "8\n" + xyz(), refused("a point needs three")
-    yield "names.xyz", "X Y Z\n" + xyz(), refused("is not a number")
+    yield "commas.xyz", xyz(","), POINTS
+    yield "commas-blanks.xyz", xyz(", "), POINTS
+    yield "commas-at-the-end.xyz", xyz(",", behind=","), POINTS
+    yield "semicolons.xyz", xyz(";"), POINTS
+    yield "commas-colors.xyz", xyz(",", behind=",200,100,50"), colored(RGB, POINTS)
+    decimal = refused("its numbers have decimal commas")
+    yield "decimal-commas.xyz", xyz().replace("30", "30,5").replace("0 ", "0,0 "), decimal
+    yield "decimal-commas-tabs.xyz", "1,5\t2,5\t3,5\n", decimal
+    yield "decimal-commas-semicolons.xyz", "1,5;2,5;3,5\n", decimal
+    missing = refused("a value is missing beside a comma or semicolon")
+    for number, line in enumerate(["1,2,,200,100,50", ",", "1,2, ,3", ";1;2;3", "1\t,\t,2,3"]):
+        yield f"missing-value-{number}.xyz", xyz(",") + line + "\n", missing
+    yield "remark-with-commas.xyz", "# x, y; z\n" + xyz(behind=" # a, b; c"), POINTS
+    yield "count.xyz", "8\n" + xyz(), POINTS
+    yield "count-commas.xyz", "8\n" + xyz(","), POINTS
+    yield "other-count.xyz", "9\n" + xyz(), refused("its first line states 9 points, but it has 8")
+    yield "huge-count.xyz", "1e30\n" + xyz(), refused("a point needs three")
+    yield "atoms.xyz", "1\nwater\nO 0 0 0\n", refused("names of columns begin with x, y and z")
+    yield "names.xyz", "X Y Z\n" + xyz(), POINTS
+    yield "names-quoted.csv.xyz", '"x","y","z","r","g","b"\n' + xyz(",", behind=",200,100,50"), colored(RGB, POINTS)
+    yield "names-units.xyz", "# by hand\n\nx_mm;y_mm;z_mm\n" + xyz(";"), POINTS
+    yield "other-names.xyz", "id,x,y,z\n" + xyz(","), refused("names of columns begin with x, y and z")
+    yield "other-units.xyz", "x_m y_m z_m\n" + xyz(), refused("names of columns begin with x, y and z")
+    yield "names-twice.xyz", xyz() + "X Y Z\n" + xyz(), refused("is not a number")
 
 
 def pcd(types="F4 F4 F4", fields="x y z", rows=None, data="ascii", end="\n", width=8):
@@ -159,7 +179,7 @@ def pcd(types="F4 F4 F4", fields="x y z", rows=None, data="ascii", end="\n", wid
     rows = rows or VERTICES
     if data.lower() == "ascii":
         return (text + "".join(" ".join(map(str, row)) + end for row in rows)).encode()
-    letters = {"F4": "f", "F8": "d", "U4": "I", "I4": "i", "I2": "h"}
+    letters = {"F4": "f", "F8": "d", "U4": "I", "I4": "i", "I2": "h", "U1": "B", "U2": "H"}
     return text.encode() + b"".join(struct.pack("<" + letters[w], v) for row in rows for w, v in zip(words, row))
 
 
@@ -174,6 +194,24 @@ def pcd_files():
                 yield f"{name}-{kind}-{value:.0f}-{data}.pcd", pcd(
                     f"F8 F4 F4 {kind}", f"x y z {name}", rows, data
                 ), right
+        for kind, value in [("U1", 1), ("F4", 1.0), ("U2", 257), ("F4", 1 / 255)]:
+            rows = [(*v, *(c * value for c in RGB)) for v in VERTICES]
+            types = "F4 F4 F4" + 3 * f" {kind}"
+            for names in ("r g b", "red green blue"):
+                yield f"{names[0]}-{names[2]}-{kind}-{value:.0f}-{data}.pcd", pcd(
+                    types, f"x y z {names}", rows, data
+                ), right
+        yield f"two-channels-{data}.pcd", pcd(
+            "F4 F4 F4 U1 U1", "x y z r g", [(*v, 1, 2) for v in VERTICES], data
+        ), POINTS
+        more = pcd(rows=[*VERTICES, (1, 2, 3)], data=data)
+        yield f"more-{data}.pcd", more, warned("left out behind what its header counts", POINTS)
+    moved = warned("its VIEWPOINT, the pose of the sensor (1 2 3 1 0 0 0), is not applied", POINTS)
+    yield "viewpoint.pcd", pcd().replace(b"VIEWPOINT 0 0 0", b"VIEWPOINT 1 2 3"), moved
+    turned = pcd().replace(b"VIEWPOINT 0 0 0 1 0 0 0", b"VIEWPOINT 0 0 0 0.7071 0 0 0.7071")
+    yield "turned.pcd", turned, warned("its VIEWPOINT", POINTS)
+    yield "viewpoint-without-turn.pcd", pcd().replace(b"VIEWPOINT 0 0 0 1 0 0 0", b"VIEWPOINT 0 0 0"), POINTS
+    yield "viewpoint-words.pcd", pcd().replace(b"VIEWPOINT 0", b"VIEWPOINT none"), refused("'none' is not a number")
     yield "cr.pcd", pcd(end="\r"), POINTS
     yield "bom.pcd", b"\xef\xbb\xbf" + pcd(), POINTS
     yield "organized.pcd", pcd(width=4), POINTS

@@ -90,7 +90,9 @@ def stated_ply(data):
 
 def stated_xyz(data):
     lines = [line.strip() for line in text_of(data).split("\n")]
-    return "points", sum(1 for line in lines if line and not line.startswith(("#", "//")))
+    lines = [line for line in lines if line and not line.startswith(("#", "//"))]
+    before = re.match(r'["xX]|[\d.+eE]+[,;]?$', lines[0]) if lines else None  # names of columns, a number of points
+    return "points", len(lines) - (before is not None)
 
 
 def stated_pcd(data):

@@ -148,6 +148,24 @@ def gltf_files():
     yield "unknown.gltf", plain.text(extensionsRequired=["EXT_odd"]), refused("it requires the extension EXT_odd")
     packed = "EXT_meshopt_compression"
     yield "packed.gltf", plain.text(extensionsRequired=[packed]), refused(f"extension {packed}, which is not read")
+    fallback = [{"byteLength": 64, "extensions": {"EXT_meshopt_compression": {"fallback": True}}}]
+    yield "meshopt-fallback.gltf", plain.text().replace(
+        '"buffers": [', '"buffers": [' + json.dumps(fallback)[1:-1] + ", "
+    ), refused("it is compressed (EXT_meshopt_compression)")
+    draco = {"KHR_draco_mesh_compression": {"bufferView": 0, "attributes": {"POSITION": 0}}}
+    beside = Gltf()
+    beside.primitive()["extensions"] = draco
+    yield "draco-beside.gltf", beside.text(extensionsUsed=list(draco))
+    alone = Gltf()
+    alone.primitive()["extensions"] = draco
+    del alone.accessors[0]["bufferView"]
+    yield "draco-alone.gltf", alone.text(extensionsUsed=list(draco)), refused("export it without compression")
+    hidden = {"extensions": {"KHR_node_visibility": {"visible": False}}}
+    nodes = [{"mesh": 0}, {"mesh": 0, "translation": [1, 0, 0], **hidden}]
+    yield "hidden-node.gltf", plain.text(nodes=nodes, scenes=[{"nodes": [0, 1]}]), warned(
+        "left out 1 node that is hidden"
+    )
+    yield "shown-node.gltf", plain.text(nodes=[{"mesh": 0, "extensions": {"KHR_node_visibility": {"visible": True}}}])
     yield "materials.gltf", plain.text(extensionsRequired=["KHR_materials_unlit", "KHR_texture_transform"])
     yield "skin.gltf", plain.text(nodes=[{"mesh": 0, "skin": 0}]), warned("is read at rest")
     yield "my box.bin", plain.data, None
@@ -245,6 +263,20 @@ def three_mf_files():
         f'<object id="1">{solid(vertices=SOUP, triangles=[tuple(range(3 * i, 3 * i + 3)) for i in range(12)])}</object>'
     )
     yield "own-vertices.3mf", package({MODEL: model(own)}), JOINED
+    lattice = 'xmlns:b="http://schemas.microsoft.com/3dmanufacturing/beamlattice/2017/02"'
+    beams = (
+        '<b:beamlattice minlength="1"><b:beams><b:beam v1="0" v2="7"/><b:beam v1="1" v2="6"/></b:beams></b:beamlattice>'
+    )
+    of_beams = f'<object id="1">{solid().replace("</mesh>", beams + "</mesh>")}</object>'
+    yield "beams.3mf", package({MODEL: model(of_beams, more=lattice)}), warned(
+        "left out 2 beams or shapes of extensions"
+    )
+    required_beams = package({MODEL: model(of_beams, more=lattice + ' requiredextensions="b"')})
+    yield "required-beams.3mf", required_beams, refused("beamlattice/2017/02; export it as triangles")
+    boolean = 'xmlns:bo="http://schemas.3mf.io/3dmanufacturing/booleanoperations/2023/07"'
+    cut = '<object id="2"><bo:booleanshape objectid="1"><bo:boolean objectid="1"/></bo:booleanshape></object>'
+    both = model(f'<object id="1">{solid()}</object>{cut}', '<item objectid="1"/><item objectid="2"/>', more=boolean)
+    yield "boolean.3mf", package({MODEL: both}), warned("left out 1 beam or shape of extensions")
     yield "nothing.3mf", package({MODEL: model(build="")}), refused("its build items have no triangles")
     yield "gzip.3mf", gzip.compress(package({MODEL: model()})), refused("unpack it with gunzip")
 

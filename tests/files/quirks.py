@@ -66,8 +66,12 @@ def fault_of(program, folder, name, expected):
     if "points" in expected:
         return "" if answer["vertices"] == expected["points"] else f"{answer['vertices']} points"
     for key, place in {"triangles": "triangles", "area": "area_mm2", "volume": "volume_mm3"}.items():
-        if key in expected and abs((answer.get(place) or 0.0) - expected[key]) > 2e-5 * expected[key]:
+        if key in expected and abs((answer.get(place) or 0.0) - expected[key]) > 2e-5 * abs(expected[key]):
             return f"{key} {answer.get(place)}"
+    if "components" in expected and len(answer["components"]) != expected["components"]:
+        return f"{len(answer['components'])} components"
+    if answer["non_manifold_edges"] != expected.get("non_manifold", answer["non_manifold_edges"]):
+        return f"{answer['non_manifold_edges']} edges of more than two triangles"
     return ""
 
 

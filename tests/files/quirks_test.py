@@ -8,7 +8,7 @@ import pathlib
 import struct
 import sys
 
-from quirks import QUADS, TRIANGLES, VERTICES, colored, faults_of, refused, warned
+from quirks import BOX, QUADS, TRIANGLES, VERTICES, colored, faults_of, refused, warned
 
 LETTERS = {"char": "b", "uchar": "B", "short": "h", "ushort": "H", "int": "i", "uint": "I", "float": "f", "double": "d"}
 LETTERS |= {
@@ -95,6 +95,13 @@ def ply_files():
         ]:
             extra = [f"{kind} {name}" for name in names.split()]
             yield f"{form}-{kind}-{names.split()[0]}-{of[0]:.0f}.ply", ply(form, extra=extra, of=of), colored(RGB)
+        # what follows the counted faces is a loss that is said
+        rest = b"3 0 1 2\n" if form == "ascii" else b"\x03\x00\x00\x01\x00\x02\x00"
+        yield f"{form}-behind.ply", ply(form) + rest, warned("left out behind what its header counts")
+        yield f"{form}-blank-behind.ply", ply(form) + b"\r\n \n", BOX
+    yield "fewer-faces.ply", ply().replace(b"element face 6", b"element face 5"), {
+        **warned("bytes are left out behind what its header counts", {"triangles": 10})
+    }
     yield "remarks.ply", ply(remark="comment made by hand\ncomment TextureFile a.png\nobj_info num_cols 5")
     yield "face-colors.ply", ply(
         face="property uchar red\nproperty uchar green\nproperty uchar blue", values=" 255 0 0"
@@ -208,6 +215,8 @@ def obj_files():
     yield "continued.obj", plain.replace("f 1 3 4 2", "f 1 3 \\\n4 2").replace("v 30 0 0", "v 30 0\\\n 0")
     yield "continued-crlf.obj", plain.replace("f 1 3 4 2", "f 1 3 \\\n4 2").replace("\n", "\r\n")
     yield "continued-cr.obj", plain.replace("f 1 3 4 2", "f \\\n1 3 4 2").replace("\n", "\r")
+    yield "continued-others.obj", "vt 0 \\\n0\nl 1 2 \\\n 3 4 \\\n 5\n" + plain + "p 1 \\\n 2 3\n"
+    yield "comment-with-backslash.obj", "# C:\\parts\\\n" + plain
     yield "fo.obj", plain.replace("f 1 3", "fo 1 3")
     powers = vertices("v {:.3e} {:.3e} {:.3e}\n") + faces()
     yield "fortran.obj", powers.replace("e+", "D+")
@@ -244,6 +253,10 @@ def off_files():
     yield "colors.off", off("COFF\n", vertex=" 200 100 50 255"), colored(RGB)
     yield "float-colors.off", off("COFF\n", vertex=" 0.7843 0.3922 0.1961 1.0"), colored(RGB)
     yield "normals-and-colors.off", off("CNOFF\n", vertex=" 0 0 1 200 100 50 255"), colored(RGB)
+    behind = warned("left out behind what its header counts")
+    yield "behind.off", off() + "3 0 1 2\n", behind
+    yield "remark-behind.off", off() + "# made by hand\n\n"
+    yield "fewer-faces.off", off().replace("8 6 0", "8 5 0"), {**behind, "triangles": 10, "area": 2000.0, "volume": 0.0}
     yield "no-header.off", off(""), refused("expected 'OFF'")
     yield "lower.off", off("off\n"), refused("expected 'OFF'")
 

@@ -191,6 +191,26 @@ TEST(InspectionPlan, RefusesAnUnknownKeyAndNamesTheNearest) {
   expect(ball + "diametr_mm = 40\n",
          "features[0].diametr_mm is unknown here; perhaps diameter_mm was meant");
   expect("[[section]]\nname = \"s\"\n", "section is unknown here; perhaps sections was meant");
+  // A key that must be there names what the table has in its place.
+  expect("[[features]]\nnane = \"A\"\nkind = \"sphere\"\nnear_mm = [0, 0, 0]\n",
+         "features[0].name is missing; perhaps nane is meant as name: rename it");
+  expect("[[features]]\nname = \"A\"\nkind = \"sphere\"\nnaer_mm = [0, 0, 0]\n",
+         "near_mm is missing; perhaps naer_mm is meant as near_mm");
+  expect("[[features]]\nname = \"A\"\nkind = \"sphere\"\n", "features[0].near_mm is missing");
+  expect("[[sections]]\nname = \"s\"\npoint = [0, 0, 0]\nnormal = [0, 0, 1]\n",
+         "sections[0].point_mm is missing; perhaps point is meant as point_mm");
+  expect("align = \"datum\"\ndatms = [\"A\"]\n" + ball,
+         "datms is unknown here; perhaps datums was meant");
+  expect(
+      "[[feature]]\nname = \"A\"\nkind = \"sphere\"\nnear_mm = [0, 0, 0]\ndiameter_mm = 5\n"
+      "[[characteristics]]\nname = \"c\"\nkind = \"roundness\"\nfeature = \"A\"\nlimit = 1\n",
+      "feature is unknown here; perhaps features was meant");
+  expect(
+      ball +
+          "[[features]]\nname = \"B\"\nkind = \"sphere\"\nnear_mm = [9, 0, 0]\n"
+          "[[characteristics]]\nname = \"c\"\nkind = \"distance\"\nfeature = \"A\"\ndatum = \"B\"\n"
+          "nominl = 5\ntolerance = [-1, 1]\n",
+      "nominl is unknown here; perhaps nominal was meant");
   expect(ball + "colour = \"red\"\n", "features[0].colour is unknown here; leave it out. The keys");
   // A key that is stated is not what another one was meant to be.
   expect("part = \"shaft\"\nparts = \"shaft\"\n", "parts is unknown here; leave it out");

@@ -66,6 +66,20 @@ TEST(AccessGuard, CountsTheNetworkOfAnIpv6AddressAndTheClientOfAProxyOnThisMachi
   EXPECT_EQ(client_address("::ffff:192.168.1.5", "", false), "192.168.1.5");
 }
 
+TEST(AccessGuard, TakesAllAddressesOfTheMachineItselfForOneClient) {
+  for (const char* peer : {"127.0.0.1", "127.9.8.7", "127.255.255.254", "::ffff:127.0.0.2", "::1"})
+    EXPECT_EQ(client_address(peer, "", false), "127.0.0.1") << peer;
+  EXPECT_EQ(client_address("::ffff:127.0.0.1", "10.0.0.1", true), "10.0.0.1");
+}
+
+TEST(AccessGuard, DropsThePortThatAProxyWritesBehindAnAddress) {
+  EXPECT_EQ(client_address("127.0.0.1", "1.2.3.4:5678", true), "1.2.3.4");
+  EXPECT_EQ(client_address("127.0.0.1", "9.9.9.9, [2001:db8:1:2::9]:443", true),
+            "2001:db8:1:2::/64");
+  EXPECT_EQ(client_address("127.0.0.1", "2001:db8:1:2::9", true), "2001:db8:1:2::/64");
+  EXPECT_EQ(client_address("127.0.0.1", "[", true), "");
+}
+
 TEST(AccessGuard, RefusesShortAndHugePasswords) {
   EXPECT_NE(error_of([] { static_cast<void>(hash_password("short")); }), "");
   EXPECT_NE(error_of([] { static_cast<void>(hash_password(std::string(2000, 'x'))); }), "");

@@ -121,6 +121,19 @@ CameraModel imported_model_of(const ForeignLens& lens,
                     device,
                     lens.distortion.size()));
   }
+  // Three may be k1 k2 k3, or k1 k2 p1: what else others count is not known.
+  constexpr std::array<std::size_t, 8> kCounts{0, 1, 2, 4, 5, 8, 12, 14};
+  const bool all_zero = std::all_of(lens.distortion.begin(),
+                                    lens.distortion.end(),
+                                    [](double coefficient) { return coefficient == 0.0; });
+  if (!all_zero &&
+      std::find(kCounts.begin(), kCounts.end(), lens.distortion.size()) == kCounts.end()) {
+    fail_import(
+        fmt::format("the {} has {} distortion coefficients; OpenCV's models have 4, 5, 8, 12 or "
+                    "14: k1 k2 p1 p2 k3 ..., with 0 for those that it does not have",
+                    device,
+                    lens.distortion.size()));
+  }
   for (std::size_t i = 0; i < lens.distortion.size(); ++i) {
     if (!std::isfinite(lens.distortion[i]))
       fail_import(fmt::format("a distortion coefficient of the {} is not a number", device));
@@ -145,15 +158,17 @@ CameraModel imported_model_of(const ForeignLens& lens,
   return model;
 }
 
-/// Whether a point of the camera's field, 0.3 to 100 baselines away, is seen by the other device.
-/// Points are on a grid of 9 x 9 pixels and 24 distances.
+/// Whether a point of the camera's field, 0.3 to 100 baselines away, is seen by the other device,
+/// and from the same side: two rays that are nearly opposite meet no surface that both of them
+/// light or see. Points are on a grid of 9 x 9 pixels and 24 distances.
 bool sees_a_common_point(const CameraModel& camera,
                          const CameraModel& other,
                          const Eigen::Matrix3d& rotation,
                          const Eigen::Vector3d& position_mm) {
   constexpr int kPixels = 9;
   constexpr int kDistances = 24;
-  constexpr double kStep = 1.288;  // 0.3 baselines times its power of 23 are 100 baselines
+  constexpr double kOpposite = -0.5;  // cosine of 120 degrees: each ray is 60 from the normal
+  constexpr double kStep = 1.288;     // 0.3 baselines times its power of 23 are 100 baselines
   for (int i = 0; i < kPixels * kPixels; ++i) {
     const Eigen::Vector2d pixel(camera.width_px * (i % kPixels) / (kPixels - 1.0),
                                 camera.height_px * (i / kPixels) / (kPixels - 1.0));
@@ -163,6 +178,7 @@ bool sees_a_common_point(const CameraModel& camera,
     for (int k = 0; k < kDistances; ++k, distance_mm *= kStep) {
       const Eigen::Vector3d point = rotation * (distance_mm * ray - position_mm);
       if (!(point.z() > 0.0)) continue;
+      if ((rotation * ray).normalized().dot(point.normalized()) < kOpposite) continue;
       const Eigen::Vector2d at = other.project(point);
       if (at.minCoeff() >= 0.0 && at.x() <= other.width_px && at.y() <= other.height_px)
         return true;

@@ -23,8 +23,10 @@ template <typename Predicate>
   if (!predicate(Eigen::Vector3d((a + b + c) / 3.0))) return false;
   for (int i = 0; i <= steps; ++i) {
     for (int j = 0; i + j <= steps; ++j) {
+      const int there_and_back =
+          i % 2 == 0 ? j : steps - i - j;  // each point beside the one before
       const double u = static_cast<double>(i) / steps;
-      const double v = static_cast<double>(j) / steps;
+      const double v = static_cast<double>(there_and_back) / steps;
       if (!predicate(Eigen::Vector3d(a + u * (b - a) + v * (c - a)))) return false;
     }
   }

@@ -18,7 +18,7 @@ struct SurfaceInspection {
 ///
 /// @units    mm
 /// @errors   Error(Input) as deviations_of and judge_surface, and for a mesh that lies beside the
-///           reference; Error(Cancelled)
+///           reference, or of which no point lies on it; Error(Cancelled)
 [[nodiscard]] SurfaceInspection inspect_surface(const Mesh& mesh,
                                                 const RayScene& reference,
                                                 const SurfaceRule& rule = {},

@@ -65,8 +65,10 @@ PlannedCharacteristic characteristic_from(TomlReader& reader) {
   if (two_sided) {
     if (reader.has("nominal")) planned.nominal = reader.number("nominal");
     planned.tolerance = limits_of(reader, "tolerance");
-    if (planned.tolerance && !planned.nominal)
+    if (planned.tolerance && !planned.nominal) {
+      reader.refuse_unused_keys();  // a misspelt nominal
       reader.fail("tolerance", "is of the difference from the nominal value; state nominal");
+    }
   } else if (reader.has("limit")) {
     planned.limit = reader.positive("limit");
   }
@@ -218,6 +220,7 @@ InspectionPlan parse_inspection_plan(const std::string& text, const std::filesys
   if (plan.points.size() < (plan.align == "points" ? 3U : plan.points.empty() ? 0U : 3U))
     top.fail("points", "needs three pairs or more, each with scan_mm and reference_mm");
   if (top.has("datums")) plan.datums = top.texts("datums");
+  top.refuse_unused_keys();  // first: what a misspelt key holds is missing below
   if ((plan.align == "datum" && plan.datums.empty()) || plan.datums.size() > 3)
     top.fail("datums", "must name one to three of [[features]], in their order");
   for (const std::string& name : plan.datums) {
@@ -233,7 +236,6 @@ InspectionPlan parse_inspection_plan(const std::string& text, const std::filesys
               "\"{}\" refers to \"{}\", which is no name of [[features]]", planned.name, name));
     }
   }
-  top.refuse_unused_keys();
   return plan;
 }
 

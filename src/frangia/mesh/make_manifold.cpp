@@ -1,6 +1,7 @@
 #include "frangia/mesh/make_manifold.h"
 
 #include <algorithm>
+#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -8,7 +9,9 @@
 
 #include "frangia/core/disjoint_sets.h"
 #include "frangia/geometry/clean_mesh.h"
+#include "frangia/geometry/connected_components.h"
 #include "frangia/geometry/half_edges.h"
+#include "frangia/geometry/pair_sides.h"
 #include "frangia/geometry/selection.h"
 #include "frangia/geometry/vertex_data.h"
 #include "frangia/mesh/internal/steps_per_check.h"
@@ -30,7 +33,13 @@ Triangle sorted(Triangle t) {
   return t;
 }
 
-/// Removes invalid triangles and all but the first of those with the same corners.
+/// Whether two triangles have the same corners in the same sense.
+bool is_same(const Triangle& a, const Triangle& b) {
+  return a == b || a == Triangle{b[1], b[2], b[0]} || a == Triangle{b[2], b[0], b[1]};
+}
+
+/// Removes invalid triangles and all but the first of those with the same corners in the same
+/// sense.
 void remove_invalid(Mesh& mesh, const Run& run) {
   Selection keep(mesh.triangles.size());
   std::vector<std::uint32_t> order;
@@ -55,9 +64,8 @@ void remove_invalid(Mesh& mesh, const Run& run) {
     if (v % kStepsPerCheck == 0) run.check();
     for (std::uint32_t a = first[v]; a < first[v + 1]; ++a) {
       for (std::uint32_t b = a + 1; b < first[v + 1]; ++b) {
-        const bool same =
-            sorted(mesh.triangles[sorted_by[a]]) == sorted(mesh.triangles[sorted_by[b]]);
-        if (same) keep[sorted_by[b]] = 0;
+        if (is_same(mesh.triangles[sorted_by[a]], mesh.triangles[sorted_by[b]]))
+          keep[sorted_by[b]] = 0;
       }
     }
   }
@@ -78,6 +86,35 @@ struct TrianglePair {
   std::uint32_t out;
   std::uint32_t back;
 };
+
+/// Pairs the half-edges of a non-manifold edge as they enclose material, where that leaves none
+/// over: bodies that touch stay apart.
+bool pair_bodies(const Mesh& mesh,
+                 const HalfEdges& edges,
+                 std::uint32_t edge,
+                 bool inside_out,
+                 DisjointSets& shells,
+                 DisjointSets& corners) {
+  const std::uint32_t from = source_vertex(mesh, edge);
+  const std::uint32_t to = target_vertex(mesh, edge);
+  std::vector<std::uint32_t> half_edges;
+  for (const std::uint32_t out : edges.outgoing(from))
+    if (target_vertex(mesh, out) == to) half_edges.push_back(out);
+  for (const std::uint32_t back : edges.outgoing(to))
+    if (target_vertex(mesh, back) == from) half_edges.push_back(back);
+  std::vector<EdgeSide> sides;
+  for (const std::uint32_t one : half_edges)
+    sides.push_back({mesh.vertices_mm[opposite_vertex(mesh, one)].cast<double>(),
+                     (source_vertex(mesh, one) == from) != inside_out,
+                     shells.find(one / 3)});
+  const std::vector<std::size_t> partner =
+      pair_sides(mesh.vertices_mm[from].cast<double>(), mesh.vertices_mm[to].cast<double>(), sides);
+  for (std::size_t i = 0; i < sides.size(); ++i)
+    if (partner[i] == kNoPartner || sides[i].upward == sides[partner[i]].upward) return false;
+  for (std::size_t i = 0; i < sides.size(); ++i)
+    corners.join(half_edges[i], HalfEdges::next(half_edges[partner[i]]));
+  return true;
+}
 
 /// Pairs the half-edges of a non-manifold edge, the pair with the smallest dihedral angle first.
 void pair_triangles(const Mesh& mesh,
@@ -110,10 +147,15 @@ void pair_triangles(const Mesh& mesh,
   }
 }
 
-/// Splits non-manifold edges and vertices with several fans: each fan gets its own vertex.
-void split_fans(Mesh& mesh, const Run& run) {
+/// Splits non-manifold edges and vertices with several fans: each fan gets its own vertex. Returns
+/// the vertex that each one was.
+std::vector<std::uint32_t> split_fans(Mesh& mesh, const Run& run) {
   const HalfEdges edges(mesh);
+  const bool inside_out = is_inside_out(mesh);
   DisjointSets corners(edges.count());
+  DisjointSets shells(mesh.triangles.size());
+  for (std::uint32_t edge = 0; edge < edges.count(); ++edge)
+    if (edges.has_twin(edge)) shells.join(edge / 3, edges.twin(edge) / 3);
   for (std::uint32_t edge = 0; edge < edges.count(); ++edge) {
     if (edge % kStepsPerCheck == 0) run.check();
     if (edges.has_twin(edge)) {
@@ -124,7 +166,8 @@ void split_fans(Mesh& mesh, const Run& run) {
       const bool lowest = std::all_of(others.begin(), others.end(), [&](std::uint32_t e) {
         return e >= edge || target_vertex(mesh, e) != target_vertex(mesh, edge);
       });
-      if (lowest && source_vertex(mesh, edge) < target_vertex(mesh, edge))
+      if (lowest && source_vertex(mesh, edge) < target_vertex(mesh, edge) &&
+          !pair_bodies(mesh, edges, edge, inside_out, shells, corners))
         pair_triangles(mesh, edges, edge, corners);
     }
   }
@@ -132,22 +175,62 @@ void split_fans(Mesh& mesh, const Run& run) {
   std::vector<std::uint32_t> owner(mesh.vertices_mm.size(), kNone);  // the fan that keeps a vertex
   std::vector<std::uint32_t> added(edges.count(), kNone);
   std::vector<Triangle> new_index = mesh.triangles;
+  std::vector<std::uint32_t> was(mesh.vertices_mm.size());
+  std::iota(was.begin(), was.end(), 0U);
   for (std::uint32_t corner = 0; corner < edges.count(); ++corner) {
     const std::uint32_t fan = corners.find(corner);
     const std::uint32_t vertex = source_vertex(mesh, corner);
     if (owner[vertex] == kNone) owner[vertex] = fan;
     if (owner[vertex] == fan) continue;
-    if (added[fan] == kNone) added[fan] = copy_vertex(mesh, vertex);
+    if (added[fan] == kNone) {
+      added[fan] = copy_vertex(mesh, vertex);
+      was.push_back(vertex);
+    }
     new_index[corner / 3][corner % 3] = added[fan];
   }
   mesh.triangles = std::move(new_index);
+  return was;
+}
+
+/// Removes the backs of triangles that are there in both senses, except where they are the face in
+/// which two bodies touch. A back is the later one of a pair, on the same shell or on one that has
+/// nothing but backs. Returns whether it removed any.
+bool remove_backs(Mesh& mesh, const std::vector<std::uint32_t>& was, const Run& run) {
+  std::vector<std::pair<Triangle, std::uint32_t>> by_places;
+  by_places.reserve(mesh.triangles.size());
+  for (const auto& [a, b, c] : mesh.triangles)
+    by_places.emplace_back(sorted({was[a], was[b], was[c]}),
+                           static_cast<std::uint32_t>(by_places.size()));
+  std::sort(by_places.begin(), by_places.end());
+  run.check();
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs;
+  for (std::size_t i = 1; i < by_places.size(); ++i)
+    if (by_places[i - 1].first == by_places[i].first)
+      pairs.emplace_back(by_places[i - 1].second, by_places[i].second);
+  if (pairs.empty()) return false;
+  const ConnectedComponents found = connected_components(mesh);
+  std::vector<std::size_t> backs(found.components.size());
+  for (const auto& [front, back] : pairs)
+    ++backs[found.component_of[back]];
+  Selection keep(mesh.triangles.size(), 1);
+  bool any = false;
+  for (const auto& [front, back] : pairs) {
+    const std::uint32_t shell = found.component_of[back];
+    if (shell != found.component_of[front] && backs[shell] < found.components[shell].triangles)
+      continue;
+    keep[back] = 0;
+    any = true;
+  }
+  keep_triangles(mesh, keep);
+  return any;
 }
 
 }  // namespace
 
 Mesh make_manifold(Mesh mesh, const Run& run) {
   remove_invalid(mesh, run);
-  split_fans(mesh, run);
+  const std::vector<std::uint32_t> was = split_fans(mesh, run);
+  if (remove_backs(mesh, was, run)) static_cast<void>(split_fans(mesh, run));
   return mesh;
 }
 

@@ -9,9 +9,11 @@ namespace frangia {
 /// Makes a mesh manifold: each edge belongs to at most two consistently oriented triangles, and the
 /// triangles at each vertex form one fan.
 ///
-/// Removes triangles with two equal corners, duplicates in either orientation, and triangles with a
-/// vertex that does not exist or is not finite. Pairs the triangles at a non-manifold edge by the
-/// smallest dihedral angle and gives each pair copies of the vertices. No vertex moves.
+/// Removes triangles with two equal corners, duplicates, and triangles with a vertex that does not
+/// exist or is not finite. Of triangles in both orientations the later ones are removed, unless
+/// they are the face in which two bodies touch. Pairs the triangles at a non-manifold edge as they
+/// enclose material, or, where some are left over, by the smallest dihedral angle, and gives each
+/// pair copies of the vertices: bodies that touch are separate. No vertex moves.
 ///
 /// @errors   Error(Cancelled)
 [[nodiscard]] Mesh make_manifold(Mesh mesh, const Run& run = {});

@@ -207,8 +207,16 @@ class TomlReader {
     used_.insert(std::string(key));
     known_.insert(std::string(key));
     const toml::node* found = table_->get(key);
-    if (found == nullptr) fail(key, "is missing");
+    if (found == nullptr) fail(key, "is missing" + misspelt(key).value_or(""));
     return *found;
+  }
+  /// The advice for a missing key where the table has one that was not asked for and is nearly it.
+  [[nodiscard]] std::optional<std::string> misspelt(std::string_view key) const {
+    std::vector<std::string> others = keys();
+    std::erase_if(others, [&](const std::string& one) { return known_.contains(one); });
+    const auto nearest = nearest_name(key, others);
+    if (!nearest) return std::nullopt;
+    return fmt::format("; perhaps {} is meant as {}: rename it", *nearest, key);
   }
   [[nodiscard]] double finite(std::string_view key, const toml::node& item) const {
     const auto value = item.value<double>();

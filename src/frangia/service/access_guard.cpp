@@ -62,27 +62,51 @@ bool PasswordGuard::admits(std::string_view password,
   return false;
 }
 
+namespace {
+
+/// An address without the port that some proxies write behind it: 1.2.3.4:5678, [2001:db8::1]:5678.
+std::string without_port(const std::string& address) {
+  if (address.starts_with('[')) return address.substr(1, address.find(']') - 1);
+  const std::size_t colon = address.find(':');
+  const bool has_port = colon != std::string::npos && address.rfind(':') == colon;
+  return has_port ? address.substr(0, colon) : address;
+}
+
+/// An address in its usual form: an IPv4 address also where it is mapped into IPv6, the network of
+/// an IPv6 address. This machine is one client, by whichever of its 16 million addresses
+/// (127.0.0.0/8) it asks.
+std::string plain_address(const std::string& address) {
+  std::string plain = address.substr(0, INET6_ADDRSTRLEN);
+  ::in6_addr number{};
+  if (::inet_pton(AF_INET6, address.c_str(), &number) == 1) {
+    std::array<char, INET6_ADDRSTRLEN> text{};
+    constexpr std::size_t kNetworkBytes = 8;
+    if (IN6_IS_ADDR_LOOPBACK(&number)) return "127.0.0.1";
+    if (IN6_IS_ADDR_V4MAPPED(&number)) {
+      ::inet_ntop(AF_INET, &number.s6_addr[12], text.data(), text.size());
+      plain = text.data();
+    } else {
+      std::fill(std::begin(number.s6_addr) + kNetworkBytes, std::end(number.s6_addr), 0);
+      ::inet_ntop(AF_INET6, &number, text.data(), text.size());
+      return fmt::format("{}/64", text.data());
+    }
+  }
+  ::in_addr short_number{};
+  const bool is_here = ::inet_pton(AF_INET, plain.c_str(), &short_number) == 1 &&
+                       (ntohl(short_number.s_addr) >> 24U) == IN_LOOPBACKNET;
+  return is_here ? "127.0.0.1" : plain;
+}
+
+}  // namespace
+
 std::string client_address(const std::string& peer,
                            const std::string& forwarded_for,
                            bool behind_proxy) {
-  std::string address = peer;
-  const bool from_here = peer == "::1" || peer.starts_with("127.");
-  if (behind_proxy && from_here && !forwarded_for.empty()) {
-    address = forwarded_for.substr(forwarded_for.rfind(',') + 1);
-    std::erase_if(address, [](char c) { return c == ' ' || c == '\t'; });
-  }
-  ::in6_addr number{};
-  if (::inet_pton(AF_INET6, address.c_str(), &number) != 1)
-    return address.substr(0, INET6_ADDRSTRLEN);
-  std::array<char, INET6_ADDRSTRLEN> text{};
-  constexpr std::size_t kNetworkBytes = 8;
-  if (IN6_IS_ADDR_V4MAPPED(&number)) {
-    ::inet_ntop(AF_INET, &number.s6_addr[12], text.data(), text.size());
-    return text.data();
-  }
-  std::fill(std::begin(number.s6_addr) + kNetworkBytes, std::end(number.s6_addr), 0);
-  ::inet_ntop(AF_INET6, &number, text.data(), text.size());
-  return fmt::format("{}/64", text.data());
+  const std::string from = plain_address(peer);
+  if (!behind_proxy || from != "127.0.0.1" || forwarded_for.empty()) return from;
+  std::string address = forwarded_for.substr(forwarded_for.rfind(',') + 1);
+  std::erase_if(address, [](char c) { return c == ' ' || c == '\t'; });
+  return plain_address(without_port(address));
 }
 
 }  // namespace frangia

@@ -65,8 +65,10 @@ class PasswordGuard {
 };
 
 /// What counts as one client: an IPv4 address, or the network of an IPv6 address, of which one
-/// machine may have any number (its first 64 bits). Behind a proxy of this machine it is the last
-/// address of X-Forwarded-For, which the proxy wrote.
+/// machine may have any number (its first 64 bits). All addresses of the machine itself
+/// (127.0.0.0/8,
+/// ::1) are 127.0.0.1. Behind a proxy of this machine it is the last address of X-Forwarded-For,
+/// which the proxy wrote, without a port.
 [[nodiscard]] std::string client_address(const std::string& peer,
                                          const std::string& forwarded_for,
                                          bool behind_proxy);

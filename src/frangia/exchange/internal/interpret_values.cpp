@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cmath>
 #include <initializer_list>
 #include <optional>
@@ -112,6 +111,20 @@ std::vector<double> numbers_of(const Eigen::MatrixXd* matrix) {
   return numbers;
 }
 
+/// Distortion coefficients.
+///
+/// @errors   Error(Input) for a matrix of several rows and columns
+std::vector<double> distortion_of(const Eigen::MatrixXd* matrix) {
+  if (matrix != nullptr && matrix->rows() > 1 && matrix->cols() > 1) {
+    throw Error(
+        ErrorKind::Input,
+        fmt::format("a distortion is a matrix of {} x {}; it must be a list of coefficients",
+                    matrix->rows(),
+                    matrix->cols()));
+  }
+  return numbers_of(matrix);
+}
+
 /// A rotation matrix, or one by its rotation vector.
 std::optional<Eigen::Matrix3d> rotation_of(const Eigen::MatrixXd* matrix) {
   if (const auto full = matrix3_of(matrix)) return full;
@@ -178,16 +191,6 @@ std::vector<std::string> unknown_names(const NamedValues& values) {
     unknown.push_back(fmt::format("{} ({} x {})", name, matrix.rows(), matrix.cols()));
   }
   return unknown;
-}
-
-/// A text in lower case, without underscores, hyphens and blanks.
-std::string letters_of(const std::string& text) {
-  std::string plain;
-  for (const char letter : text) {
-    const auto code = static_cast<unsigned char>(letter);
-    if (std::isalnum(code) != 0) plain += static_cast<char>(std::tolower(code));
-  }
-  return plain;
 }
 
 /// MATLAB's names from the part that states what a value is, without outer structures.
@@ -263,50 +266,7 @@ ForeignLens toolbox_camera_of(const NamedValues& values, const std::string& side
   return lens;
 }
 
-/// Whether a text states a lens model that is not OpenCV's. Names, comments and files may hold the
-/// words of one; its short names count only where a model or type is stated.
-bool is_other_model(const std::string& key, const std::string& model) {
-  const auto is_in = [](const std::string& text, std::initializer_list<const char*> parts) {
-    return std::any_of(parts.begin(), parts.end(), [&](const char* part) {
-      return text.find(part) != std::string::npos;
-    });
-  };
-  if (is_in(key, {"name", "comment", "description", "note", "file", "path", "topic", "sensor"}))
-    return false;
-  if (key.find("fisheye") != std::string::npos)
-    return model == "true" || model == "yes" || model == "on" || model == "y";
-  if (is_in(model,
-            {"fisheye", "equidist", "kannala", "doublesphere", "omnidir", "scaramuzza", "ftheta"}))
-    return true;
-  if (!key.ends_with("model") && !key.ends_with("type") && !key.ends_with("projection"))
-    return false;
-  constexpr std::array kShort{"ds", "eucm", "ucm", "mei", "fov", "atan", "division", "kb", "ocam"};
-  return is_in(model, {"sphere", "omni", "unified", "equi", "kb4", "kb8"}) ||
-         std::find(kShort.begin(), kShort.end(), model) != kShort.end();
-}
-
 }  // namespace
-
-void check_lens_models(const NamedValues& values) {
-  const auto refuse = [](const std::string& name, const std::string& model) {
-    throw Error(ErrorKind::Input,
-                fmt::format("{} is {}, a lens model that no rig can hold: calibrate with OpenCV's "
-                            "model of k1 k2 p1 p2 k3 (plumb_bob, radtan)",
-                            name,
-                            model));
-  };
-  for (const auto& [name, text] : values.texts) {
-    const std::string key = letters_of(name.substr(name.rfind('.') + 1));
-    const std::string model = letters_of(text);
-    if (is_other_model(key, model)) refuse(name, text);
-  }
-  for (const auto& [name, matrix] : values.matrices) {
-    const std::string key = letters_of(name.substr(name.rfind('.') + 1));
-    const bool set = matrix.size() == 1 && matrix(0, 0) != 0.0;
-    if (set && key.find("fisheye") != std::string::npos) refuse(name, "set");
-    if (key == "mappingcoefficients") refuse(name, "stated");  // MATLAB's fisheyeIntrinsics
-  }
-}
 
 ForeignCalibration interpret_opencv_values(const NamedValues& values) {
   check_lens_models(values);
@@ -315,10 +275,10 @@ ForeignCalibration interpret_opencv_values(const NamedValues& values) {
                   : find_value(values, {"cam_K", "cam_int"}) ? "scan3d-capture"
                                                              : "OpenCV";
   found.camera.matrix = matrix3_of(find_value(values, kCameraMatrix));
-  found.camera.distortion = numbers_of(find_value(values, kCameraDistortion));
+  found.camera.distortion = distortion_of(find_value(values, kCameraDistortion));
   found.camera.size_px = size_of_values(values, kCameraSize, kCameraWidth, kCameraHeight);
   found.projector.matrix = matrix3_of(find_value(values, kProjectorMatrix));
-  found.projector.distortion = numbers_of(find_value(values, kProjectorDistortion));
+  found.projector.distortion = distortion_of(find_value(values, kProjectorDistortion));
   found.projector.size_px =
       size_of_values(values, kProjectorSize, kProjectorWidth, kProjectorHeight);
   found.rotation = rotation_of(find_value(values, kRotation));

@@ -59,7 +59,7 @@ Eigen::Index whole_number_of(std::string_view text) {
 /// Collects the values below <opencv_storage>.
 class StorageElements {
  public:
-  void begin(std::string_view name) {
+  void begin(std::string_view name, const XmlAttributes& attributes) {
     if (path_.empty()) is_storage_ = name == "opencv_storage";
     if (path_.size() == kMaxXmlDepth) {
       throw Error(ErrorKind::Input,
@@ -68,6 +68,13 @@ class StorageElements {
     }
     path_.emplace_back(name);
     text_.clear();
+    // A lens model may be stated beside its numbers: <Camera model="fisheye">.
+    for (const char* key :
+         {"model", "type", "projection", "distortion", "distortion_model", "fisheye"}) {
+      const std::string_view value = attributes.value(key);
+      if (!value.empty())
+        values.texts.emplace(fmt::format("{}.{}", name_of_element(), key), std::string(value));
+    }
     if (path_.size() == 2) fields_.clear();
     if (!is_storage_ && values.matrices.size() + values.texts.size() > kMaxXmlValues) {
       throw Error(ErrorKind::Input,
@@ -131,7 +138,8 @@ class StorageElements {
 
 NamedValues read_opencv_xml(std::string_view text) {
   StorageElements storage;
-  XmlParser elements([&](std::string_view name, const XmlAttributes&) { storage.begin(name); },
+  XmlParser elements([&](std::string_view name,
+                         const XmlAttributes& attributes) { storage.begin(name, attributes); },
                      [&](std::string_view) { storage.end(); },
                      [&](std::string_view piece) { storage.text(piece); });
   elements.feed(text);

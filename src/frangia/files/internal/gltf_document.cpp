@@ -85,6 +85,12 @@ std::string_view bytes_of_uri(GltfDocument& document, const std::string& uri) {
 }
 
 std::string_view buffer_of(GltfDocument& document, const json& buffer, std::string_view binary) {
+  const json extensions = buffer.value("extensions", json::object());
+  for (const auto& [name, extension] : extensions.items()) {
+    if (!buffer.contains("uri") && name.find("compression") != std::string::npos)
+      document.fail(
+          fmt::format("it is compressed ({}); export it without compression", name.substr(0, 80)));
+  }
   const std::uint64_t length = document.whole(buffer.at("byteLength"));
   const std::string_view bytes =
       buffer.contains("uri")
@@ -102,15 +108,16 @@ std::string_view buffer_of(GltfDocument& document, const json& buffer, std::stri
 void check_extensions(const GltfDocument& document) {
   const auto required = document.json.find("extensionsRequired");
   if (required == document.json.end() || !required->is_array()) return;
-  constexpr std::array<std::string_view, 9> kHarmless{"KHR_materials_",
-                                                      "EXT_materials_",
-                                                      "KHR_texture_",
-                                                      "EXT_texture_",
-                                                      "MSFT_texture_",
-                                                      "KHR_lights_",
-                                                      "KHR_xmp",
-                                                      "KHR_mesh_quantization",
-                                                      "EXT_mesh_gpu_instancing"};
+  constexpr std::array<std::string_view, 10> kHarmless{"KHR_materials_",
+                                                       "EXT_materials_",
+                                                       "KHR_texture_",
+                                                       "EXT_texture_",
+                                                       "MSFT_texture_",
+                                                       "KHR_lights_",
+                                                       "KHR_xmp",
+                                                       "KHR_mesh_quantization",
+                                                       "KHR_node_visibility",
+                                                       "EXT_mesh_gpu_instancing"};
   for (const auto& entry : *required) {
     std::string name = entry.is_string() ? entry.get<std::string>() : entry.dump();
     const bool known = std::any_of(kHarmless.begin(), kHarmless.end(), [&](std::string_view begin) {
@@ -141,6 +148,20 @@ const json& GltfDocument::item(const char* list, std::uint64_t index) const {
         "it refers to element {} of its {}, which does not exist; export it again", index, list));
   }
   return (*found)[index];
+}
+
+bool GltfDocument::is_compressed(const nlohmann::json& primitive) const {
+  if (!primitive.contains("extensions") ||
+      !primitive.at("extensions").contains("KHR_draco_mesh_compression"))
+    return false;
+  const std::uint64_t positions = whole(primitive.at("attributes").at("POSITION"));
+  return !item("accessors", positions).contains("bufferView");
+}
+
+bool GltfDocument::hides(const nlohmann::json& node) {
+  const nlohmann::json extensions = node.value("extensions", nlohmann::json::object());
+  const auto found = extensions.find("KHR_node_visibility");
+  return found != extensions.end() && !found->value("visible", true);
 }
 
 std::uint64_t GltfDocument::whole(const nlohmann::json& number) const {

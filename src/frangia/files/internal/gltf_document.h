@@ -66,6 +66,11 @@ struct GltfDocument {
                       std::size_t width,
                       std::vector<double>& numbers) const;
 
+  /// Whether a primitive has its positions in the Draco format, without a plain copy.
+  [[nodiscard]] bool is_compressed(const nlohmann::json& primitive) const;
+  /// Whether KHR_node_visibility hides a node, and with it what is below.
+  [[nodiscard]] static bool hides(const nlohmann::json& node);
+
   /// Element `index` of a list of the document.
   ///
   /// @errors   Error(Input) when it does not exist

@@ -1,25 +1,21 @@
 #include "frangia/files/internal/join_soup.h"
 
 #include <algorithm>
-#include <array>
 #include <bit>
-#include <cmath>
 #include <cstdint>
 #include <numeric>
-#include <span>
 #include <tuple>
 #include <vector>
 
-#include <Eigen/Geometry>
 #include <fmt/format.h>
 
 #include "frangia/core/disjoint_sets.h"
 #include "frangia/core/random.h"
+#include "frangia/geometry/pair_sides.h"
 
 namespace frangia {
 namespace {
 
-constexpr std::size_t kNoPartner = SIZE_MAX;
 constexpr std::size_t kSoupPerCheck = 1U << 16U;
 
 /// A side of a triangle: 3 times the triangle and the corner that it begins at.
@@ -96,55 +92,55 @@ std::vector<std::uint8_t> lone_sides(const Mesh& mesh) {
   return lone;
 }
 
-/// The angle of a side's triangle about its edge from a direction across the edge, in small steps.
-std::int64_t angle_about_edge(const Mesh& mesh,
-                              const SidesOfEdges::Entry& entry,
-                              const Eigen::Vector3d& origin,
-                              const Eigen::Vector3d& along,
-                              const Eigen::Vector3d& across) {
-  const Eigen::Vector3d way =
-      mesh.vertices_mm[corner_at(mesh, entry.side, 2)].cast<double>() - origin;
-  const double angle_rad = std::atan2(along.cross(across).dot(way), across.dot(way));
-  constexpr double kStep_rad = 1e-6;  // faces in one plane are at one angle, also at half a turn
-  constexpr double kPi_rad = 3.14159265358979323846;
-  return angle_rad < kStep_rad - kPi_rad ? std::llround(kPi_rad / kStep_rad)
-                                         : std::llround(angle_rad / kStep_rad);
+/// The triangles that share vertices, by the number of a triangle.
+DisjointSets sharing_triangles(const Mesh& mesh) {
+  constexpr std::uint32_t kNone = UINT32_MAX;
+  DisjointSets shells(mesh.triangles.size());
+  std::vector<std::uint32_t> first(mesh.vertices_mm.size(), kNone);
+  for (std::uint32_t i = 0; i < mesh.triangles.size(); ++i) {
+    for (const std::uint32_t vertex : mesh.triangles[i]) {
+      if (first[vertex] == kNone) first[vertex] = i;
+      shells.join(first[vertex], i);
+    }
+  }
+  return shells;
 }
 
-/// Pairs the sides of one edge that enclose material: behind an upward side, against the sense of
-/// rotation, comes the next downward one.
-void pair_sides(const Mesh& mesh,
-                std::span<const SidesOfEdges::Entry> at_edge,
-                std::vector<Side>& partner) {
-  const auto connect = [&](Side a, Side b) {
-    partner[a] = b;
-    partner[b] = a;
-  };
-  if (at_edge.size() == 2) {
-    if (at_edge[0].upward != at_edge[1].upward) connect(at_edge[0].side, at_edge[1].side);
-    return;
-  }
-  const Eigen::Vector3d origin = mesh.vertices_mm[at_edge[0].low].cast<double>();
-  const Eigen::Vector3d along =
-      (mesh.vertices_mm[at_edge[0].high].cast<double>() - origin).normalized();
-  const Eigen::Vector3d across = along.unitOrthogonal();
-  struct Turned {
-    std::int64_t angle;
-    const SidesOfEdges::Entry* entry;
-  };
-  std::vector<Turned> turned;
-  for (const SidesOfEdges::Entry& entry : at_edge)
-    turned.push_back({angle_about_edge(mesh, entry, origin, along, across), &entry});
-  std::sort(turned.begin(), turned.end(), [](const Turned& a, const Turned& b) {
-    // At one angle an upward side comes first: bodies that touch with a face stay apart.
-    return std::tuple(a.angle, !a.entry->upward, a.entry->side) <
-           std::tuple(b.angle, !b.entry->upward, b.entry->side);
+/// Pairs the sides of each edge: those of one shell, and what touches there as it encloses
+/// material.
+std::vector<Side> partners_of(const Mesh& mesh, const SidesOfEdges& sides, const Run& run) {
+  std::vector<Side> partner(3 * mesh.triangles.size(), kNoPartner);
+  DisjointSets shells = sharing_triangles(mesh);
+  sides.each([&](std::size_t first, std::size_t last) {
+    const SidesOfEdges::Entry& a = sides.entries[first];
+    const SidesOfEdges::Entry& b = sides.entries[last - 1];
+    if (last - first != 2 || a.upward == b.upward) return;
+    partner[a.side] = b.side;
+    partner[b.side] = a.side;
+    shells.join(static_cast<std::uint32_t>(a.side / 3), static_cast<std::uint32_t>(b.side / 3));
   });
-  for (std::size_t i = 0; i < turned.size(); ++i) {
-    const SidesOfEdges::Entry& down = *turned[i].entry;
-    const SidesOfEdges::Entry& up = *turned[(i + 1) % turned.size()].entry;
-    if (!down.upward && up.upward) connect(down.side, up.side);
-  }
+  const bool inside_out = is_inside_out(mesh);
+  std::vector<EdgeSide> at_edge;
+  sides.each([&](std::size_t first, std::size_t last) {
+    if (first % kSoupPerCheck == 0) run.check();
+    if (last - first < 3) return;
+    at_edge.clear();
+    for (std::size_t i = first; i < last; ++i) {
+      const SidesOfEdges::Entry& entry = sides.entries[i];
+      at_edge.push_back({mesh.vertices_mm[corner_at(mesh, entry.side, 2)].cast<double>(),
+                         entry.upward != inside_out,
+                         shells.find(static_cast<std::uint32_t>(entry.side / 3))});
+    }
+    const std::vector<std::size_t> pairs =
+        pair_sides(mesh.vertices_mm[sides.entries[first].low].cast<double>(),
+                   mesh.vertices_mm[sides.entries[first].high].cast<double>(),
+                   at_edge);
+    for (std::size_t i = 0; i < pairs.size(); ++i) {
+      const bool opposite = pairs[i] != kNoPartner && at_edge[i].upward != at_edge[pairs[i]].upward;
+      if (opposite) partner[sides.entries[first + i].side] = sides.entries[first + pairs[i]].side;
+    }
+  });
+  return partner;
 }
 
 /// Whether two vertices of one place may become one.
@@ -183,12 +179,7 @@ Mesh join_soup(Mesh mesh, const std::filesystem::path& path, const Run& run) {
                   [&](const SidesOfEdges::Entry& entry) { return lone[entry.side] == 0; });
   }
   run.check();
-  std::vector<Side> partner(3 * mesh.triangles.size(), kNoPartner);
-  sides.each([&](std::size_t first, std::size_t last) {
-    if (first % kSoupPerCheck == 0) run.check();
-    if (last - first > 1)
-      pair_sides(mesh, std::span(sides.entries).subspan(first, last - first), partner);
-  });
+  const std::vector<Side> partner = partners_of(mesh, sides, run);
   DisjointSets joined(mesh.vertices_mm.size());
   bool normals_differ = false;
   const auto join = [&](std::uint32_t a, std::uint32_t b) {

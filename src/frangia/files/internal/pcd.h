@@ -10,7 +10,8 @@ namespace frangia {
 /// Reads a point cloud of the Point Cloud Library, ascii or binary.
 ///
 /// @shape    points without triangles; the fields read are x y z, normal_x normal_y normal_z when
-///          all three exist, and sigma_mm with its parts sigma_noise_mm and sigma_systematic_mm
+///          all three exist, rgb or rgba, or r g b, and sigma_mm with its parts sigma_noise_mm and
+///          sigma_systematic_mm; `run` gets a VIEWPOINT, which is not applied
 /// @units    as in the file, assumed to be mm
 /// @missing  points that are not finite, which an organized cloud has at unmeasured pixels, are
 ///          omitted; `run` gets their number

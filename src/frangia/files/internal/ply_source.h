@@ -36,6 +36,8 @@ class AsciiPlySource {
   [[nodiscard]] std::uint64_t max_count(const PlyElement& element) const {
     return (reader_.bytes_left() + 1) / (2 * element.properties.size());
   }
+  /// What was not read.
+  [[nodiscard]] std::string_view rest() const { return reader_.rest(); }
   [[noreturn]] void fail(const std::string& why) const { reader_.fail(why); }
 
  private:
@@ -77,6 +79,8 @@ class BinaryPlySource {
       bytes += bytes_of(property.count_type.value_or(property.type));
     return left_.size() / std::max<std::size_t>(bytes, 1);
   }
+  /// What was not read.
+  [[nodiscard]] std::string_view rest() const { return left_; }
   [[noreturn]] void fail(const std::string& why) const {
     throw Error(ErrorKind::Input, fmt::format("{}: {}", path_.string(), why));
   }

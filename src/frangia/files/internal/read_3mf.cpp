@@ -91,6 +91,15 @@ Mesh read_package(const std::filesystem::path& path, const ReadOptions& options,
                     built.left_out == 1 ? "" : "s",
                     built.left_out == 1 ? "is" : "are"));
   }
+  if (built.shapes > 0) {
+    run.warn(fmt::format(
+        "{}: left out {} beam{} or shape{} of extensions, which are no triangles; export it as "
+        "triangles",
+        path.string(),
+        built.shapes,
+        built.shapes == 1 ? "" : "s",
+        built.shapes == 1 ? "" : "s"));
+  }
   return std::move(built.mesh);
 }
 

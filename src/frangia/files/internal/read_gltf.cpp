@@ -142,6 +142,12 @@ class GltfReader {
                       skinned_ + morphed_,
                       skinned_ + morphed_ == 1 ? " is" : "es are"));
     }
+    if (hidden_ > 0) {
+      run_.warn(fmt::format("{}: left out {} node{} hidden",
+                            document_.path.string(),
+                            hidden_,
+                            hidden_ == 1 ? " that is" : "s that are"));
+    }
     if (mesh_.empty()) document_.fail("its scene has no triangle");
     if (!all_have_normals_) mesh_.normals.clear();
     return std::move(mesh_);
@@ -163,6 +169,10 @@ class GltfReader {
       document_.fail(
           "a node has two parents, is its own descendant, or is nested too deeply; export it "
           "again");
+    }
+    if (GltfDocument::hides(node)) {
+      ++hidden_;
+      return;
     }
     const Eigen::Affine3d mm_from_node = parent * transform_of(document_, node);
     if (node.contains("mesh")) add_instances(node, mm_from_node);
@@ -218,8 +228,7 @@ class GltfReader {
       }
       if (mode > kGltfFan)
         document_.fail(fmt::format("a primitive has the unknown mode {}; export it again", mode));
-      if (primitive.contains("extensions") &&
-          primitive.at("extensions").contains("KHR_draco_mesh_compression")) {
+      if (document_.is_compressed(primitive)) {
         document_.fail("it is compressed (Draco); export it without compression");
       }
       if (primitive.contains("targets")) ++morphed_;
@@ -357,6 +366,7 @@ class GltfReader {
   std::size_t skipped_ = 0;
   std::size_t skinned_ = 0;
   std::size_t morphed_ = 0;
+  std::size_t hidden_ = 0;
   bool all_have_normals_ = true;
 };
 

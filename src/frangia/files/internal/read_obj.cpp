@@ -77,6 +77,7 @@ class ObjReader {
       } else if (!is_other_statement(keyword)) {
         if (odd_lines_++ == 0) odd_ = keyword;
       }
+      if (!keyword.starts_with('#')) end_statement();
     }
     if (!one_normal_a_vertex_ || mesh_.normals.size() != mesh_.vertices_mm.size()) {
       mesh_.normals.clear();
@@ -119,6 +120,12 @@ class ObjReader {
       if (!found.empty()) return found;
     }
     return {};
+  }
+
+  /// Passes over what is left of a statement, also in the lines on which it goes on.
+  void end_statement() {
+    while (!word().empty())
+      continue;
   }
 
   Eigen::Vector3f read_vector() {

@@ -12,6 +12,7 @@
 #include "frangia/files/internal/polygon_faces.h"
 #include "frangia/files/internal/read_bytes.h"
 #include "frangia/files/internal/text_reader.h"
+#include "frangia/files/internal/warn_of_rest.h"
 
 namespace frangia {
 namespace {
@@ -45,6 +46,11 @@ class OffReader {
   }
 
   [[nodiscard]] const PolygonFaces& polygons() const { return polygons_; }
+  /// Whether faces or vertices follow those that the header counts.
+  void warn(const std::filesystem::path& path, const Run& run) {
+    const std::string_view rest = reader_.rest();
+    if (!word().empty()) warn_of_rest(rest, path, run);
+  }
 
  private:
   static constexpr std::size_t kVertexBytes = 6;  // three digits and three separators
@@ -144,6 +150,7 @@ Mesh read_off(const std::filesystem::path& path, const Run& run) {
   Mesh mesh = reader.read();
   check_mesh(mesh, path);
   reader.polygons().triangulate(mesh, path, run);
+  reader.warn(path, run);
   return mesh;
 }
 

@@ -13,18 +13,21 @@
 #include <vector>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "frangia/core/error.h"
 #include "frangia/core/plain_text.h"
 #include "frangia/files/internal/check_mesh.h"
+#include "frangia/files/internal/color_of.h"
 #include "frangia/files/internal/pcd.h"
 #include "frangia/files/internal/read_bytes.h"
 #include "frangia/files/internal/text_reader.h"
+#include "frangia/files/internal/warn_of_rest.h"
 
 namespace frangia {
 namespace {
 
-constexpr std::array<std::string_view, 10> kKept{"x",
+constexpr std::array<std::string_view, 13> kKept{"x",
                                                  "y",
                                                  "z",
                                                  "normal_x",
@@ -33,8 +36,12 @@ constexpr std::array<std::string_view, 10> kKept{"x",
                                                  "sigma_mm",
                                                  "sigma_noise_mm",
                                                  "sigma_systematic_mm",
-                                                 "rgb"};
+                                                 "rgb",
+                                                 "r",
+                                                 "g",
+                                                 "b"};
 constexpr std::size_t kRgb = 9;
+constexpr std::size_t kFirstChannel = 10;
 constexpr std::uint64_t kMaxFieldCount = 65'536;
 
 struct Field {
@@ -67,10 +74,10 @@ std::string in_small_letters(std::string_view word) {
 class PcdReader {
  public:
   PcdReader(const std::filesystem::path& path, std::string_view text)
-      : text_(text), reader_(path, text) {}
+      : path_(path), text_(text), reader_(path, text) {}
 
-  Mesh read(std::size_t& left_out) {
-    read_header();
+  Mesh read(std::size_t& left_out, const Run& run) {
+    read_header(run);
     if (slot_of("x") == kNone || slot_of("y") == kNone || slot_of("z") == kNone) {
       reader_.fail("its points have no x, y or z");
     }
@@ -80,16 +87,21 @@ class PcdReader {
     has_parts_ =
         has_sigma_ && slot_of("sigma_noise_mm") != kNone && slot_of("sigma_systematic_mm") != kNone;
     for (Field& field : header_.fields)
-      if (field.name == "rgba") field.name = kKept[kRgb];  // its alpha is left out
+      field.name = kept_name_of(field.name);
     const std::size_t rgb = slot_of(kKept[kRgb]);
     has_colors_ = rgb != kNone && header_.fields[rgb].bytes == 4;
+    has_channels_ =
+        !has_colors_ && slot_of("r") != kNone && slot_of("g") != kNone && slot_of("b") != kNone;
     Mesh mesh;
     if (header_.data == "ascii") {
       read_points(mesh, left_out, [&](const Field& field) { return ascii(field); });
+      warn_of_rest(reader_.rest(), path_, run);
     } else {
       std::string_view body = text_.substr(reader_.position());
       read_points(mesh, left_out, [&](const Field& field) { return binary(field, body); });
+      warn_of_rest(body, path_, run);
     }
+    if (has_channels_) mesh.colors = colors_of(channels_);
     return mesh;
   }
 
@@ -102,7 +114,39 @@ class PcdReader {
     return kNone;
   }
 
-  void read_header() {
+  /// The name that a field has here: the alpha of `rgba` is left out, and some programs write a
+  /// field for each channel.
+  static std::string_view kept_name_of(std::string_view name) {
+    if (name == "rgba") return kKept[kRgb];
+    return name == "red" ? "r" : name == "green" ? "g" : name == "blue" ? "b" : name;
+  }
+
+  /// The value of a channel that stands for full light; that of a float is seen from its values.
+  static float full_light_of(const Field& field) {
+    if (field.type == 'F') return 1.0F;
+    return field.bytes == 2 ? 65'535.0F : 255.0F;
+  }
+
+  /// Warns of a pose of the sensor, in whose frame the points are.
+  void read_viewpoint(const Run& run) {
+    constexpr std::array<float, 7> kIdentity{0, 0, 0, 1, 0, 0, 0};  // position, then w x y z
+    std::array<float, 7> pose = kIdentity;
+    for (float& number : pose) {
+      const std::string_view word = reader_.word_on_line();
+      const std::optional<float> read = parse_float(word);
+      if (!read && !word.empty()) reader_.fail(fmt::format("{} is not a number", in_quotes(word)));
+      if (!read) return;
+      number = *read;
+    }
+    if (pose == kIdentity) return;
+    run.warn(
+        fmt::format("{}: its VIEWPOINT, the pose of the sensor ({}), is not applied: the points "
+                    "stay in the frame in which they are written",
+                    path_.string(),
+                    fmt::join(pose, " ")));
+  }
+
+  void read_header(const Run& run) {
     std::uint64_t width = 0;
     std::uint64_t height = 1;
     std::optional<std::uint64_t> points;
@@ -127,7 +171,9 @@ class PcdReader {
         points = whole();
       } else if (key == "DATA") {
         header_.data = in_small_letters(reader_.word_on_line());
-      } else if (key != "VERSION" && key != "VIEWPOINT" && !key.starts_with('#')) {
+      } else if (key == "VIEWPOINT") {
+        read_viewpoint(run);
+      } else if (key != "VERSION" && !key.starts_with('#')) {
         reader_.fail(fmt::format("{} is not a keyword of a PCD header", in_quotes(key)));
       }
       reader_.skip_line();
@@ -199,6 +245,7 @@ class PcdReader {
     mesh.vertices_mm.reserve(header_.points);
     std::array<float, kKept.size()> kept{};
     std::uint32_t packed = 0;
+    const float full_light = has_channels_ ? full_light_of(header_.fields[slot_of("r")]) : 1.0F;
     for (std::uint64_t i = 0; i < header_.points; ++i) {
       for (std::size_t f = 0; f < slots.size(); ++f) {
         for (std::uint64_t k = 0; k < header_.fields[f].count; ++k) {
@@ -222,6 +269,11 @@ class PcdReader {
         mesh.colors.push_back({static_cast<std::uint8_t>(packed >> 16U),
                                static_cast<std::uint8_t>(packed >> 8U),
                                static_cast<std::uint8_t>(packed)});
+      }
+      if (has_channels_) {
+        channels_.emplace_back(
+            kept[kFirstChannel], kept[kFirstChannel + 1], kept[kFirstChannel + 2]);
+        channels_.back() /= full_light;
       }
       if (has_sigma_) mesh.sigma_mm.push_back(kept[6]);
       if (!has_parts_) continue;
@@ -269,6 +321,7 @@ class PcdReader {
     }
   }
 
+  std::filesystem::path path_;
   std::string_view text_;
   TextReader reader_;
   Header header_;
@@ -276,6 +329,8 @@ class PcdReader {
   bool has_sigma_ = false;
   bool has_parts_ = false;
   bool has_colors_ = false;
+  bool has_channels_ = false;  ///< red, green and blue in fields of their own
+  std::vector<Eigen::Vector3f> channels_;
 };
 
 /// Whether the points are text, too.
@@ -290,7 +345,7 @@ Mesh read_pcd(const std::filesystem::path& path, const Run& run) {
   std::string text = read_bytes(path);
   if (has_text_points(text)) text = plain_text(std::move(text));
   std::size_t left_out = 0;
-  Mesh mesh = PcdReader(path, text).read(left_out);
+  Mesh mesh = PcdReader(path, text).read(left_out, run);
   check_mesh(mesh, path);
   if (left_out > 0) {
     run.warn(fmt::format("{}: omitted {} point{} without finite coordinates",

@@ -17,6 +17,7 @@
 #include "frangia/files/internal/polygon_faces.h"
 #include "frangia/files/internal/range_grid.h"
 #include "frangia/files/internal/read_bytes.h"
+#include "frangia/files/internal/warn_of_rest.h"
 #include "frangia/files/ply.h"
 
 namespace frangia {
@@ -198,7 +199,11 @@ void read_faces(Source& source, const PlyElement& element, PolygonFaces& polygon
 }
 
 template <typename Source>
-Mesh read_elements(Source source, const PlyHeader& header, PolygonFaces& polygons) {
+Mesh read_elements(Source source,
+                   const PlyHeader& header,
+                   PolygonFaces& polygons,
+                   const std::filesystem::path& path,
+                   const Run& run) {
   Mesh mesh;
   bool has_vertices = false;
   for (const PlyElement& element : header.elements) {
@@ -226,6 +231,7 @@ Mesh read_elements(Source source, const PlyHeader& header, PolygonFaces& polygon
     }
   }
   if (!has_vertices) source.fail("it has no element 'vertex'");
+  warn_of_rest(source.rest(), path, run);
   return mesh;
 }
 
@@ -244,9 +250,10 @@ Mesh read_ply(const std::filesystem::path& path, const Run& run) {
   const PlyHeader header = parse_ply_header(path, bytes);
   const std::string_view body = std::string_view(bytes).substr(header.body);
   PolygonFaces polygons;
-  Mesh mesh = header.format == PlyFormat::Ascii
-                  ? read_elements(AsciiPlySource(path, bytes, header.body), header, polygons)
-                  : read_elements(BinaryPlySource(path, body, header.format), header, polygons);
+  Mesh mesh =
+      header.format == PlyFormat::Ascii
+          ? read_elements(AsciiPlySource(path, bytes, header.body), header, polygons, path, run)
+          : read_elements(BinaryPlySource(path, body, header.format), header, polygons, path, run);
   check_mesh(mesh, path);
   polygons.triangulate(mesh, path, run);
   if (mesh.triangles.empty() && has_range_grid(header))

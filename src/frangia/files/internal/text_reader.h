@@ -36,6 +36,7 @@ class TextReader {
 
   [[nodiscard]] std::size_t position() const { return position_; }
   [[nodiscard]] std::size_t bytes_left() const { return text_.size() - position_; }
+  [[nodiscard]] std::string_view rest() const { return text_.substr(position_); }
   [[noreturn]] void fail(const std::string& why) const;
 
  private:

@@ -126,7 +126,7 @@ void ThreeMfModel::begin(std::string_view name, const XmlAttributes& attributes)
     collected_bytes_ += kGrowth * sizeof(VertexColor);
     return;
   }
-  if (!name.starts_with(kCore)) return;
+  if (!name.starts_with(kCore)) return count_shape(name);
   name.remove_prefix(kCore.size());
   if (name == "vertex") {
     vertex(attributes);
@@ -210,6 +210,17 @@ void ThreeMfModel::begin_object(const XmlAttributes& attributes) {
   // "model", "surface" and none are the part itself; slicers write modifiers as "other".
   const std::string_view type = attributes.value("type");
   made.is_aid = type == "support" || type == "solidsupport" || type == "other";
+}
+
+/// Takes note of an element of an extension that stands for a part of the object: beams and their
+/// balls, Boolean operations, displaced and implicit surfaces.
+void ThreeMfModel::count_shape(std::string_view name) {
+  constexpr std::array<std::string_view, 5> kShapes{
+      "beam", "ball", "booleanshape", "displacementmesh", "levelset"};
+  name.remove_prefix(std::min(name.rfind('|') + 1, name.size()));
+  if (std::find(kShapes.begin(), kShapes.end(), name) == kShapes.end()) return;
+  const auto found = objects_.find({part_, current_});
+  if (found != objects_.end()) ++found->second.shapes;
 }
 
 void ThreeMfModel::vertex(const XmlAttributes& attributes) {
@@ -314,6 +325,7 @@ void ThreeMfModel::add(Built& built,
     ++built.left_out;
     return;
   }
+  built.shapes += object.shapes;
   const Eigen::Affine3d transform = parent * reference.transform;
   if (!object.mesh.empty()) append_transformed(built.mesh, object.mesh, transform, path);
   for (const Reference& component : object.components) {

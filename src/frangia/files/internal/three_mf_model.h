@@ -40,6 +40,7 @@ class ThreeMfModel {
   struct Built {
     Mesh mesh;
     std::size_t left_out = 0;  ///< objects that are no part: supports, modifiers of a slicer
+    std::size_t shapes = 0;    ///< beams and other shapes of extensions, which are no triangles
   };
   [[nodiscard]] Built build(const std::filesystem::path& path, const MemoryBudget& budget) const;
 
@@ -55,6 +56,7 @@ class ThreeMfModel {
     std::vector<Reference> components;
     std::string material, index;  ///< of triangles without a material of their own
     bool is_aid = false;          ///< a support, or a modifier of a slicer
+    std::size_t shapes = 0;       ///< of extensions, which are no triangles
   };
 
   Reference read_reference(const XmlAttributes& attributes);
@@ -65,6 +67,7 @@ class ThreeMfModel {
   [[nodiscard]] double scale_between(const std::string& from, const std::string& to) const;
   Object& object();
   void begin_object(const XmlAttributes& attributes);
+  void count_shape(std::string_view name);
   void vertex(const XmlAttributes& attributes);
   void triangle(const XmlAttributes& attributes);
   void color_corners(Object& owner, const Mesh::Triangle& corners, const XmlAttributes& attributes);

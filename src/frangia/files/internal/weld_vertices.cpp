@@ -2,8 +2,10 @@
 
 #include <bit>
 #include <limits>
+#include <utility>
 
 #include "frangia/core/error.h"
+#include "frangia/geometry/separate_shells.h"
 
 namespace frangia {
 namespace {
@@ -56,7 +58,7 @@ Mesh weld_vertices(std::span<const Eigen::Vector3f> corners_mm) {
     const std::uint32_t c = table.index_of(corners_mm[i + 2]);
     if (a != b && b != c && c != a) mesh.triangles.push_back({a, b, c});
   }
-  return mesh;
+  return separate_shells(std::move(mesh));
 }
 
 }  // namespace frangia

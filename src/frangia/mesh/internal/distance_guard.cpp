@@ -112,13 +112,16 @@ std::uint32_t DistanceGuard::walk(const Vector3d& point, std::uint32_t from) con
   double nearest = (position_of(mesh, from) - point).squaredNorm();
   while (edges_->outgoing(from).size() <= kMostTriangles) {
     std::uint32_t best = from;
+    const auto try_vertex = [&](std::uint32_t vertex) {
+      const double square = (position_of(mesh, vertex) - point).squaredNorm();
+      if (square >= nearest) return;
+      nearest = square;
+      best = vertex;
+    };
     for (const std::uint32_t edge : edges_->outgoing(from)) {
-      for (const std::uint32_t vertex : {target_vertex(mesh, edge), opposite_vertex(mesh, edge)}) {
-        const double square = (position_of(mesh, vertex) - point).squaredNorm();
-        if (square >= nearest) continue;
-        nearest = square;
-        best = vertex;
-      }
+      try_vertex(target_vertex(mesh, edge));
+      // Within the surface it is the target of the next one.
+      if (!edges_->has_twin(HalfEdges::previous(edge))) try_vertex(opposite_vertex(mesh, edge));
     }
     if (best == from) return from;
     from = best;
@@ -126,15 +129,20 @@ std::uint32_t DistanceGuard::walk(const Vector3d& point, std::uint32_t from) con
   return from;
 }
 
-/// Whether a point is within a distance of the original. `from` is a vertex of the original near to
-/// which the search begins, and then the nearest one; kNone: none is known. Where the walk ends at
-/// another part of the surface, Embree decides.
-bool DistanceGuard::is_near(const Vector3d& point, double distance_mm, std::uint32_t& from) const {
-  if (from != kNone) {
-    from = walk(point, from);
-    const auto edges = edges_->outgoing(from);
-    for (const std::uint32_t edge : edges.first(std::min(edges.size(), kMostTriangles)))
-      if (square_from(original_->mesh(), edge / 3, point) <= distance_mm * distance_mm) return true;
+/// Whether a point is within a distance of the original. Most points lie beside the triangle of the
+/// point before. Where the walk ends at another part of the surface, Embree decides.
+bool DistanceGuard::is_near(const Vector3d& point, double distance_mm, Start& start) const {
+  const double most = distance_mm * distance_mm;
+  if (start.triangle != kNone && square_from(original_->mesh(), start.triangle, point) <= most)
+    return true;
+  if (start.vertex != kNone) {
+    start.vertex = walk(point, start.vertex);
+    const auto edges = edges_->outgoing(start.vertex);
+    for (const std::uint32_t edge : edges.first(std::min(edges.size(), kMostTriangles))) {
+      if (square_from(original_->mesh(), edge / 3, point) > most) continue;
+      start.triangle = edge / 3;
+      return true;
+    }
   }
   return original_->nearest(point, distance_mm).has_value();
 }
@@ -205,11 +213,11 @@ bool DistanceGuard::allows(const CollapseTopology& topology,
     }
   }
   if (is_fine() && target.mean_square < plain_distance_mm() * plain_distance_mm()) return true;
-  std::uint32_t from = reassigned_.empty() ? kNone : reassigned_.front();
-  return is_near(target_mm, distance_mm_, from) &&
+  Start start{.vertex = reassigned_.empty() ? kNone : reassigned_.front()};
+  return is_near(target_mm, distance_mm_, start) &&
          std::all_of(remaining_.begin(), remaining_.end(), [&](const Triangle& t) {
-           return is_near((t.a + t.b + t.c) / 3.0, distance_mm_, from) &&
-                  is_near(0.5 * (t.a + t.b), distance_mm_, from);
+           return is_near((t.a + t.b + t.c) / 3.0, distance_mm_, start) &&
+                  is_near(0.5 * (t.a + t.b), distance_mm_, start);
          });
 }
 
@@ -310,13 +318,13 @@ void DistanceGuard::check_present(const Mesh& mesh,
       if (alive[i] == 0 || (same[i] != 0 && checked.near[i] != 0)) continue;
       const auto& [a, b, c] = mesh.triangles[i];
       checked.near[i] = 1;
-      std::uint32_t from = first_[i];
+      Start start{.vertex = first_[i]};
       static_cast<void>(all_triangle_samples(position_of(mesh, a),
                                              position_of(mesh, b),
                                              position_of(mesh, c),
                                              spacing_mm_,
                                              [&](const Vector3d& point) {
-                                               if (is_near(point, distance_mm, from)) return true;
+                                               if (is_near(point, distance_mm, start)) return true;
                                                checked.near[i] = 0;
                                                if (const auto nearest = original_->nearest(point)) {
                                                  const Mesh::Triangle& t =

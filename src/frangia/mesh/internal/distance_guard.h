@@ -76,6 +76,11 @@ class DistanceGuard {
     std::uint32_t number;
     Eigen::Vector3d a, b, c;
   };
+  /// Where the search for the original begins: near to the point before.
+  struct Start {
+    std::uint32_t vertex = kNone;    ///< of the original
+    std::uint32_t triangle = kNone;  ///< of the original, near to which the point before was
+  };
   void gather(const CollapseTopology& topology,
               const Mesh& mesh,
               std::uint32_t vertex,
@@ -83,9 +88,7 @@ class DistanceGuard {
               const Eigen::Vector3d& target_mm);
   [[nodiscard]] std::uint32_t nearest_triangle(const Eigen::Vector3d& point) const;
   [[nodiscard]] std::uint32_t walk(const Eigen::Vector3d& point, std::uint32_t from) const;
-  [[nodiscard]] bool is_near(const Eigen::Vector3d& point,
-                             double distance_mm,
-                             std::uint32_t& from) const;
+  [[nodiscard]] bool is_near(const Eigen::Vector3d& point, double distance_mm, Start& start) const;
   void check_original(const Mesh& mesh,
                       const std::vector<std::uint8_t>& alive,
                       double distance_mm,
