@@ -170,6 +170,38 @@ TEST(RefineRig, FindsTheDriftOfAProjectorFromOverlappingViews) {
   EXPECT_FALSE(found.result.rig.calibration->covariance.empty());
 }
 
+/// The refinement of a rig that is stated wrongly, by the views of the knobbly part.
+RigRefinement refine_stated(const Rig& given) {
+  const Rig truth = true_rig();
+  constexpr int kViews = 6;
+  const ViewStore seen = scaled_views(knobbly, truth, kViews, 1.0);
+  const ViewStore views = retriangulate_views(seen, kColumns, truth, given);
+  const std::vector<RigSurfaces> surfaces{{views, kColumns, counted(kViews)}};
+  return refine_rig(given, surfaces, stations_of(kViews, rad_from_deg(0.05)));
+}
+
+TEST(RefineRig, FindsTheDistortionOfALens) {
+  Rig given = true_rig();
+  given.reference().model.distortion[0] = 0.15;
+  const RigRefinement found = refine_stated(given);
+  EXPECT_FALSE(found.kept_rig) << found.text();
+  EXPECT_LT(found.rms_after_mm, 0.5 * found.rms_before_mm);
+  EXPECT_NEAR(found.rig.reference().model.distortion[0], 0.0, 0.05);
+}
+
+TEST(RefineRig, StatesHowFarARigIsOpenThatChangedMoreThanExpected) {
+  Rig given = true_rig();
+  auto& projector = std::get<PinholeModel>(given.projector.model);
+  projector.focal_px *= 1.006;  // 20 standard deviations
+  const RigRefinement found = refine_stated(given);
+  EXPECT_EQ(found.beyond_prior, std::vector<std::string>{"projector.focal_px"}) << found.text();
+  for (const RefinedParameter& parameter : found.parameters) {
+    const double truth =
+        parameter.name == "projector.focal_px" ? 1900.0 - projector.focal_px.x() : 0.0;
+    EXPECT_LT(std::abs(parameter.change - truth), 3.0 * parameter.sigma) << parameter.name;
+  }
+}
+
 TEST(RefineRig, BehavesAlikeForARigOfTenTimesTheSize) {
   const Refined& one = of_unit_size();
   const Refined ten = refine(knobbly, 10.0);
