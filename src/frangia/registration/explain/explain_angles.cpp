@@ -16,6 +16,8 @@ namespace {
 struct Agreement {
   double violation = 0.0;  ///< share of the comparisons in front of what another view measured
   double surfels = 0.0;    ///< that lie on what another view measured
+  double pairs = 0.0;      ///< of surfels and such views: two groups of views that each agree have
+                           ///< as many surfels as when all agree, and fewer pairs
 
   /// What speaks for the angles. A hundredth of the comparisons that contradict outweighs all.
   [[nodiscard]] double support() const { return surfels * std::max(0.0, 1.0 - 100.0 * violation); }
@@ -28,7 +30,8 @@ Agreement agreement_of(Bundle& bundle,
   const BundleSums sums = sum(bundle, surfels);
   return {free_space_violation(sums),
           static_cast<double>(
-              std::accumulate(sums.matched.begin(), sums.matched.end(), std::size_t{0}))};
+              std::accumulate(sums.matched.begin(), sums.matched.end(), std::size_t{0})),
+          static_cast<double>(sums.distances_mm.size())};
 }
 
 std::vector<double> scaled(const std::vector<double>& angles_rad, double factor) {
@@ -228,9 +231,10 @@ std::optional<ExplainedAngles> explain_angles(const Registration& work) {
   const auto try_angles = [&](std::vector<double> angles_rad, const PoseExplanation& as) {
     const Agreement agreement = agreement_of(bundle, surfels, angles_rad);
     // Of parts that repeat themselves, other angles fit, too, but the right ones fit more of it.
-    if (agreement.violation > few || agreement.surfels < kMore * commanded.surfels ||
-        agreement.support() <= most)
-      return;
+    const bool fits_more = as.best == PoseCause::Turned
+                               ? agreement.pairs > kMore * commanded.pairs
+                               : agreement.surfels > kMore * commanded.surfels;
+    if (agreement.violation > few || !fits_more || agreement.support() <= most) return;
     most = agreement.support();
     best = {std::move(angles_rad), as};
   };
