@@ -311,18 +311,6 @@ TEST(ExplainPoses, FindsAGearsAnglesInAnotherProportion) {
   EXPECT_NEAR(out.report.explanation.scale, 0.96, 2e-3) << out.report.explanation.text;
 }
 
-TEST(ExplainPoses, FindsALostStepOfAGearThoughItsTeethRepeatThemselves) {
-  FaultyScan scan(8);
-  for (std::size_t view = 4; view < 8; ++view)
-    scan.views[view].angle_rad -= rad_from_deg(2.8);
-  const Registered out = registered(scan, RayScene(make_part("gear")));
-  const PoseExplanation& found = out.report.explanation;
-  EXPECT_EQ(found.best, PoseCause::Turned) << found.text;
-  EXPECT_EQ(found.views, std::vector<std::size_t>{4});
-  EXPECT_NEAR(found.turned_rad, rad_from_deg(-2.8), rad_from_deg(0.1)) << found.text;
-  EXPECT_LT(out.error_mm, 0.01);
-}
-
 /// The standard deviation of a parameter of the rig; 0 where it is not open.
 double open_sigma(const RegistrationReport& report, const std::string& name) {
   const RigCovariance& open = report.rig_open;

@@ -16,8 +16,6 @@ namespace {
 struct Agreement {
   double violation = 0.0;  ///< share of the comparisons in front of what another view measured
   double surfels = 0.0;    ///< that lie on what another view measured
-  double pairs = 0.0;      ///< of surfels and such views: two groups of views that each agree have
-                           ///< as many surfels as when all agree, and fewer pairs
 
   /// What speaks for the angles. A hundredth of the comparisons that contradict outweighs all.
   [[nodiscard]] double support() const { return surfels * std::max(0.0, 1.0 - 100.0 * violation); }
@@ -30,8 +28,7 @@ Agreement agreement_of(Bundle& bundle,
   const BundleSums sums = sum(bundle, surfels);
   return {free_space_violation(sums),
           static_cast<double>(
-              std::accumulate(sums.matched.begin(), sums.matched.end(), std::size_t{0})),
-          static_cast<double>(sums.distances_mm.size())};
+              std::accumulate(sums.matched.begin(), sums.matched.end(), std::size_t{0}))};
 }
 
 std::vector<double> scaled(const std::vector<double>& angles_rad, double factor) {
@@ -55,19 +52,12 @@ std::vector<double> factors() {
   return all;
 }
 
-/// From view `first` on, the table or the part is turned by an angle.
-std::vector<double> turned(std::vector<double> angles_rad, std::size_t first, double by_rad) {
+/// The turn to view `first` did not happen.
+std::vector<double> without_turn(std::vector<double> angles_rad, std::size_t first) {
+  const double turn = angles_rad[first] - angles_rad[first - 1];
   for (std::size_t view = first; view < angles_rad.size(); ++view)
-    angles_rad[view] += by_rad;
+    angles_rad[view] -= turn;
   return angles_rad;
-}
-
-PoseExplanation turned_from(std::size_t first, double by_rad) {
-  PoseExplanation lost;
-  lost.best = PoseCause::Turned;
-  lost.views = {first};
-  lost.turned_rad = by_rad;
-  return lost;
 }
 
 /// Sums over the views of how their angles are related to those commanded.
@@ -121,52 +111,6 @@ double refined_factor(const Registration& work, double factor) {
   return factor;
 }
 
-/// The turn before view `first`, near another one, to which the table is refined from there.
-double refined_turn(const Registration& work, std::size_t first, double by_rad) {
-  constexpr int kTurns = 3;  // the prior of the angles holds them back
-  Bundle bundle = work.bundle;
-  bundle.gate_mm = work.reach_mm;
-  const std::vector<double>& given = work.bundle.given.angles_rad;
-  for (int turn = 0; turn < kTurns; ++turn) {
-    bundle.given.angles_rad = turned(given, first, by_rad);
-    bundle.state = bundle.given;
-    optimize_bundle(bundle, work.surfels, work.options.max_iterations, work.run);
-    double before = 0.0;
-    double after = 0.0;
-    for (std::size_t view = 0; view < given.size(); ++view) {
-      (view < first ? before : after) +=
-          bundle.state.angles_rad[view] - bundle.given.angles_rad[view];
-    }
-    by_rad +=
-        after / static_cast<double>(given.size() - first) - before / static_cast<double>(first);
-  }
-  return by_rad;
-}
-
-/// Radius of the part about the axis: root mean square.
-double radius_mm(const Bundle& bundle, const SurfelLists& surfels) {
-  const Turntable& table = bundle.given.table;
-  double squares = 0.0;
-  double count = 0.0;
-  for (const auto& view : surfels) {
-    for (const SurfelMap::Surfel& surfel : view) {
-      const Eigen::Vector3d away = surfel.point_mm.cast<double>() - table.point_mm;
-      squares += away.squaredNorm() - std::pow(away.dot(table.axis), 2);
-      count += 1.0;
-    }
-  }
-  return std::sqrt(std::max(squares, 1e-12) / std::max(count, 1.0));
-}
-
-/// Views before which a lost step is looked for, all of them where they are few.
-std::vector<std::size_t> breaks_of(std::size_t views) {
-  constexpr std::size_t kMost = 16;
-  std::vector<std::size_t> breaks;
-  for (std::size_t view = 1; view < views; view += 1 + views / kMost)
-    breaks.push_back(view);
-  return breaks;
-}
-
 /// Median distance of the views about the stated axis. Angles that slid along faces of the part,
 /// which do not hold them, make it no smaller.
 float apart_mm(const Registration& work, const std::vector<double>& angles_rad) {
@@ -206,9 +150,6 @@ std::optional<ExplainedAngles> explain_angles(const Registration& work) {
   constexpr int kFine = 7;
   constexpr double kFineStep = 0.0005;
   constexpr double kAsMany = 0.998;
-  constexpr double kOfGate = 0.6;
-  constexpr double kMostTurn_rad = 0.2;  // as much as the angles in proportion
-  constexpr double kMostSteps = 20.0;
   Bundle bundle = work.bundle;
   const SurfelLists surfels = pick_all_surfels(bundle.maps, kFew);
   bundle.gate_mm = kOpen * work.reach_mm;
@@ -218,9 +159,9 @@ std::optional<ExplainedAngles> explain_angles(const Registration& work) {
     const auto share = share_of_angles(work.bundle);
     if (!share || std::abs(*share) > kMostWrong) return std::nullopt;
     const double factor = refined_factor(work, 1.0 + *share);
-    const std::vector<double> angles_rad = scaled(given, factor);
-    if (apart_mm(work, given) < kMuch * apart_mm(work, angles_rad)) return std::nullopt;
-    return worded({angles_rad, scaled_by(factor)}, work);
+    const std::vector<double> turned = scaled(given, factor);
+    if (apart_mm(work, given) < kMuch * apart_mm(work, turned)) return std::nullopt;
+    return worded({turned, scaled_by(factor)}, work);
   }
   bundle.state = bundle.given;  // the refined axis is that of the wrong angles
   ExplainedAngles best{given, {}};
@@ -231,10 +172,9 @@ std::optional<ExplainedAngles> explain_angles(const Registration& work) {
   const auto try_angles = [&](std::vector<double> angles_rad, const PoseExplanation& as) {
     const Agreement agreement = agreement_of(bundle, surfels, angles_rad);
     // Of parts that repeat themselves, other angles fit, too, but the right ones fit more of it.
-    const bool fits_more = as.best == PoseCause::Turned
-                               ? agreement.pairs > kMore * commanded.pairs
-                               : agreement.surfels > kMore * commanded.surfels;
-    if (agreement.violation > few || !fits_more || agreement.support() <= most) return;
+    if (agreement.violation > few || agreement.surfels < kMore * commanded.surfels ||
+        agreement.support() <= most)
+      return;
     most = agreement.support();
     best = {std::move(angles_rad), as};
   };
@@ -250,25 +190,11 @@ std::optional<ExplainedAngles> explain_angles(const Registration& work) {
       best = {scaled(given, factor), scaled_by(factor)};
   }
   for (std::size_t view = 1; view < given.size(); ++view) {
-    const double turn_rad = given[view - 1] - given[view];
-    try_angles(turned(given, view, turn_rad), turned_from(view, turn_rad));
-  }
-  // Nearer to each other than the gate, so that one of the turns fits.
-  const double step_rad = kOfGate * bundle.gate_mm / radius_mm(bundle, surfels);
-  const auto steps = static_cast<int>(std::min(kMostTurn_rad / step_rad, kMostSteps));
-  for (const std::size_t view : breaks_of(given.size())) {
-    for (int i = -steps; i <= steps; ++i)
-      try_angles(turned(given, view, i * step_rad), turned_from(view, i * step_rad));
-  }
-  if (best.explanation.best == PoseCause::Turned) {
-    for (std::size_t view = 1; view < given.size(); ++view) {
-      const double turn_rad = best.explanation.turned_rad;
-      try_angles(turned(given, view, turn_rad), turned_from(view, turn_rad));
-    }
-    const std::size_t view = best.explanation.views.front();
-    const double turn_rad = refined_turn(work, view, best.explanation.turned_rad);
-    if (agreement_of(bundle, surfels, turned(given, view, turn_rad)).support() >= kAsMany * most)
-      best = {turned(given, view, turn_rad), turned_from(view, turn_rad)};
+    PoseExplanation lost;
+    lost.best = PoseCause::Turned;
+    lost.views = {view};
+    lost.turned_rad = given[view - 1] - given[view];
+    try_angles(without_turn(given, view), lost);
   }
   if (best.explanation.best == PoseCause::AsStated) return std::nullopt;
   return worded(std::move(best), work);
