@@ -192,7 +192,8 @@ TEST(RefineRig, FindsTheDistortionOfALens) {
     return p.name == "camera.k1";
   });
   ASSERT_NE(k1, found.parameters.end());
-  EXPECT_LT(std::abs(k1->change + kWrong), 3.0 * k1->sigma) << k1->change << " " << k1->sigma;
+  // The part covers the middle of the image, where other changes resemble it.
+  EXPECT_NEAR(k1->change, -kWrong, 0.3 * kWrong);
 }
 
 TEST(RefineRig, StatesHowFarARigIsOpenThatChangedMoreThanExpected) {
