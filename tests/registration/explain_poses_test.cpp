@@ -311,6 +311,28 @@ TEST(ExplainPoses, FindsAGearsAnglesInAnotherProportion) {
   EXPECT_NEAR(out.report.explanation.scale, 0.96, 2e-3) << out.report.explanation.text;
 }
 
+/// The standard deviation of a parameter of the rig; 0 where it is not open.
+double open_sigma(const RegistrationReport& report, const std::string& name) {
+  const RigCovariance& open = report.rig_open;
+  for (std::size_t i = 0; i < open.parameters.size(); ++i) {
+    const auto at = static_cast<Eigen::Index>(i);
+    if (open.parameters[i] == name) return std::sqrt(open.covariance(at, at));
+  }
+  return 0.0;
+}
+
+TEST(ExplainPoses, LeavesOpenARigWhoseFaultTheScatterOfThePairsHides) {
+  FaultyScan scan(8);
+  scan.stated.reference().model.distortion[0] += 0.03;
+  const Registered out = registered(scan, ball_bar(), false);
+  EXPECT_GT(open_sigma(out.report, "camera.k1"), 0.01) << out.report.explanation.text;
+}
+
+TEST(ExplainPoses, LeavesNothingOpenOfASoundRig) {
+  const Registered out = registered(FaultyScan(8), ball_bar());
+  EXPECT_LT(open_sigma(out.report, "camera.k1"), 0.001);
+}
+
 TEST(ExplainPoses, FindsATurnThatDidNotHappen) {
   FaultyScan scan(8);
   for (std::size_t view = 5; view < 8; ++view)

@@ -1,5 +1,6 @@
 #include "frangia/registration/refine_rig.h"
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 #include <vector>
@@ -168,6 +169,46 @@ TEST(RefineRig, FindsTheDriftOfAProjectorFromOverlappingViews) {
   EXPECT_GT(found.result.rms_before_mm, 1.1 * found.result.rms_after_mm);
   ASSERT_TRUE(found.result.rig.calibration);
   EXPECT_FALSE(found.result.rig.calibration->covariance.empty());
+}
+
+/// The refinement of a rig that is stated wrongly, by the views of the knobbly part.
+RigRefinement refine_stated(const Rig& given) {
+  const Rig truth = true_rig();
+  constexpr int kViews = 6;
+  const ViewStore seen = scaled_views(knobbly, truth, kViews, 1.0);
+  const ViewStore views = retriangulate_views(seen, kColumns, truth, given);
+  const std::vector<RigSurfaces> surfaces{{views, kColumns, counted(kViews)}};
+  return refine_rig(given, surfaces, stations_of(kViews, rad_from_deg(0.05)));
+}
+
+TEST(RefineRig, FindsTheDistortionOfALens) {
+  Rig given = true_rig();
+  constexpr double kWrong = 0.6;  // by half a pixel at the ends of a row
+  given.reference().model.distortion[0] = kWrong;
+  const RigRefinement found = refine_stated(given);
+  EXPECT_FALSE(found.kept_rig) << found.text();
+  EXPECT_LT(found.rms_after_mm, 0.6 * found.rms_before_mm);
+  const auto k1 = std::find_if(found.parameters.begin(), found.parameters.end(), [](const auto& p) {
+    return p.name == "camera.k1";
+  });
+  ASSERT_NE(k1, found.parameters.end());
+  // The part covers the middle of the image, where other changes resemble it.
+  EXPECT_NEAR(k1->change, -kWrong, 0.3 * kWrong);
+}
+
+TEST(RefineRig, StatesHowFarARigIsOpenThatChangedMoreThanExpected) {
+  Rig given = true_rig();
+  auto& projector = std::get<PinholeModel>(given.projector.model);
+  projector.focal_px *= 1.006;  // 20 standard deviations
+  const RigRefinement found = refine_stated(given);
+  EXPECT_EQ(std::count(found.beyond_prior.begin(), found.beyond_prior.end(), "projector.focal_px"),
+            1)
+      << found.text();
+  for (const RefinedParameter& parameter : found.parameters) {
+    const double truth =
+        parameter.name == "projector.focal_px" ? 1900.0 - projector.focal_px.x() : 0.0;
+    EXPECT_LT(std::abs(parameter.change - truth), 3.0 * parameter.sigma) << parameter.name;
+  }
 }
 
 TEST(RefineRig, BehavesAlikeForARigOfTenTimesTheSize) {

@@ -242,7 +242,10 @@ FusedSurface fuse_registered(RegisteredViews& registered,
   MeasuredSetup& joined = registered.joined;
   const MeasuredViews& all = joined.measured;
   FusionOptions fusion = options.fusion;
-  fusion.terms = calibration_part(all.reference(), scan.rig, all.coarsest, decoding.rays);
+  const Rig rig = joined.registration
+                      ? with_open_parameters(scan.rig, joined.registration->rig_open)
+                      : scan.rig;
+  fusion.terms = calibration_part(all.reference(), rig, all.coarsest, decoding.rays);
   const std::vector<CameraViews> cameras = views_of_cameras(all, scan.rig);
   FusedSurface fused = fuse_with_weights(cameras, fusion, run);
   if (can.indirect_light != IndirectLightUse::Ignored && registered.indirect_light.found) {

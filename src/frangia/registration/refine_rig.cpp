@@ -12,6 +12,7 @@
 #include "frangia/registration/internal/drift_views.h"
 #include "frangia/registration/internal/known_length.h"
 #include "frangia/registration/internal/make_bundle.h"
+#include "frangia/registration/internal/widen_drift.h"
 
 namespace frangia {
 namespace {
@@ -77,7 +78,8 @@ Calibration refined_calibration(const Rig& given, RigCovariance covariance, std:
 void hold_undetermined(DriftBundle& bundle, double min_gain) {
   const Eigen::Index count = bundle.state.w.size();
   bundle.free_directions = Eigen::MatrixXd::Identity(count, count);
-  const auto eigen = symmetric_eigen(information_of(bundle, sum_drift(bundle, kComparedSurfels)));
+  const auto eigen =
+      symmetric_eigen(evidence_of(bundle, sum_drift(bundle, kComparedSurfels)).hessian);
   Eigen::Index first = 0;
   while (first < eigen.values.size() && eigen.values[first] < min_gain)
     ++first;
@@ -131,7 +133,7 @@ class RigFit {
   [[nodiscard]] Eigen::MatrixXd information(RigRefinement& result) {
     const Eigen::MatrixXd free_directions = bundle_.free_directions;
     bundle_.free_directions = Eigen::MatrixXd::Identity(model_.count(), model_.count());
-    const Eigen::MatrixXd all = information_of(bundle_, sum_drift(bundle_, kComparedSurfels));
+    const Eigen::MatrixXd all = evidence_of(bundle_, sum_drift(bundle_, kComparedSurfels)).hessian;
     result.directions = static_cast<std::size_t>(model_.count());
     result.held = result.directions - static_cast<std::size_t>(free_directions.cols());
     const Eigen::MatrixXd projection = free_directions * free_directions.transpose();
@@ -165,6 +167,40 @@ class RigFit {
     bundle_ = std::move(found);
     result.rig = refined_;
     if (rig_.turntable) result.rig = with_table(refined_, *rig_.turntable, end.table);
+  }
+
+  /// Widens the standard deviations of parameters that are farther from the rig's than they allow.
+  /// Returns whether any are.
+  [[nodiscard]] bool widen() {
+    constexpr double kNoticeably = 1.3;
+    DriftBundle all = bundle_;
+    all.free_directions = Eigen::MatrixXd::Identity(model_.count(), model_.count());
+    const DriftEvidence evidence = evidence_of(all, sum_drift(all, kComparedSurfels));
+    const auto present = model_.factor().colPivHouseholderQr();
+    const Eigen::VectorXd wider =
+        widening_by_evidence({model_.groups(),
+                              static_cast<Eigen::Index>(model_.parameters().size()),
+                              [&](const Eigen::VectorXd& widening) -> Eigen::MatrixXd {
+                                return present.solve(model_widened_by(widening).factor());
+                              }},
+                             evidence,
+                             bundle_.state.w);
+    if (widening_.size() == 0) widening_ = Eigen::VectorXd::Ones(wider.size());
+    if ((wider.cwiseQuotient(widening_)).maxCoeff() < kNoticeably) return false;
+    widening_ = wider;
+    const Eigen::VectorXd changes = model_.factor() * bundle_.state.w;
+    model_ = model_widened_by(widening_);
+    bundle_.state.w = model_.factor().colPivHouseholderQr().solve(changes);
+    linearize();
+    return true;
+  }
+  /// The parameters that are farther from the rig's than their standard deviations allow.
+  [[nodiscard]] std::vector<std::string> beyond_prior() const {
+    constexpr double kMuch = 2.0;
+    std::vector<std::string> names;
+    for (Eigen::Index i = 0; i < widening_.size(); ++i)
+      if (widening_[i] > kMuch) names.push_back(model_.parameters()[static_cast<std::size_t>(i)]);
+    return names;
   }
 
   [[nodiscard]] const DriftBundle& bundle() const { return bundle_; }
@@ -223,6 +259,10 @@ class RigFit {
     return bundle;
   }
 
+  [[nodiscard]] DriftModel model_widened_by(const Eigen::VectorXd& widening) const {
+    return DriftModel(rig_, options_, scale_.distance_mm, widening);
+  }
+
   void linearize() {
     bundle_.linearized_at = bundle_.state.w;
     differentiate(bundle_.views, surfaces_, PointDrift(model_, bundle_.state.w));
@@ -243,6 +283,7 @@ class RigFit {
   const Run& run_;
   SurfelScale scale_;
   DriftModel model_;
+  Eigen::VectorXd widening_;  ///< of the model; empty: none
   Rig refined_;
   DriftBundle bundle_;
   TableFit alone_;
@@ -257,6 +298,8 @@ void RefineRigOptions::check() const {
   require(relative_focal_sigma > 0.0, "RefineRigOptions: relative_focal_sigma must be above 0");
   require(relative_principal_sigma > 0.0,
           "RefineRigOptions: relative_principal_sigma must be above 0");
+  require(relative_distortion_sigma > 0.0,
+          "RefineRigOptions: relative_distortion_sigma must be above 0");
   require(max_rounds >= 1, "RefineRigOptions: max_rounds must be at least 1");
   require(min_gain >= 0.0, "RefineRigOptions: min_gain must not be negative");
   table.check();
@@ -271,12 +314,16 @@ RigRefinement refine_rig(const Rig& rig,
   for (const RigSurfaces& surface : surfaces)
     require(surface.stations.size() == surface.views.size(),
             "refine_rig: each view needs a station");
+  RigRefinement result;
   RigFit fit(rig, surfaces, stations, options, run);
   fit.fit_table();
   fit.fit_rig();
-  RigRefinement result;
+  constexpr int kMostWidenings = 3;
+  for (int turn = 0; turn < kMostWidenings && fit.widen(); ++turn)
+    fit.fit_rig();
   Eigen::MatrixXd information = fit.information(result);
   fit.keep_better_rig(result);
+  if (!result.kept_rig) result.beyond_prior = fit.beyond_prior();
   if (options.ball_distance_mm) {
     const KnownLength length = measure_known_length(fit.bundle(), options);
     information += length.information;

@@ -24,14 +24,16 @@ struct RefineRigOptions {
   /// Of the projector about each axis through its center: a bracket that bends by 0.2 mm over
   /// 100 mm, when it warms up or is knocked.
   double rotation_sigma_rad = rad_from_deg(0.1);
-  double relative_position_sigma = 0.001;  ///< of the projector along each axis, as a share of the
-                                           ///< working distance: 0.5 mm at 500 mm
-  double relative_focal_sigma = 3e-4;      ///< of both focal lengths: lenses of glass in aluminium
-                                           ///< change by some 1e-5 a kelvin, over 30 kelvin
-  double relative_principal_sigma = 5e-4;  ///< of both principal points, as a share of the width:
-                                           ///< chips shift in their sockets by some micrometres
-  RegisterOptions table;                   ///< prior of axis and angles, reach and iterations
-  int max_rounds = 6;                      ///< each triangulates all points again
+  double relative_position_sigma = 0.001;   ///< of the projector along each axis, as a share of the
+                                            ///< working distance: 0.5 mm at 500 mm
+  double relative_focal_sigma = 3e-4;       ///< of both focal lengths: lenses of glass in aluminium
+                                            ///< change by some 1e-5 a kelvin, over 30 kelvin
+  double relative_principal_sigma = 5e-4;   ///< of both principal points, as a share of the width:
+                                            ///< chips shift in their sockets by some micrometres
+  double relative_distortion_sigma = 1e-4;  ///< of what k1 of both lenses displaces the ends of a
+                                            ///< row by, as a share of the width: 0.2 px of 2000
+  RegisterOptions table;                    ///< prior of axis and angles, reach and iterations
+  int max_rounds = 6;                       ///< each triangulates all points again
   double min_gain = 1.0;  ///< information of the surfaces in units of the prior's, below which a
                           ///< direction of the parameters is held
   /// Known distance of the centers of the two balls of a ball bar in the scan: it fixes the scale.
@@ -52,12 +54,14 @@ struct RigSurfaces {
 };
 
 /// Refines the pose of the projector, the focal lengths and principal points of projector and
-/// camera, the axis of the turntable and the angles of the stations, all at once, so that the
-/// surfaces agree that different views and both directions of fringes measured.
+/// camera and the first term of their distortion, the axis of the turntable and the angles of the
+/// stations, all at once, so that the surfaces agree that different views and both directions of
+/// fringes measured.
 ///
 /// Every point stays on its camera pixel and its absolute phase and is triangulated by the trial
 /// rig. A direction of the parameters that the surfaces do not determine is held. The scale is one
-/// of them: no surface determines it.
+/// of them: no surface determines it. Where the surfaces are better explained by a lens or a
+/// pose that is farther off than its standard deviations allow, these are widened.
 ///
 /// @shape    the views of all `surfaces` are those of `stations`; stations of different setups are
 ///           not compared

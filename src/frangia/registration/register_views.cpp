@@ -262,10 +262,9 @@ RegistrationReport register_views(ViewStore& views,
   optimize_bundle(bundle, surfels, options.max_iterations, run);
   run.report(0.5);
   ExplainedPoses explained = explain(report, work, given, many_surfels);
+  report.rig_open = std::move(explained.rig_open);
   const PoseExplanation& explanation = report.explanation;
-  if (!explained.rigs.empty() && explained.explanation.decided) {
-    correct_drift(work, given, explained.rigs);
-  }
+  if (!explained.rigs.empty()) correct_drift(work, given, explained.rigs);
   // A view that moved is reported when it is left out, and `untrusted_reason` reports Unexplained.
   const bool is_reported = explanation.best == PoseCause::Unexplained ||
                            (explanation.best == PoseCause::ViewMoved && !report.outliers.empty());

@@ -10,6 +10,7 @@
 #include "frangia/registration/explain/pose_explanation.h"
 #include "frangia/registration/view_motions.h"
 #include "frangia/rig/rig.h"
+#include "frangia/rig/rig_covariance.h"
 
 namespace frangia {
 
@@ -52,7 +53,10 @@ struct RegistrationReport {
   double disagreement_mm = kMissing;
   double disagreement_over_noise = kMissing;  ///< median of the distances over their noise
   double disagreement_over_sigma = kMissing;  ///< the same over noise and `sigma`
-  PoseExplanation explanation;                ///< of what the views disagree about, but for noise
+  /// How far the rig may be from what it states by what the views disagree about, where that may
+  /// be its fault; empty: it is not.
+  RigCovariance rig_open{};
+  PoseExplanation explanation;  ///< of what the views disagree about, but for noise
 
   /// Distance from `given.point_mm` to `table.point_mm`.
   [[nodiscard]] double axis_moved_mm() const;

@@ -27,6 +27,11 @@ std::string RigRefinement::text() const {
       rms_before_mm,
       directions - held,
       directions);
+  if (!beyond_prior.empty()) {
+    words +=
+        fmt::format("; farther from the rig's than a drift goes, so that they count as open: {}",
+                    fmt::join(beyond_prior, ", "));
+  }
   words += scaled;
   if (!held_names.empty()) {
     words += fmt::format("; not determined by themselves: {}", fmt::join(held_names, ", "));

@@ -24,6 +24,9 @@ struct RigRefinement {
   std::vector<RefinedParameter> parameters;  ///< all that were free to change
   std::size_t directions = 0;                ///< independent changes of the parameters
   std::size_t held = 0;                      ///< of them, those that the surfaces do not determine
+  /// Those that may have changed by more than twice what their standard deviations allow, by which
+  /// the surfaces are better explained.
+  std::vector<std::string> beyond_prior;
   double rms_before_mm = 0.0;  ///< of the distances between views, axis and angles refined alone
   double rms_after_mm = 0.0;   ///< the same with the refined rig
   std::vector<double> angles_rad;  ///< of each station, refined

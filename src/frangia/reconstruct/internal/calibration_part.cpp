@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "frangia/core/missing.h"
@@ -124,6 +125,25 @@ MeasuredVolume measured_volume(const ViewStore& views,
 }
 
 }  // namespace
+
+Rig with_open_parameters(Rig rig, const RigCovariance& open) {
+  if (open.empty()) return rig;
+  if (!rig.calibration) rig.calibration.emplace();
+  RigCovariance& all = rig.calibration->covariance;
+  std::vector<Eigen::Index> rows;
+  for (const std::string& name : open.parameters) {
+    const auto at = std::find(all.parameters.begin(), all.parameters.end(), name);
+    rows.push_back(at - all.parameters.begin());
+    if (at == all.parameters.end()) all.parameters.push_back(name);
+  }
+  const auto count = static_cast<Eigen::Index>(all.parameters.size());
+  all.covariance.conservativeResizeLike(Eigen::MatrixXd::Zero(count, count));
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    for (std::size_t j = 0; j < rows.size(); ++j)
+      all.covariance(rows[i], rows[j]) +=
+          open.covariance(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
+  return rig;
+}
 
 std::vector<SigmaTerm> calibration_part(const ViewStore& views,
                                         const Rig& rig,

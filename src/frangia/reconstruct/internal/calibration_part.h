@@ -12,6 +12,11 @@
 
 namespace frangia {
 
+/// A rig whose parameters are, beyond their calibration, as open as the views leave them.
+///
+/// @shape    `open`: as `RegistrationReport::rig_open`
+[[nodiscard]] Rig with_open_parameters(Rig rig, const RigCovariance& open);
+
 /// Returns the term of the uncertainty of the rig's parameters; none when their covariance is not
 /// known.
 ///

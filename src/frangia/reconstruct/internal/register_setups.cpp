@@ -246,6 +246,8 @@ MeasuredSetup register_setups(std::vector<MeasuredSetup> setups,
     given.ties = ties;
     joined.registration =
         register_views(joined.measured.reference(), camera, given, registration, run);
+    // The views of one setup say what the rig is; they are explained without one here.
+    if (reference.registration) joined.registration->rig_open = reference.registration->rig_open;
   }
   const auto& found =
       joined.registration ? joined.registration->part_poses : registration.part_poses;

@@ -246,10 +246,15 @@ ExplainedPoses explain_poses(const Registration& work,
   // Views of a wrong rig slide off each other once they are free: its hypothesis goes first.
   std::optional<PoseRound> again;
   if (model) again = scored_with_rig(work, given, *model, placed);
-  if (!again) placed = without_rig(std::move(placed));
+  RigCovariance open_as_placed;
+  if (!again) {
+    if (model) open_as_placed = open_rig(placed, *model, std::nullopt);
+    placed = without_rig(std::move(placed));
+  }
   if (!again && fits_better_free(placed, work))
     again = scored_where_free(work, given, model, chart);
   if (!again) {
+    all.rig_open = std::move(open_as_placed);
     all.spread = spread_of_causes(placed, as_stated(placed), work).of_views();
     return all;
   }
@@ -266,6 +271,7 @@ ExplainedPoses explain_poses(const Registration& work,
   if (winner.cause == PoseCause::AsStated || explanation.effect_mm < least_mm) {
     explanation = {};
     all.spread = spread_of_causes(round, as_stated(round), work).of_views();
+    if (model) all.rig_open = open_rig(round, *model, std::nullopt);
     return all;
   }
   if (changes_rig(winner.cause)) {
@@ -273,15 +279,21 @@ ExplainedPoses explain_poses(const Registration& work,
     const Eigen::MatrixXd changes = changes_of_views(of_rig, round.rig->basis);
     const bool drifts = winner.cause == PoseCause::RigDrift;
     explanation.terms = terms_of(*model, changes, drifts);
-    if (drifts) {
+    if (drifts && explanation.decided) {
       all.rigs = rigs_of_views(*model, round.rig->basis, of_rig);
       const PoseSpread own = spread_of_winner(round, round.posterior(winner.best), work);
       all.spread = (own + spread_of_causes(round, winner, work)).of_views();
     }
   }
   if (moves_views(winner.cause)) all.corrected = correct_poses(round, winner, work, dense);
-  if (!all.corrected && all.spread.empty())
-    all.spread = spread_of_causes(round, winner, work).of_views();
+  const bool by_table = all.rigs.empty() && changes_rig(winner.cause);
+  if (!all.corrected && all.spread.empty()) {
+    all.spread = spread_of_causes(round, by_table ? as_stated(round) : winner, work).of_views();
+  }
+  if (model) {
+    const auto applied = all.rigs.empty() ? std::nullopt : std::optional(winner.cause);
+    all.rig_open = open_rig(round, *model, applied);
+  }
   const auto names = [&](std::size_t view) { return work.name_of(view); };
   explanation.text = describe(explanation, names);
   explanation.remedy = remedy_of(explanation, work.options.wrong_rig);

@@ -6,6 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include <Eigen/Cholesky>
+
 #include "frangia/core/median.h"
 #include "frangia/registration/internal/state_motions.h"
 #include "frangia/registration/internal/turntable_bundle.h"
@@ -27,19 +29,23 @@ void assess_disagreement(RegistrationReport& report,
   report.disagreement_over_sigma = report.disagreement_over_noise / std::sqrt(1.0 + added);
 }
 
-/// The information of the pairs on the unknowns, with the noise that their distances show and the
-/// error that all pairs of two views have in common. That error is the views' own: each of k pairs
-/// of a view repeats it, so that k views that are all compared are worth k pairs, not k^2.
-Eigen::MatrixXd information_of(const Bundle& bundle, const BundleSums& sums) {
-  const auto count = static_cast<double>(std::max<std::size_t>(1, sums.distances_mm.size()));
+/// The information of the pairs on the unknowns: H C^-1 H with C the covariance of their gradient.
+/// It is that of the noise that their distances show, and of an error that each region of a view
+/// has by itself and that all of its pairs repeat, also those in which it is the target.
+Eigen::MatrixXd information_of(const Bundle& bundle,
+                               const BundleSums& sums,
+                               const Eigen::VectorXd& sigma) {
   const double excess =
       std::max(1.0, static_cast<double>(median(sums.over_sigma)) / kMedianOfNormal);
-  const double scatter_mm = static_cast<double>(median(sums.distances_mm)) / kMedianOfNormal;
-  const double shared_mm = shared_error_mm(bundle, sums);
-  const auto errors =
-      static_cast<double>(std::min(bundle.maps.size(), count_pairs(bundle.pairs) / 2));
-  const double independent = errors * std::pow(scatter_mm / shared_mm, 2);
-  return std::min(1.0, independent / count) / (excess * excess) * sums.hessian;
+  const double region_mm = shared_error_mm(bundle, sums) / std::sqrt(2.0);  // of either view
+  const Eigen::VectorXd unit = sigma.unaryExpr([](double s) { return s > 0.0 ? s : 1.0; });
+  const Eigen::MatrixXd hessian = unit.asDiagonal() * sums.hessian * unit.asDiagonal();
+  const Eigen::MatrixXd repeated = 2.0 * region_mm * (unit.asDiagonal() * sums.region_gradients);
+  Eigen::MatrixXd covariance = excess * excess * hessian + repeated * repeated.transpose();
+  covariance.diagonal().array() += 1e-12 * covariance.trace();
+  const Eigen::MatrixXd information = hessian * covariance.ldlt().solve(hessian);
+  const Eigen::VectorXd back = unit.cwiseInverse();
+  return back.asDiagonal() * (0.5 * (information + information.transpose())) * back.asDiagonal();
 }
 
 /// The information of points that several views measured.
@@ -94,7 +100,8 @@ void assess_places(RegistrationReport& report,
   const Eigen::VectorXd sigma =
       sigmas_of(state, moved ? as_found(report.sigma, bundle) : report.sigma, bundle.prior_sigma);
   Eigen::MatrixXd information;
-  if (overlap == Overlap::Determines) information = information_of(bundle, sums);
+  if (overlap == Overlap::Determines)
+    information = information_of(bundle, sums, bundle.prior_sigma);
   if (!bundle.ties.empty()) {
     const Eigen::MatrixXd of_ties = information_of_ties(bundle);
     information = information.size() > 0 ? Eigen::MatrixXd(information + of_ties) : of_ties;

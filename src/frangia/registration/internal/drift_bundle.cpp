@@ -179,16 +179,22 @@ void optimize_drift(DriftBundle& bundle, std::size_t surfels, int max_iterations
   bundle.gate_mm = result.gate;
 }
 
-Eigen::MatrixXd information_of(const DriftBundle& bundle, const DriftSums& sums) {
+DriftEvidence evidence_of(const DriftBundle& bundle, const DriftSums& sums) {
   const Eigen::Index changes = bundle.free_directions.cols();
   const Eigen::Index table = bundle.table_sigma.size();
+  const Eigen::VectorXd prior = bundle.table_sigma.cwiseAbs2().cwiseInverse();
   Eigen::MatrixXd hessian = sums.weight(bundle) * sums.hessian;
-  hessian.diagonal().tail(table) += bundle.table_sigma.cwiseAbs2().cwiseInverse();
+  Eigen::VectorXd gradient = sums.weight(bundle) * sums.gradient;
+  hessian.diagonal().tail(table) += prior;
+  gradient.tail(table) += prior.cwiseProduct(deviation(bundle.state.table, bundle.given));
   const Eigen::MatrixXd across = hessian.topRightCorner(changes, table);
-  const Eigen::MatrixXd of_free =
-      hessian.topLeftCorner(changes, changes) -
-      across * hessian.bottomRightCorner(table, table).ldlt().solve(across.transpose());
-  return bundle.free_directions * of_free * bundle.free_directions.transpose();
+  const auto of_table = hessian.bottomRightCorner(table, table).ldlt();
+  const Eigen::MatrixXd& free = bundle.free_directions;
+  return {
+      free *
+          (hessian.topLeftCorner(changes, changes) - across * of_table.solve(across.transpose())) *
+          free.transpose(),
+      free * (gradient.head(changes) - across * of_table.solve(gradient.tail(table)))};
 }
 
 }  // namespace frangia

@@ -66,7 +66,13 @@ struct DriftSums {
 /// Minimizes the distances together with the prior; `gate_mm` is that of the start and of the end.
 void optimize_drift(DriftBundle& bundle, std::size_t surfels, int max_iterations, const Run& run);
 
-/// Information about w in units of the prior's, axis and angles being unknown.
-[[nodiscard]] Eigen::MatrixXd information_of(const DriftBundle& bundle, const DriftSums& sums);
+/// What the pairs tell of w alone, axis and angles being unknown: their part of the loss is
+/// 0.5 d^T hessian d + gradient^T d, with d the change of w from that of the bundle.
+struct DriftEvidence {
+  Eigen::MatrixXd hessian;  ///< the information, in units of the prior's
+  Eigen::VectorXd gradient;
+};
+
+[[nodiscard]] DriftEvidence evidence_of(const DriftBundle& bundle, const DriftSums& sums);
 
 }  // namespace frangia

@@ -39,6 +39,13 @@ Eigen::Matrix<double, 6, 6> pose_by_drift(const Projector& projector) {
   return by;
 }
 
+/// Standard deviation of k1 that displaces the ends of a row by a share of the width: k1 displaces
+/// a point at the distance r from the centre, in focal lengths, by f k1 r^3.
+double k1_sigma(double relative_distortion, const CameraModel& model) {
+  const double half_width = 0.5 * model.width_px / model.focal_px.x();
+  return 2.0 * relative_distortion / std::pow(half_width, 2);
+}
+
 std::size_t index_of(const std::vector<std::string>& names, const std::string& name) {
   return static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin());
 }
@@ -64,15 +71,22 @@ void add_covariance(Eigen::MatrixXd& sum,
 
 DriftModel::DriftModel(const Rig& given,
                        const RefineRigOptions& options,
-                       double working_distance_mm)
+                       double working_distance_mm,
+                       const Eigen::VectorXd& widening)
     : given_(given) {
   std::vector<double> sigmas;  // of the parameters that are not of the pose
   const auto add_intrinsics = [&](const std::string& of, const CameraModel& model) {
     const double principal_px = options.relative_principal_sigma * model.width_px;
-    parameters_.insert(parameters_.end(),
-                       {of + ".focal_px", of + ".principal_x_px", of + ".principal_y_px"});
+    const auto first = static_cast<Eigen::Index>(parameters_.size());
+    groups_.insert(groups_.end(), {{first}, {first + 1, first + 2}, {first + 3}});
+    parameters_.insert(
+        parameters_.end(),
+        {of + ".focal_px", of + ".principal_x_px", of + ".principal_y_px", of + ".k1"});
     sigmas.insert(sigmas.end(),
-                  {options.relative_focal_sigma * model.focal_px.x(), principal_px, principal_px});
+                  {options.relative_focal_sigma * model.focal_px.x(),
+                   principal_px,
+                   principal_px,
+                   k1_sigma(options.relative_distortion_sigma, model)});
   };
   add_intrinsics("camera", given.reference().model);
   if (const auto* pinhole = std::get_if<PinholeModel>(&given.projector.model))
@@ -81,6 +95,7 @@ DriftModel::DriftModel(const Rig& given,
        {"rotation_x_rad", "rotation_y_rad", "rotation_z_rad", "x_mm", "y_mm", "z_mm"})
     parameters_.push_back(std::string("projector.") + name);
   const auto count = static_cast<Eigen::Index>(parameters_.size());
+  groups_.push_back({count - 6, count - 5, count - 4, count - 3, count - 2, count - 1});
   Eigen::MatrixXd physical = Eigen::MatrixXd::Zero(count, count);
   for (std::size_t i = 0; i < sigmas.size(); ++i)
     physical(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(i)) = sigmas[i];
@@ -88,6 +103,7 @@ DriftModel::DriftModel(const Rig& given,
   pose.head<3>().setConstant(options.rotation_sigma_rad);
   pose.tail<3>().setConstant(options.relative_position_sigma * working_distance_mm);
   physical.bottomRightCorner<6, 6>() = pose_by_drift(given.projector) * pose.asDiagonal();
+  if (widening.size() == count) physical *= widening.asDiagonal();
   drift_ = physical * physical.transpose();
   if (!given.calibration || given.calibration->covariance.empty()) {
     factor_ = physical;

@@ -15,12 +15,19 @@ namespace frangia {
 /// with independent elements of unit variance gives the changes `factor() * w` of the parameters.
 class DriftModel {
  public:
-  DriftModel(const Rig& given, const RefineRigOptions& options, double working_distance_mm);
+  /// @shape    `widening`: factors of the standard deviations of the drift, one for each parameter,
+  ///           in the order of `parameters`; the pose's are about the projector's own axes
+  DriftModel(const Rig& given,
+             const RefineRigOptions& options,
+             double working_distance_mm,
+             const Eigen::VectorXd& widening = {});
 
   [[nodiscard]] const std::vector<std::string>& parameters() const { return parameters_; }
   /// @shape    parameters x independent changes
   [[nodiscard]] const Eigen::MatrixXd& factor() const { return factor_; }
   [[nodiscard]] Eigen::Index count() const { return factor_.cols(); }
+  /// Parameters that change together, by their indices: those of a lens or of the pose.
+  [[nodiscard]] const std::vector<std::vector<Eigen::Index>>& groups() const { return groups_; }
   /// The rig after a change.
   [[nodiscard]] Rig rig_at(const Eigen::VectorXd& w) const;
   /// The covariance of all known parameters after a measurement of w.
@@ -31,6 +38,7 @@ class DriftModel {
  private:
   Rig given_;
   std::vector<std::string> parameters_;
+  std::vector<std::vector<Eigen::Index>> groups_;
   Eigen::MatrixXd drift_;   ///< covariance of `parameters_` due to drift
   Eigen::MatrixXd factor_;  ///< of the covariance due to drift and calibration
 };

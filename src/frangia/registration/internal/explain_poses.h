@@ -10,6 +10,7 @@
 #include "frangia/registration/register_views.h"
 #include "frangia/registration/view_motions.h"
 #include "frangia/rig/rig.h"
+#include "frangia/rig/rig_covariance.h"
 
 namespace frangia {
 
@@ -31,6 +32,8 @@ struct ExplainedPoses {
   /// By what the views leave open between causes, where the poses are not corrected; those of
   /// `corrected` have it.
   ViewMotions spread{};
+  /// Of the rig that measured the points, by the causes that change it; empty: none is probable.
+  RigCovariance rig_open{};
 };
 
 /// Explains what the views of a registration disagree about, after its table has been refined.

@@ -25,6 +25,7 @@ struct ChunkSums {
   std::vector<Eigen::Index> unknowns;  ///< that these surfels depend on, ascending
   Eigen::MatrixXd hessian;             ///< of these unknowns alone
   Eigen::VectorXd gradient;
+  Eigen::VectorXd by_offset;  ///< sum of w J
   double closing_weight = 0.0;
   double closing_gradient = 0.0;
   std::vector<float> distances_mm;
@@ -79,6 +80,7 @@ struct BundleAccumulator {
     const auto count = static_cast<Eigen::Index>(sums.unknowns.size());
     sums.hessian = Eigen::MatrixXd::Zero(count, count);
     sums.gradient = Eigen::VectorXd::Zero(count);
+    sums.by_offset = Eigen::VectorXd::Zero(count);
     sums.tallies.resize(all.pairs[view].size());
     column_of.resize(static_cast<std::size_t>(all.state.unknowns()));
     for (Eigen::Index i = 0; i < count; ++i)
@@ -163,6 +165,7 @@ struct BundleAccumulator {
     const Row row = row_of(by, to);
     for (std::size_t i = 0; i < row.count; ++i) {
       sums.gradient[row.indices[i]] += weight * row.values[i] * distance;
+      sums.by_offset[row.indices[i]] += weight * row.values[i];
       for (std::size_t j = 0; j < row.count; ++j)
         sums.hessian(row.indices[i], row.indices[j]) += weight * row.values[i] * row.values[j];
     }
@@ -179,6 +182,8 @@ void add_chunk(BundleSums& all,
   for (Eigen::Index j = 0; j < count; ++j) {
     const Eigen::Index column = part.unknowns[static_cast<std::size_t>(j)];
     all.gradient[column] += part.gradient[j];
+    all.region_gradients(column, static_cast<Eigen::Index>(kRegionsPerView * from + region)) +=
+        part.by_offset[j];
     for (Eigen::Index i = 0; i < count; ++i)
       all.hessian(part.unknowns[static_cast<std::size_t>(i)], column) += part.hessian(i, j);
   }
@@ -232,6 +237,8 @@ BundleSums sum_bundle(std::span<const std::vector<SurfelMap::Surfel>> surfels,
   BundleSums all;
   all.hessian = Eigen::MatrixXd::Zero(state.unknowns(), state.unknowns());
   all.gradient = Eigen::VectorXd::Zero(state.unknowns());
+  all.region_gradients = Eigen::MatrixXd::Zero(
+      state.unknowns(), static_cast<Eigen::Index>(kRegionsPerView * maps.size()));
   all.matched.assign(maps.size(), 0);
   all.observed.assign(maps.size(), 0);
   all.regions.resize(kRegionsPerView * maps.size() * maps.size());

@@ -60,6 +60,7 @@ struct BundleSums {
   std::vector<std::size_t> matched;   ///< by view: its surfels on a surface that another view saw
   std::vector<std::size_t> observed;  ///< by view: its surfels that project onto another's surface
   std::vector<PairTally> regions;     ///< by view, other view, and region of the view
+  Eigen::MatrixXd region_gradients;   ///< sum of w J, a column for each view and region of it
 
   [[nodiscard]] PairTally pair(std::size_t from, std::size_t to) const {
     PairTally all;

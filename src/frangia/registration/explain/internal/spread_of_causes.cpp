@@ -68,6 +68,23 @@ class ViewsAlone {
   Eigen::MatrixXd basis_;
 };
 
+/// The probability of each cause or hypothesis of a round by the logarithm of its odds.
+class Probabilities {
+ public:
+  explicit Probabilities(const PoseRound& scored) : most_(scored.causes.front().log_odds) {
+    for (const ScoredCause& cause : scored.causes)
+      sum_ += std::exp(cause.log_odds - most_);
+  }
+  [[nodiscard]] double of(double log_odds) const { return std::exp(log_odds - most_) / sum_; }
+
+ private:
+  double most_;
+  double sum_ = 0.0;
+};
+
+/// Causes that are less probable leave nothing open.
+constexpr double kLeastProbable = 1e-3;
+
 /// What two views have in common that the winner does not explain.
 double left_mm(const PoseRound& scored, const Eigen::VectorXd& motion) {
   NormalEquations plain = scored.evidence->data();
@@ -105,30 +122,25 @@ PoseSpread spread_of_winner(const PoseRound& scored,
 PoseSpread spread_of_causes(const PoseRound& scored,
                             const ScoredCause& winner,
                             const Registration& work) {
-  constexpr double kLeast = 1e-3;  // probability
   const Eigen::VectorXd own = scored.posterior(winner.best).motion;
   const auto views = static_cast<Eigen::Index>(6 * work.surfels.size());
   const ViewsAlone alone(scored, work);
   Eigen::MatrixXd columns(views, 0);
-  const double most = scored.causes.front().log_odds;
-  double sum = 0.0;
-  for (const ScoredCause& cause : scored.causes)
-    sum += std::exp(cause.log_odds - most);
-  const auto probability_of = [&](double log_odds) { return std::exp(log_odds - most) / sum; };
-  const auto add = [&](double probability, const CauseHypothesis& hypothesis) {
-    if (probability < kLeast) return;
+  const Probabilities probability(scored);
+  const auto add = [&](double share, const CauseHypothesis& hypothesis) {
+    if (share < kLeastProbable) return;
     const PosePosterior other = scored.posterior(hypothesis);
     // What axis and angles leave open by themselves is in sigma for every cause.
     const Eigen::Index open = other.changes.size();
     Eigen::MatrixXd changes(own.size(), open + 1);
     changes << other.factor.rightCols(open), other.motion - own;
     columns.conservativeResize(Eigen::NoChange, columns.cols() + open + 1);
-    columns.rightCols(open + 1) = std::sqrt(probability) * alone.of(changes);
+    columns.rightCols(open + 1) = std::sqrt(share) * alone.of(changes);
   };
   for (const ScoredCause& cause : scored.causes) {
-    double rest = probability_of(cause.log_odds);  // of its best hypothesis
+    double rest = probability.of(cause.log_odds);  // of its best hypothesis
     for (const CauseHypothesis& other : cause.others) {
-      const double own_share = probability_of(other.log_odds);
+      const double own_share = probability.of(other.log_odds);
       rest -= own_share;
       add(own_share, other);
     }
@@ -142,6 +154,35 @@ PoseSpread spread_of_causes(const PoseRound& scored,
     left.columns.block<3, 3>(6 * view + 3, 3 * view).setIdentity();
   left.columns *= shift_mm / std::sqrt(2.0);  // of each of the two
   return spread + left;
+}
+
+RigCovariance open_rig(const PoseRound& scored,
+                       const DriftModel& model,
+                       const std::optional<PoseCause>& applied) {
+  if (!scored.rig) return {};
+  const Eigen::VectorXd mean = scored.rig->basis.colwise().mean();
+  const Eigen::Index count = scored.rig->count;
+  const auto views = static_cast<Eigen::Index>(6 * scored.poses.size());
+  const auto mean_of_views = [&](const Eigen::MatrixXd& motions) {
+    Eigen::MatrixXd changes = Eigen::MatrixXd::Zero(count, motions.cols());
+    for (Eigen::Index i = 0; i < mean.size(); ++i)
+      changes += mean[i] * motions.middleRows(views + count * i, count);
+    return changes;
+  };
+  const Probabilities probability(scored);
+  Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(count, count);
+  for (const ScoredCause& cause : scored.causes) {
+    const double share = probability.of(cause.log_odds);
+    if (!changes_rig(cause.cause) || share < kLeastProbable) continue;
+    const PosePosterior found = scored.posterior(cause.best);
+    const Eigen::MatrixXd open = mean_of_views(found.factor);
+    covariance += share * open * open.transpose();
+    if (applied == cause.cause) continue;
+    const Eigen::VectorXd change = mean_of_views(found.motion);
+    covariance += share * change * change.transpose();
+  }
+  if (covariance.isZero()) return {};
+  return {model.parameters(), model.factor() * covariance * model.factor().transpose()};
 }
 
 }  // namespace frangia

@@ -1,11 +1,13 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include <Eigen/Core>
 
 #include "frangia/registration/explain/internal/scored_round.h"
 #include "frangia/registration/internal/leave_out_views.h"
+#include "frangia/rig/rig_covariance.h"
 
 namespace frangia {
 
@@ -31,6 +33,15 @@ struct PoseSpread {
 [[nodiscard]] PoseSpread spread_of_winner(const PoseRound& scored,
                                           const PosePosterior& won,
                                           const Registration& work);
+
+/// Returns how far the rig is from the one that measured the points by the causes that change it,
+/// each with its probability, all through the scan: their changes and what these leave open. Unlike
+/// `spread_of_causes` it holds what such a rig does to the shape of every view alike.
+///
+/// @shape    `applied`: the cause by whose rigs the points are measured; none: by the stated rig
+[[nodiscard]] RigCovariance open_rig(const PoseRound& scored,
+                                     const DriftModel& model,
+                                     const std::optional<PoseCause>& applied);
 
 /// Both together.
 [[nodiscard]] PoseSpread operator+(const PoseSpread& one, const PoseSpread& other);

@@ -1,0 +1,44 @@
+#include "frangia/registration/internal/widen_drift.h"
+
+#include <gtest/gtest.h>
+
+namespace frangia {
+namespace {
+
+/// Two lenses of one parameter each, in units of their standard deviations.
+DriftHypotheses two_lenses() {
+  return {{{0}, {1}}, 2, [](const Eigen::VectorXd& widening) -> Eigen::MatrixXd {
+            return widening.asDiagonal();
+          }};
+}
+
+/// Surfaces that measure one combination of the two to a hundredth of its standard deviation.
+DriftEvidence measured(const Eigen::Vector2d& row, double value, const Eigen::Vector2d& about) {
+  constexpr double kInformation = 1e4;
+  return {kInformation * row * row.transpose(), kInformation * row * (row.dot(about) - value)};
+}
+
+TEST(WidenDrift, WidensTheLensThatIsFartherOffAndNotTheOther) {
+  const Eigen::Vector2d about(3.0, 0.5);
+  const auto widening =
+      widening_by_evidence(two_lenses(), measured({1.0, 0.0}, 20.0, about), about);
+  EXPECT_GT(widening[0], 7.0);
+  EXPECT_LT(widening[1], 2.0);
+}
+
+TEST(WidenDrift, WidensBothLensesWhereEitherExplainsTheSurfaces) {
+  const Eigen::Vector2d about(0.0, 0.0);
+  const auto widening =
+      widening_by_evidence(two_lenses(), measured({1.0, -1.0}, 20.0, about), about);
+  EXPECT_GT(widening[0], 5.0);
+  EXPECT_NEAR(widening[0], widening[1], 1e-6);
+}
+
+TEST(WidenDrift, KeepsTheStandardDeviationsOfADriftThatTheyAllow) {
+  const Eigen::Vector2d about(0.2, 0.0);
+  const auto widening = widening_by_evidence(two_lenses(), measured({1.0, 0.0}, 1.0, about), about);
+  EXPECT_LT(widening.maxCoeff(), 1.3);
+}
+
+}  // namespace
+}  // namespace frangia
