@@ -7,7 +7,7 @@ import pathlib
 import re
 import sys
 
-MOST = 58
+MOST = 60
 
 
 def main(root, *options):

@@ -9,9 +9,9 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "frangia/core/atomic_file.h"
 #include "frangia/core/error.h"
 #include "frangia/core/make_folder.h"
+#include "frangia/core/write_text_file.h"
 #include "frangia/inspection/write_inspection_plan.h"
 
 namespace frangia {
@@ -96,9 +96,8 @@ std::vector<std::string> names_before(const ProjectFolder& project) {
 
 void write_json(const std::filesystem::path& path, const Json& json) {
   make_folder(path.parent_path());
-  AtomicFile file(path, Durability::Synced);
-  file.stream() << json.dump(-1, ' ', false, Json::error_handler_t::replace) << '\n';
-  file.commit();
+  write_text_file(
+      path, json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n", Durability::Synced);
 }
 
 void copy_if_there(const std::filesystem::path& from, const std::filesystem::path& to) {

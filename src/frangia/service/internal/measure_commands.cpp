@@ -5,8 +5,8 @@
 
 #include <fmt/format.h>
 
-#include "frangia/core/atomic_file.h"
 #include "frangia/core/error.h"
+#include "frangia/core/write_text_file.h"
 #include "frangia/inspect/section_curves.h"
 #include "frangia/report/section_drawing.h"
 #include "frangia/service/hand_measurements.h"
@@ -147,11 +147,7 @@ nlohmann::ordered_json Service::Implementation::start_export_section(CommandArgu
             "the plane does not meet the surface; move it into the part");
     const std::string text = format == "dxf" ? dxf_of(section) : svg_of(section);
     const ExportOrigin origin{model.snapshot()->version, versions_of(project)->revision};
-    const auto write = [&](const std::filesystem::path& path) {
-      AtomicFile file(path);
-      file.stream() << text;
-      file.commit();
-    };
+    const auto write = [&](const std::filesystem::path& path) { write_text_file(path, text); };
     put_export(project, project.name + " section." + format, origin, write, run);
   });
 }

@@ -10,11 +10,11 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "frangia/core/atomic_file.h"
 #include "frangia/core/error.h"
 #include "frangia/core/make_folder.h"
 #include "frangia/core/open_below.h"
 #include "frangia/core/sync_to_disk.h"
+#include "frangia/core/write_text_file.h"
 #include "frangia/service/internal/implementation.h"
 #include "frangia/service/internal/name_for_people.h"
 
@@ -50,11 +50,11 @@ bool append(int file, std::string_view bytes) {
 
 /// Names the reference, whose file is there: the commit point.
 void commit_reference(const ProjectFolder& project, const ProjectReference& reference) {
-  AtomicFile file(project.reference_name(), Durability::Synced);
   const nlohmann::json json{
       {"name", reference.name}, {"format", reference.format}, {"number", reference.number}};
-  file.stream() << json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) << '\n';
-  file.commit();
+  write_text_file(project.reference_name(),
+                  json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n",
+                  Durability::Synced);
 }
 
 }  // namespace
