@@ -124,6 +124,7 @@ void store_plan(const std::filesystem::path& folder, const PlanFiles& files) {
 void extend_plan(const Scan& plan, int setup, const std::string& text) {
   Scan before = plan;
   std::erase_if(before.views, [&](const ScanView& view) { return view.setup == setup; });
+  before.part_poses.erase(setup);
   const std::filesystem::path path = path_below(plan.folder, "capture/scan.toml");
   if (before.views.empty() || identity_of(stored_text(path)) != identity_of(scan_text(before)))
     return;
