@@ -281,12 +281,14 @@ class Inspections(unittest.TestCase):
     def test_sections(self):
         ball = frangia.make_part("ball-bar")
         low = ball.vertices.min(axis=0)
-        cut = frangia.section(ball, (0, 35, 60), (1, 0, 0))
-        # The balls of 40 mm, cut through their centers.
-        self.assertTrue(all(cut.closed))
-        radii = [np.linalg.norm(curve - curve.mean(axis=0), axis=1) for curve in cut.curves]
-        self.assertTrue(any(len(radius) > 20 and abs(radius - 20).max() < 0.5 for radius in radii))
-        self.assertGreater(cut.area_mm2, np.pi * 20**2)
+        cut = frangia.section(ball, (0, 35, 60), (0, 0, 1))
+        # Both balls of 40 mm, cut through their centers.
+        self.assertEqual(cut.closed, [True, True])
+        for curve in cut.curves:
+            radius = np.linalg.norm(curve - (curve.min(axis=0) + curve.max(axis=0)) / 2, axis=1)
+            self.assertAlmostEqual(float(abs(radius - 20).max()), 0, delta=0.01)
+        self.assertAlmostEqual(cut.area_mm2, 2 * np.pi * 20**2, delta=1)
+        self.assertAlmostEqual(cut.length_mm, 4 * np.pi * 20, delta=0.1)
         self.assertEqual(frangia.section(ball, low - 1, (0, 0, 1)).curves, [])
         with tempfile.TemporaryDirectory() as folder:
             for name in ("cut.dxf", "cut.svg"):
