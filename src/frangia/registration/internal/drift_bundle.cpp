@@ -71,9 +71,8 @@ class ViewComparison {
                            std::pow(static_cast<double>(target.sigma_mm), 2));
     const Eigen::Vector3f at_to = pair.normal.cast<float>();
     const Eigen::Vector3f at_from = (transfer.rotation().transpose() * pair.normal).cast<float>();
-    const Eigen::VectorXd by_rig =
-        (free_.transpose() * (by_from.transpose() * at_from - by_to.transpose() * at_to))
-            .cast<double>();
+    const Eigen::VectorXf by_changes = by_from.transpose() * at_from - by_to.transpose() * at_to;
+    const Eigen::VectorXd by_rig = (free_.transpose() * by_changes).cast<double>();
     add_row(by_rig, transfer.jacobian(pair.normal, own), weight, distance, to.station);
     sums.distances_mm.push_back(static_cast<float>(std::abs(distance)));
   }
