@@ -23,13 +23,6 @@ namespace {
 
 constexpr const char* kHistory = "rigs";
 constexpr const char* kWhy = "before.txt";
-constexpr std::array kChanges = {RigChange::Geometry,
-                                 RigChange::Devices,
-                                 RigChange::Display,
-                                 RigChange::Calibration,
-                                 RigChange::Axis,
-                                 RigChange::Restored};
-
 bool holds_file(const std::filesystem::path& path) {
   std::error_code ignored;
   return std::filesystem::is_regular_file(std::filesystem::symlink_status(path, ignored));
@@ -142,12 +135,9 @@ std::vector<int> numbers_of(const ProjectFolder& project) {
 std::string change_before(const ProjectFolder& project, int number) {
   try {
     const std::string name = read_text_file(project.in_derived(inner_of(number) / kWhy));
-    const bool known = std::any_of(kChanges.begin(), kChanges.end(), [&](RigChange change) {
-      return name == name_of(change);
-    });
-    return known ? name : name_of(RigChange::Restored);
+    return std::string(name_of(find_named<RigChange>(name).value_or(RigChange::Restored)));
   } catch (const Error&) {
-    return name_of(RigChange::Restored);
+    return std::string(name_of(RigChange::Restored));
   }
 }
 

@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "frangia/acquisition/internal/capture_manifest.h"
+#include "frangia/core/atomic_file.h"
 #include "frangia/core/crc32.h"
 #include "frangia/core/error.h"
 #include "frangia/core/folder_lock.h"

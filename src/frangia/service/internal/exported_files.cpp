@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <sys/stat.h>
 
+#include "frangia/core/atomic_file.h"
 #include "frangia/core/error.h"
 #include "frangia/core/make_folder.h"
 #include "frangia/core/sync_to_disk.h"

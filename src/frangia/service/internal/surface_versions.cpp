@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "frangia/core/atomic_file.h"
 #include "frangia/core/make_folder.h"
 #include "frangia/core/open_below.h"
 #include "frangia/core/sync_to_disk.h"
