@@ -40,9 +40,10 @@ struct RegisterOptions {
                                       ///< points averages out: 2 um at 500 mm
   double outlier_overlap = 0.4;       ///< a view that matches less than this share of what the
                                       ///< median view matches fits no other
-  double max_contradiction = 0.03;    ///< share of a view's points in front of another view's
-                                      ///< surface, beyond which the result is not trustworthy: 15
-                                      ///< times what edges and stray points cause
+  double max_contradiction = 0.01;    ///< share of a view's points in front of another view's
+                                      ///< surface, beyond which the result is not trustworthy: 5
+                                      ///< times what edges and stray points cause; a gear whose
+                                      ///< table lost a step has 0.016
   double as_good_as_given = 1.02;     ///< the given axis and angles stay unless they fit worse
                                       ///< than the refined ones by this factor, or by more than
                                       ///< noise explains where few points overlap
