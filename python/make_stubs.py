@@ -72,6 +72,8 @@ def type_of(text, returned=False):
     text = text.replace("os.PathLike", "Path" if returned else "str | os.PathLike[str]")
     while found := re.search(r"Optional\[((?:[^\[\]]|\[[^\[\]]*\])*)\]", text):
         text = text[: found.start()] + found.group(1) + " | None" + text[found.end() :]
+    while found := re.search(r"Union\[((?:[^\[\]]|\[[^\[\]]*\])*)\]", text):
+        text = text[: found.start()] + " | ".join(split_arguments(found.group(1))) + text[found.end() :]
     for old, new in (("List[", "list["), ("Dict[", "dict["), ("Tuple[", "tuple[")):
         text = text.replace(old, new)
     text = re.sub(
@@ -80,7 +82,7 @@ def type_of(text, returned=False):
         text,
     )
     if not returned:  # NumPy's arrays are taken from whatever they can be made of
-        text = re.sub(r"NDArray\[.*?\]\]?", "ArrayLike", text) if "NDArray" in text else text
+        text = re.sub(r"NDArray\[(?:[^\[\]]|\[[^\[\]]*\])*\]", "ArrayLike", text)
         text = re.sub(r"\blist\[(?=[^\]]*\])", "Iterable[", text) if text.startswith("list[") else text
     return text
 

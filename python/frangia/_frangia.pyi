@@ -217,7 +217,7 @@ class Inspection:
 
 class InspectionPlan:
     """How the parts of one kind are inspected."""
-    def __init__(self, *, align: str = '', tolerance_mm: tuple[float, float] | None = None, points: Sequence[tuple[ArrayLike, ArrayLike]] = ..., start: int = 0, min_feature_mm: float = 0.0, edge_mm: float | None = None, min_coverage: float = 0.9, max_gap_mm: float = 0.0, thickness: bool = False) -> None:
+    def __init__(self, *, align: str = '', tolerance_mm: tuple[float, float] | None = None, points: Iterable[tuple[ArrayLike, ArrayLike]] = [], start: int = 0, min_feature_mm: float = 0.0, edge_mm: float | None = None, min_coverage: float = 0.9, max_gap_mm: float = 0.0, thickness: bool = False) -> None:
         """As the keys of inspection.toml. align: best-fit, datum, points, none, or empty; tolerance_mm: lower and upper; points: pairs of the same place on mesh and reference; 0: the default. Features and characteristics are read from a file by read_inspection_plan."""
         ...
     @property
@@ -231,6 +231,10 @@ class InspectionPlan:
     @property
     def part(self) -> str:
         """Name of the part; may be empty."""
+        ...
+    @property
+    def points(self) -> list[tuple[NDArray[np.float64], NDArray[np.float64]]]:
+        """Pairs of the same place on mesh and reference, mm."""
         ...
     @property
     def reference(self) -> Path:
