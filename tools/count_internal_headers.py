@@ -7,7 +7,7 @@ import pathlib
 import re
 import sys
 
-MOST = 60
+MOST = 58
 
 
 def main(root, *options):
