@@ -236,10 +236,14 @@ def wanted(kind: str) -> str:
         return wanted(inner(kind)[0])
     if kind.startswith(("List[", "Iterable[")):
         item = inner(kind)[0]
+        if item.startswith("Tuple["):
+            return f"a list of tuples, each of {wanted(item)}"
         return f"a list of {PLURALS.get(item, item + ' objects')}" + made(item)
     if kind.startswith("Tuple["):
         kinds = inner(kind)
         return f"{COUNTS.get(len(kinds), len(kinds))} values: {', '.join(map(wanted, kinds))}"
+    if found := re.fullmatch(r"numpy\.ndarray\[numpy\.\w+\[(\d+), 1\]\]", kind):
+        return f"{found[1]} numbers"
     return WORDS.get(kind, article(kind)) + made(kind)
 
 

@@ -83,7 +83,7 @@ def verbs():
         text = subprocess.run([PROGRAM, *words, "--help"], capture_output=True, text=True, check=True).stdout
         if "Subcommands:" not in text:
             return ["-".join(words)]
-        names = re.findall(r"^  ([a-z]+) ", text.split("Subcommands:")[1], re.MULTILINE)
+        names = re.findall(r"^  ([a-z]+) ", text.split("Subcommands:")[1].split("\n\n")[0], re.MULTILINE)
         return [leaf for name in names for leaf in below([*words, name])]
 
     return below([])
@@ -246,8 +246,9 @@ class Answers(unittest.TestCase):
     def test_tables(self):
         self.answer("algorithms")
         self.answer("algorithms", SOURCE / "examples/algorithms/my-algorithm.toml")
-        self.answer("plan", "--rig", "digital", "--fringes", "64")
-        self.answer("plan", "--rig", "angular")
+        self.answer("plan", "--rig", "digital", "--fringes", "64", verb="plan-patterns")
+        self.answer("plan", "patterns", "--rig", "angular", verb="plan-patterns")
+        self.answer("plan", "scan", "scan/truth.ply", "--rig", "rig.toml", "--quick", verb="plan-scan")
 
     def test_serve(self):
         server = subprocess.Popen(

@@ -34,8 +34,8 @@ inline constexpr std::size_t kCadRequirementKinds = 14;  ///< number of values
 
 /// A dimension, a geometrical tolerance or a datum of a model. Lengths in mm, angles in degrees.
 struct CadRequirement {
-  CadRequirementKind kind = CadRequirementKind::Other;
-  std::string name;         ///< in the file; may be empty
+  CadRequirementKind kind = CadRequirementKind::Other;  ///< what is required
+  std::string name;                                     ///< in the file; may be empty
   double value = kMissing;  ///< nominal size; of a geometrical tolerance the width of its zone
   double lower = kMissing;  ///< limits of the difference from a nominal size; NaN: none stated
   double upper = kMissing;  ///< see `lower`

@@ -328,8 +328,10 @@ SurfaceVerdict judge_surface(const SurfacePatches& patches, const SurfaceRule& r
     if (lowest == patches.size() || value < patches.deviation_mm[lowest]) lowest = i;
     if (highest == patches.size() || value > patches.deviation_mm[highest]) highest = i;
   }
-  verdict.coverage = 1.0 - verdict.share_of(PatchDecision::NotMeasured) -
-                     verdict.share_of(PatchDecision::NotWellMeasured);
+  // A sum of many areas may exceed their total by the rounding of the last digits.
+  verdict.coverage = std::max(0.0,
+                              1.0 - verdict.share_of(PatchDecision::NotMeasured) -
+                                  verdict.share_of(PatchDecision::NotWellMeasured));
   verdict.decidable_mm = decidable_of(patches, rule);
   if (lowest < patches.size()) verdict.lowest = extreme_of(patches, lowest);
   if (highest < patches.size()) verdict.highest = extreme_of(patches, highest);

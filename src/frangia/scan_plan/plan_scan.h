@@ -25,7 +25,7 @@ struct ScanPlanOptions {
 
 /// A recipe that was tried, and what it reaches.
 struct TriedRecipe {
-  ScanRecipe recipe;
+  ScanRecipe recipe;                   ///< what was tried
   ScanNeed need = ScanNeed::Coverage;  ///< what it lacks most
   /// Share of the nominal area that is measured well enough; 0 without a surface.
   double decidable_share = 0.0;

@@ -17,10 +17,10 @@ namespace frangia {
 
 /// A round of `scan_until`: what all stations so far measure.
 struct ScanRound {
-  std::size_t stations = 0;  ///< of all rounds so far
-  ScanNeed need = ScanNeed::Coverage;
-  double decidable_share = 0.0;  ///< of the nominal area; 0 without a surface
-  std::size_t decidable = 0;     ///< characteristics with a tolerance that are measured well enough
+  std::size_t stations = 0;            ///< of all rounds so far
+  ScanNeed need = ScanNeed::Coverage;  ///< what they lack most
+  double decidable_share = 0.0;        ///< of the nominal area; 0 without a surface
+  std::size_t decidable = 0;  ///< characteristics with a tolerance that are measured well enough
 };
 
 /// Why `scan_until` stopped.
@@ -34,9 +34,9 @@ enum class ScanStop : std::uint8_t {
 
 /// What `scan_until` reached.
 struct ScanUntil {
-  std::vector<ScanRound> rounds;  ///< in their order
-  ScanStop stop = ScanStop::Rounds;
-  Inspection found;  ///< of the last round
+  std::vector<ScanRound> rounds;     ///< in their order
+  ScanStop stop = ScanStop::Rounds;  ///< why no round followed
+  Inspection found;                  ///< of the last round
 };
 
 /// Captures the views of `plan` that belong to `setup`, and returns the scan with all that were
