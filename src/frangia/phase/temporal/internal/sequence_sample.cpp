@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <complex>
 #include <limits>
 #include <utility>
 
@@ -26,6 +27,17 @@ double counts_of(const Frame& frame, std::size_t pixel) {
   return std::visit([&](const auto& image) { return static_cast<double>(image.pixels()[pixel]); },
                     frame);
 }
+
+/// How far phases gather at one of a turn: from 0, everywhere, to 1, all alike.
+double concentration(const std::vector<float>& phases_rad) {
+  std::complex<double> sum = 0.0;
+  for (const float phase : phases_rad)
+    sum += std::polar(1.0, static_cast<double>(phase));
+  return std::abs(sum) / static_cast<double>(phases_rad.size());
+}
+
+/// Concentration beyond that of the predicted phases above which a map has lost its own.
+constexpr double kCollapsed = 0.3;
 
 float random_phase(std::size_t map, std::size_t pixel) {
   return static_cast<float>(kTwoPi * uniform_from(hash(hash(map), pixel)) - kPi);
@@ -305,13 +317,18 @@ double SequenceSample::ripple(std::size_t map) const {
   const std::vector<double> places = places_by(coarser);
   if (places.empty()) return 0.0;
   const double per_unit = patterns_[map].fringes_per_unit();
-  std::vector<float> phases;
+  std::vector<float> shown;
+  std::vector<float> predicted;
   std::vector<double> errors;
   for (std::size_t i = 0; i < compared_.size(); ++i) {
-    phases.push_back(maps_[map].phase_rad.pixels()[compared_[i]]);
-    errors.push_back(wrap_rad(static_cast<double>(phases.back()) - kTwoPi * per_unit * places[i]));
+    shown.push_back(maps_[map].phase_rad.pixels()[compared_[i]]);
+    predicted.push_back(static_cast<float>(wrap_rad(kTwoPi * per_unit * places[i])));
+    errors.push_back(wrap_rad(static_cast<double>(shown.back()) - kTwoPi * per_unit * places[i]));
   }
-  return phase_ripple(phases, errors);
+  // A frame of full light leaves few phases, of which none tells the others apart. Elsewhere the
+  // predicted phases are the worse ones: the harmonics of coarser patterns are large there.
+  const bool collapsed = concentration(shown) > concentration(predicted) + kCollapsed;
+  return phase_ripple(collapsed ? predicted : shown, errors);
 }
 
 double SequenceSample::shown_frequency(std::size_t map) const {
