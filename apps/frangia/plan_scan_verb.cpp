@@ -82,12 +82,13 @@ std::string tried_table(const ScanPlan& plan, const Rig& rig) {
   for (const TriedRecipe& tried : plan.tried) {
     recipe.values.push_back(tried.recipe.text());
     frames.values.push_back(fmt::format("{}", tried.recipe.frames(rig)));
-    share.values.push_back(share_text(tried.decidable_share));
+    share.values.push_back(share_text(tried.reach.decidable_share));
     rows.values.push_back(
         plan.characteristics.empty()
             ? ""
-            : fmt::format("{} of {}", tried.decidable, plan.characteristics.size()));
-    need.values.push_back(tried.fault.empty() ? std::string(name_of(tried.need)) : tried.fault);
+            : fmt::format("{} of {}", tried.reach.decidable, plan.characteristics.size()));
+    need.values.push_back(tried.fault.empty() ? std::string(name_of(tried.reach.need))
+                                              : tried.fault);
   }
   return text_table({recipe, frames, share, rows, need});
 }
@@ -148,9 +149,9 @@ nlohmann::ordered_json json_of_plan(const ScanPlan& plan, const Rig& rig) {
   json["tried"] = nlohmann::ordered_json::array();
   for (const TriedRecipe& tried : plan.tried) {
     json["tried"].push_back({{"recipe", json_of_recipe(tried.recipe, rig)},
-                             {"needs", name_of(tried.need)},
-                             {"decidable_share", tried.decidable_share},
-                             {"decidable", tried.decidable},
+                             {"needs", name_of(tried.reach.need)},
+                             {"decidable_share", tried.reach.decidable_share},
+                             {"decidable", tried.reach.decidable},
                              {"fault", tried.fault}});
   }
   return json;

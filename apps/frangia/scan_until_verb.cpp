@@ -22,9 +22,9 @@ void print_rounds(const ScanUntil& done, const Scan& plan, Terminal& terminal) {
     nlohmann::ordered_json rounds = nlohmann::ordered_json::array();
     for (const ScanRound& round : done.rounds) {
       rounds.push_back({{"stations", round.stations},
-                        {"needs", name_of(round.need)},
-                        {"decidable_share", round.decidable_share},
-                        {"decidable", round.decidable}});
+                        {"needs", name_of(round.reach.need)},
+                        {"decidable_share", round.reach.decidable_share},
+                        {"decidable", round.reach.decidable}});
     }
     print_json({{"scan", plan.folder.string()},
                 {"verdict", name_of(done.found.verdict)},
@@ -37,8 +37,8 @@ void print_rounds(const ScanUntil& done, const Scan& plan, Terminal& terminal) {
   for (const ScanRound& round : done.rounds) {
     text += fmt::format("{} stations: {} of the nominal area decided, needs {}\n",
                         round.stations,
-                        share_text(round.decidable_share),
-                        name_of(round.need));
+                        share_text(round.reach.decidable_share),
+                        name_of(round.reach.need));
   }
   for (const VerdictReason& reason : done.found.reasons)
     text += reason.text() + "\n";

@@ -245,7 +245,7 @@ void bind_reasons(py::module_& module) {
           "about",
           [](const VerdictReason& self) { return std::string(self.about); },
           "surface or characteristics.")
-      .def_readonly("clauses", &VerdictReason::clauses, "What is said about it.")
+      .def_readonly("clauses", &VerdictReason::clauses, "The parts of its sentence.")
       .def("__str__", &VerdictReason::text);
 }
 

@@ -682,7 +682,7 @@ class VerdictReason:
         ...
     @property
     def clauses(self) -> list[VerdictClause]:
-        """What is said about it."""
+        """The parts of its sentence."""
         ...
 
 class ViewSummary:

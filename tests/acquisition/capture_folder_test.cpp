@@ -105,6 +105,29 @@ TEST_F(CaptureFolder, RecoversFramesWhoseLinesAreDestroyed) {
   EXPECT_TRUE(images() == whole);
 }
 
+TEST_F(CaptureFolder, IsContinuedWithTheChosenExposuresWhateverSingleBitOfTheirLineIsWrong) {
+  views(1);
+  CaptureOptions options;
+  options.camera.exposure_ms = 0.5;
+  options.exposure = ExposureChoice::Automatic;
+  const CaptureReport whole = capture(options);
+  const std::string text = text_of(manifest());
+  const std::size_t begin = text.find("exposures ");
+  const std::size_t end = text.find('\n', begin);
+  for (std::size_t bit = 8 * begin; bit < 8 * (end + 1); ++bit) {
+    std::string damaged = text;
+    damaged[bit / 8] = static_cast<char>(damaged[bit / 8] ^ (1 << (bit % 8)));
+    write_manifest(damaged);
+    ASSERT_EQ(CaptureManifest(plan_.folder).exposures_ms(), whole.exposures_ms) << "bit " << bit;
+  }
+  std::string destroyed = text;
+  destroyed.replace(begin, end - begin, std::string(end - begin, '\0'));
+  write_manifest(destroyed);
+  const CaptureReport again = capture(options);
+  EXPECT_EQ(again.captured, 0U);
+  EXPECT_EQ(again.exposures_ms, whole.exposures_ms);
+}
+
 TEST_F(CaptureFolder, DoesNotRecoverAFrameThatIsDamagedItself) {
   static_cast<void>(capture());
   const std::string text = text_of(manifest());

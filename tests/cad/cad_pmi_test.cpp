@@ -2,8 +2,8 @@
 #include "frangia/cad/cad_pmi.h"
 
 #include <cmath>
-#include <cstdlib>
 
+#include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
 #include "frangia/cad/internal/pmi_record.h"
@@ -11,37 +11,23 @@
 #include "frangia/inspection/plan_from_pmi.h"
 #include "frangia/inspection/write_inspection_plan.h"
 
+#include "cad/made_cad_parts.h"
 #include "support/error_of.h"
-#include "support/temporary_folder.h"
+#include "support/text_of.h"
 
 namespace frangia {
 namespace {
 
 using Kind = CadRequirementKind;
 
-class CadPmiOfFiles : public ::testing::Test {
+class CadPmiOfFiles : public testing::MadeCadParts {
  protected:
-  static void SetUpTestSuite() {
-    folder_ = new testing::TemporaryFolder;
-    const std::string command =
-        std::string(FRANGIA_MAKE_CAD_PARTS) + " " + folder_->path().string() + " > /dev/null";
-    ASSERT_EQ(std::system(command.c_str()), 0);
-  }
-  static void TearDownTestSuite() { delete folder_; }
-
-  static std::filesystem::path at(const std::string& name) { return folder_->path() / name; }
-
   static std::unique_ptr<CadModel> model(const std::string& name) {
     CadOptions options;
     options.pmi = true;
     return read_cad(at(name), options);
   }
-
- private:
-  static testing::TemporaryFolder* folder_;
 };
-
-testing::TemporaryFolder* CadPmiOfFiles::folder_ = nullptr;
 
 const CadRequirement* first_of(const CadPmi& pmi, Kind kind) {
   for (const CadRequirement& one : pmi.requirements)
@@ -109,6 +95,27 @@ TEST_F(CadPmiOfFiles, SayWhyThereIsNoPlan) {
   EXPECT_EQ(refused,
             "plate.stp: it is STEP AP214, which holds no tolerances; export it as STEP AP242 with "
             "semantic PMI, or write the plan by hand");
+}
+
+TEST_F(CadPmiOfFiles, HaveNoUnitWhereTheFileStatesNone) {
+  std::string text = testing::text_of(at("toleranced.stp"));
+  const std::string context = "GLOBAL_UNIT_ASSIGNED_CONTEXT\n((#430,#431,#432))";
+  ASSERT_NE(text.find(context), std::string::npos);
+  text.replace(text.find(context), context.size(), "");
+  const auto file = written("unitless.stp", text);
+  CadOptions options;
+  options.units = 25.4;
+  const auto shape = read_cad(file, options);
+  Eigen::AlignedBox3d box;
+  for (const Eigen::Vector3f& vertex : shape->mesh().vertices_mm)
+    box.extend(vertex.cast<double>());
+  EXPECT_NEAR(box.sizes().z(), 25.4 * 20.0, 1e-3);
+  options.pmi = true;  // a tolerance of another unit would be read as one in mm
+  const std::string refused =
+      testing::error_of([&] { static_cast<void>(read_cad(file, options)); });
+  EXPECT_NE(refused.find("unitless.stp: it states no unit of length, so its tolerances have none"),
+            std::string::npos)
+      << refused;
 }
 
 CadFace face_of(ShapeKind kind, double radius_mm = 0.0) {

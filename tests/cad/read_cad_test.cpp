@@ -12,8 +12,8 @@
 #include "frangia/cad/internal/separate_process.h"
 #include "frangia/core/random.h"
 
+#include "cad/made_cad_parts.h"
 #include "support/error_of.h"
-#include "support/temporary_folder.h"
 #include "support/text_of.h"
 
 namespace frangia {
@@ -21,32 +21,12 @@ namespace {
 
 using Eigen::Vector3d;
 
-class ReadCad : public ::testing::Test {
+class ReadCad : public testing::MadeCadParts {
  protected:
-  static void SetUpTestSuite() {
-    folder_ = new testing::TemporaryFolder;
-    const std::string command =
-        std::string(FRANGIA_MAKE_CAD_PARTS) + " " + folder_->path().string() + " > /dev/null";
-    ASSERT_EQ(std::system(command.c_str()), 0);
-  }
-  static void TearDownTestSuite() { delete folder_; }
-
-  static std::filesystem::path at(const std::string& name) { return folder_->path() / name; }
-
-  static std::filesystem::path written(const std::string& name, const std::string& text) {
-    std::ofstream(at(name), std::ios::binary) << text;
-    return at(name);
-  }
-
   static std::string refusal(const std::filesystem::path& path, const CadOptions& options = {}) {
     return testing::error_of([&] { static_cast<void>(read_cad(path, options)); });
   }
-
- private:
-  static testing::TemporaryFolder* folder_;
 };
-
-testing::TemporaryFolder* ReadCad::folder_ = nullptr;
 
 /// Signed distance of a box with half sizes and rounded edges.
 double box_distance(const Vector3d& p, const Vector3d& half, double round) {

@@ -256,14 +256,7 @@ TEST(ExplainFrames, NamesAPartThatMoved) {
   });
   EXPECT_TRUE(found.has_fault());
   EXPECT_EQ(found.best.cause, FrameCause::Moved) << describe(found.explanation);
-  ASSERT_EQ(found.best.path.size(), 6U);
-  std::vector<double> steps;  // at once before frame 3, however the path is written
-  for (std::size_t k = 1; k < 6; ++k)
-    steps.push_back(std::abs(found.best.path[k] - found.best.path[k - 1]));
-  const double most = *std::max_element(steps.begin(), steps.end());
-  EXPECT_EQ(steps[2], most);
-  for (const std::size_t k : {0U, 1U, 3U, 4U})
-    EXPECT_LT(steps[k], 0.2 * most) << k;
+  EXPECT_EQ(found.best.frames, std::vector<std::size_t>{3});
 }
 
 TEST(JudgeFrames, ReturnsTheShiftsOfUnevenSteps) {

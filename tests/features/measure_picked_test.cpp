@@ -18,8 +18,8 @@ using testing::add_patch;
 
 constexpr double kNoise_mm = 0.01;
 
-/// A plate of 40 x 30 x 8 mm without side walls, a wedge of 30 degrees beside it, and a hole of 12
-/// mm about (60, 0) whose axis is along z.
+/// A plate of 40 x 30 x 8 mm without side walls, a separate wedge of 30 degrees, and a hole of 12
+/// mm centred on (60, 0) with its axis along z.
 Mesh part(std::uint64_t seed = 1, double noise_mm = kNoise_mm) {
   Mesh mesh;
   add_patch(mesh, 80, 60, noise_mm, seed, [](double u, double v) {

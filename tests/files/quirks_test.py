@@ -95,7 +95,7 @@ def ply_files():
         ]:
             extra = [f"{kind} {name}" for name in names.split()]
             yield f"{form}-{kind}-{names.split()[0]}-{of[0]:.0f}.ply", ply(form, extra=extra, of=of), colored(RGB)
-        # what follows the counted faces is a loss that is said
+        # bytes after the faces that the header counts are reported
         rest = b"3 0 1 2\n" if form == "ascii" else b"\x03\x00\x00\x01\x00\x02\x00"
         yield f"{form}-behind.ply", ply(form) + rest, warned("left out behind what its header counts")
         yield f"{form}-blank-behind.ply", ply(form) + b"\r\n \n", BOX

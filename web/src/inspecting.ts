@@ -1,4 +1,5 @@
 import type { App } from './app';
+import { formatOf, MESH_FORMATS, REFERENCE_FORMATS } from './file_formats';
 import { t } from './messages';
 import { requireSendable } from './opening';
 import { nextName } from './steps/inspect_series';
@@ -78,7 +79,7 @@ export class Inspecting {
 
   async send(file: File): Promise<void> {
     const { app } = this;
-    const format = /\.(stl|ply|obj|3mf|step|stp)$/i.exec(file.name)?.[1]?.toLowerCase();
+    const format = formatOf(file.name, REFERENCE_FORMATS);
     if (!format) return app.say(t('inspect.wrongFile'));
     try {
       requireSendable(file.size);
@@ -100,7 +101,7 @@ export class Inspecting {
   /** Begins the next part by the same plan: in a project of its own, to be scanned or from a file. */
   async next(file?: File): Promise<void> {
     const { app } = this;
-    const format = file && /\.(stl|ply|obj|3mf)$/i.exec(file.name)?.[1]?.toLowerCase();
+    const format = file && formatOf(file.name, MESH_FORMATS);
     if (file && !format) return app.say(t('inspect.wrongFile'));
     const taken = app.state.projects.map(({ name }) => name);
     const wanted = await app.asking.write(t('series.ask'), nextName(app.project.name, taken), t('series.begin'));

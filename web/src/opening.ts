@@ -1,13 +1,11 @@
 import type { App } from './app';
+import { accepted, formatOf, REFERENCE_FORMATS, SURFACE_FORMATS } from './file_formats';
 import { number, t } from './messages';
 import { freeName } from './projects';
 import { MOST_BYTES } from './session';
 import { MOST_FILES, type PlacedFile, zipOf } from './zip_files';
 
-const SURFACES = /\.(stl|ply|obj|3mf|glb|gltf|off|dxf|step|stp|iges|igs)$/i;
-/** What a surface can be compared with. */
-const REFERENCES = /\.(stl|ply|obj|3mf|step|stp)$/i;
-const OPENABLE = '.stl,.ply,.obj,.3mf,.glb,.off,.dxf,.step,.stp,.iges,.igs,.zip,.toml,.csv';
+const OPENABLE = accepted([...SURFACE_FORMATS, 'zip', 'toml', 'csv']);
 
 const stem = (name: string): string => name.replace(/\.[^.]*$/, '').slice(0, 50) || 'File';
 
@@ -31,10 +29,10 @@ export function requireSendable(bytes: number): void {
   if (bytes > MOST_BYTES) throw new Error(t('open.large', { size: number(bytes / MB), most: number(MOST_BYTES / MB) }));
 }
 
-/** Opens what is dropped on the page or chosen where it belongs: surfaces, scans and rigs. */
 /** The step that shows what arrived. */
 type Arrived = 'surface' | 'scan' | 'inspect';
 
+/** Opens what is dropped on the page or chosen where it belongs: surfaces, scans and rigs. */
 export class Opening {
   /** Whether something is held over the page that could be dropped. */
   over = false;
@@ -91,7 +89,7 @@ export class Opening {
     try {
       const scan = named(/(^|\/)scan\.toml$/i);
       const zip = named(/\.zip$/i);
-      const surface = named(SURFACES);
+      const surface = files.find(({ path }) => formatOf(path, SURFACE_FORMATS));
       const rig = named(/\.toml$/i);
       if (scan) {
         const folder = scan.path.split('/').at(-2);
@@ -111,8 +109,8 @@ export class Opening {
 
   private async surface(file: File): Promise<void> {
     const { app } = this;
-    const format = SURFACES.exec(file.name)?.[1]?.toLowerCase() as string;
-    if (app.state.project?.surface && REFERENCES.test(file.name)) {
+    const format = formatOf(file.name, SURFACE_FORMATS) as string;
+    if (app.state.project?.surface && formatOf(file.name, REFERENCE_FORMATS)) {
       const answers = [t('open.compare'), t('open.own')];
       const answer = await app.asking.choose(t('open.which', { name: file.name }), answers);
       if (answer === null) return;

@@ -16,7 +16,7 @@ export interface Hit {
   sigma_mm: number | null;
 }
 
-/** What the picture asks for, and tells of clicks and strokes. */
+/** Requests and events of the 3D view. */
 export interface ViewerEvents {
   /** Asks for the point of the exact mesh on a ray. */
   pick(ray: Ray): Promise<Hit | null>;

@@ -7,6 +7,7 @@
 
 #include "frangia/align/internal/free_motions.h"
 #include "frangia/core/error.h"
+#include "frangia/core/student_95.h"
 #include "frangia/core/symmetric_eigen.h"
 
 namespace frangia {
@@ -14,8 +15,6 @@ namespace {
 
 using Eigen::Vector3d;
 using Rows = Eigen::Matrix<double, Eigen::Dynamic, 6>;
-
-constexpr double k95 = 1.959964;
 
 /// Residuals of a datum, mm, and their derivatives by a rotation, times the size of the part, and a
 /// translation.
@@ -70,7 +69,7 @@ DatumRows rows_of(const Datum& datum, const Vector3d& center, double size) {
     const Vector3d first = nominal.axis.unitOrthogonal();
     for (const Vector3d& side : {first, Vector3d(nominal.axis.cross(first))}) {
       rows.add(size * side.dot(axis - nominal.axis),
-               size * datum.uncertainty.axis_u95_rad / k95,
+               size * datum.uncertainty.axis_u95_rad / kNormal95,
                axis.cross(side),
                Vector3d::Zero());
     }
@@ -78,7 +77,7 @@ DatumRows rows_of(const Datum& datum, const Vector3d& center, double size) {
   const Vector3d point = compared_point(nominal, datum.measured);
   for (const Vector3d& side : placed_along(nominal)) {
     rows.add(side.dot(point - nominal.center_mm),
-             datum.uncertainty.center_u95_mm / k95,
+             datum.uncertainty.center_u95_mm / kNormal95,
              (point - center).cross(side) / size,
              side);
   }

@@ -48,7 +48,7 @@ void check_pairs(const Matrix3Xd& scan, const Matrix3Xd& reference) {
   if (measured.on_line || nominal.on_line) {
     throw Error(ErrorKind::Input,
                 fmt::format("points: those of the {} lie on one line, about which the part could "
-                            "turn; choose one beside it",
+                            "turn; choose a point off that line",
                             nominal.on_line ? "reference" : "scan"));
   }
   const double scale = nominal.rms_mm / measured.rms_mm;
@@ -75,7 +75,7 @@ PoseUncertainty uncertainty_of(const Matrix3Xd& reference, const std::vector<dou
     const Vector3d arm = reference.col(i) - uncertainty.center_mm;
     rotations += arm.squaredNorm() * Eigen::Matrix3d::Identity() - arm * arm.transpose();
   }
-  const double student = student_95(degrees) / 1.959964;
+  const double student = student_95(degrees) / kNormal95;
   const double variance = student * student * squares / degrees;
   uncertainty.covariance.topLeftCorner<3, 3>() = variance * rotations.inverse();
   uncertainty.covariance.bottomRightCorner<3, 3>() = variance / count * Eigen::Matrix3d::Identity();

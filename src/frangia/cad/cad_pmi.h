@@ -3,9 +3,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
-#include <string_view>
 #include <vector>
 
+#include "frangia/core/enum_names.h"
 #include "frangia/core/missing.h"
 
 namespace frangia {
@@ -27,10 +27,25 @@ enum class CadRequirementKind : std::uint8_t {
   SurfaceProfile,    ///< of faces, or of the whole part where it names none
   Other              ///< what is not read; `CadRequirement::name` says what
 };
-inline constexpr std::size_t kCadRequirementKinds = 14;  ///< number of values
 
-/// The name in messages: datum, diameter, distance, ...
-[[nodiscard]] std::string_view name_of(CadRequirementKind kind);
+/// What users call them.
+[[nodiscard]] constexpr auto names_of(CadRequirementKind /*any*/) {
+  return EnumNames<CadRequirementKind, 14>{
+      {{CadRequirementKind::Datum, "datum"},
+       {CadRequirementKind::Diameter, "diameter"},
+       {CadRequirementKind::Distance, "distance"},
+       {CadRequirementKind::Angle, "angle"},
+       {CadRequirementKind::Flatness, "flatness"},
+       {CadRequirementKind::Roundness, "roundness"},
+       {CadRequirementKind::Cylindricity, "cylindricity"},
+       {CadRequirementKind::Parallelism, "parallelism"},
+       {CadRequirementKind::Perpendicularity, "perpendicularity"},
+       {CadRequirementKind::Position, "position"},
+       {CadRequirementKind::RunOut, "run-out"},
+       {CadRequirementKind::TotalRunOut, "total-run-out"},
+       {CadRequirementKind::SurfaceProfile, "surface profile"},
+       {CadRequirementKind::Other, "other"}}};
+}
 
 /// A dimension, a geometrical tolerance or a datum of a model. Lengths in mm, angles in degrees.
 struct CadRequirement {

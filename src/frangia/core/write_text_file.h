@@ -7,8 +7,8 @@
 
 namespace frangia {
 
-/// Writes a whole file at once: whoever reads it has the old bytes or the new ones. What `text`
-/// holds need not be text.
+/// Replaces a file in one step: a reader sees either all of the old bytes or all of the new ones.
+/// `text` may hold any bytes.
 ///
 /// @errors   Error(File) when it cannot be written, see AtomicFile
 void write_text_file(const std::filesystem::path& path,

@@ -12,6 +12,7 @@
 
 #include "frangia/core/angles.h"
 #include "frangia/core/error.h"
+#include "frangia/core/student_95.h"
 #include "frangia/features/feature_points.h"
 #include "frangia/features/internal/filtered_range.h"
 #include "frangia/features/internal/minimum_zone.h"
@@ -89,7 +90,6 @@ bool knows_calibration(const ShapeUncertainty& a, const ShapeUncertainty& b) {
 /// features: each change of its parameters moves both.
 template <typename Value>
 double calibration_u95(const Feature& feature, const Feature& datum, const Value& value) {
-  constexpr double k95 = 1.959964;
   const Eigen::MatrixXd& changes = feature.uncertainty.calibration;
   const Eigen::MatrixXd& datum_changes = datum.uncertainty.calibration;
   const double now = value(feature.fit.shape, datum.fit.shape);
@@ -99,7 +99,7 @@ double calibration_u95(const Feature& feature, const Feature& datum, const Value
                               moved(datum.fit.shape, datum_changes.col(i)));
     square += (then - now) * (then - now);
   }
-  return k95 * std::sqrt(square);
+  return kNormal95 * std::sqrt(square);
 }
 
 using Eigen::Vector3d;

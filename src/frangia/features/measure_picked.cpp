@@ -11,6 +11,7 @@
 
 #include "frangia/core/angles.h"
 #include "frangia/core/error.h"
+#include "frangia/core/student_95.h"
 #include "frangia/features/geometric_tolerance.h"
 #include "frangia/geometry/pick_surface.h"
 #include "frangia/geometry/surface_extent.h"
@@ -20,8 +21,6 @@ namespace frangia {
 namespace {
 
 using Eigen::Vector3d;
-
-constexpr double k95 = 1.959964;
 
 [[noreturn]] void refuse(const std::string& why) {
   throw Error(ErrorKind::Input, why);
@@ -52,7 +51,7 @@ PickedElement point_of(const Mesh& mesh, const PickedPlace& place) {
   shape.kind = ShapeKind::Sphere;
   shape.center_mm = place.point_mm;
   const double sigma_mm = largest_at(mesh, mesh.sigma_mm, place.triangle);
-  point.feature.uncertainty.center_u95_mm = k95 * sigma_mm;
+  point.feature.uncertainty.center_u95_mm = kNormal95 * sigma_mm;
   return point;
 }
 
@@ -134,7 +133,7 @@ void measure_wall(const Mesh& mesh, const PickedPlace& place, PickedMeasurement&
     const auto [near, far] = both(mesh.sigma_systematic_mm);
     alike = near + far;
   }
-  found.u95 = k95 * std::hypot(near_noise, far_noise, alike);
+  found.u95 = kNormal95 * std::hypot(near_noise, far_noise, alike);
 }
 
 void measure_diameter(PickedMeasurement& found) {
@@ -208,12 +207,6 @@ void check_places(PickedQuantity quantity, std::span<const PickedPlace> places) 
 
 }  // namespace
 
-std::string_view name_of(PickedQuantity quantity) {
-  static constexpr std::array<std::string_view, kPickedQuantities.size()> kNames{
-      "distance", "angle", "diameter", "thickness", "area", "volume"};
-  return kNames.at(static_cast<std::size_t>(quantity));
-}
-
 std::string_view unit_of(PickedQuantity quantity) {
   if (quantity == PickedQuantity::Angle) return "degrees";
   if (quantity == PickedQuantity::Area) return "mm2";
@@ -236,7 +229,7 @@ PickedMeasurement measure_picked(const Mesh& mesh,
     const SurfaceExtent extent =
         quantity == PickedQuantity::Area ? area_of(mesh, selection) : volume_of(mesh);
     found.value = extent.value;
-    found.u95 = k95 * extent.u;
+    found.u95 = kNormal95 * extent.u;
     found.of_selection = quantity == PickedQuantity::Area && count_selected(selection) > 0;
     found.from_mm = found.to_mm = extent.center_mm;
     return found;

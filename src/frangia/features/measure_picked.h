@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <span>
 #include <string_view>
@@ -8,6 +7,7 @@
 
 #include <Eigen/Core>
 
+#include "frangia/core/enum_names.h"
 #include "frangia/core/missing.h"
 #include "frangia/core/run.h"
 #include "frangia/features/find_features.h"
@@ -27,16 +27,15 @@ enum class PickedQuantity {
   Volume      ///< of a closed surface
 };
 
-/// All of them, in the order of the enum.
-inline constexpr std::array kPickedQuantities{PickedQuantity::Distance,
-                                              PickedQuantity::Angle,
-                                              PickedQuantity::Diameter,
-                                              PickedQuantity::Thickness,
-                                              PickedQuantity::Area,
-                                              PickedQuantity::Volume};
-
-/// The name in files: distance, angle, diameter, thickness, area, volume.
-[[nodiscard]] std::string_view name_of(PickedQuantity quantity);
+/// What users call them.
+[[nodiscard]] constexpr auto names_of(PickedQuantity /*any*/) {
+  return EnumNames<PickedQuantity, 6>{{{PickedQuantity::Distance, "distance"},
+                                       {PickedQuantity::Angle, "angle"},
+                                       {PickedQuantity::Diameter, "diameter"},
+                                       {PickedQuantity::Thickness, "thickness"},
+                                       {PickedQuantity::Area, "area"},
+                                       {PickedQuantity::Volume, "volume"}}};
+}
 
 /// The unit in files: mm, degrees, mm2 or mm3.
 [[nodiscard]] std::string_view unit_of(PickedQuantity quantity);

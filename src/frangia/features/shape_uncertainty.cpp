@@ -166,7 +166,6 @@ ShapeUncertainty shape_uncertainty(const FeaturePoints& points,
   const Eigen::MatrixXd inverse = inverse_of(sums.hessian.topLeftCorner(count, count));
   if (inverse.size() == 0) return result;
 
-  constexpr double k95 = 1.959964;
   const int most =
       static_cast<int>(std::floor(std::log2(std::max(1.0, 0.5 * static_cast<double>(sums.count)))));
   constexpr int kFew = 5;
@@ -183,19 +182,19 @@ ShapeUncertainty shape_uncertainty(const FeaturePoints& points,
   Eigen::MatrixXd covariance =
       without_borders(in_blocks(kFew), in_blocks(kMany), in_blocks(kMost), size);
   const Eigen::MatrixXd stated =
-      k95 * k95 * inverse * sums.noise.topLeftCorner(count, count) * inverse;
+      kNormal95 * kNormal95 * inverse * sums.noise.topLeftCorner(count, count) * inverse;
   if (stated(size, size) > covariance(size, size)) covariance = stated;
-  const Eigen::VectorXd shared = k95 * inverse * sums.shared.head(count);
+  const Eigen::VectorXd shared = kNormal95 * inverse * sums.shared.head(count);
   const bool is_diameter = fit.shape.kind != ShapeKind::Plane;
   const double to_size = is_diameter ? 2.0 : 1.0;
-  result.noise_mm = to_size * std::sqrt(covariance(size, size)) / k95;
+  result.noise_mm = to_size * std::sqrt(covariance(size, size)) / kNormal95;
   covariance += shared * shared.transpose();
   result.center_local_u95_mm = worst_direction(covariance, center_parameters(fit.shape.kind));
   result.axis_local_u95_rad = worst_direction(covariance, axis_parameters(fit.shape.kind));
-  double systematic = shared[size] * shared[size] / (k95 * k95);
+  double systematic = shared[size] * shared[size] / (kNormal95 * kNormal95);
   result.calibration = calibration_response(points, chosen, fit, weights, inverse);
   if (result.calibration.size() > 0) {
-    covariance += k95 * k95 * result.calibration * result.calibration.transpose();
+    covariance += kNormal95 * kNormal95 * result.calibration * result.calibration.transpose();
     systematic += result.calibration.row(size).squaredNorm();
   }
   result.systematic_mm = to_size * std::sqrt(systematic);

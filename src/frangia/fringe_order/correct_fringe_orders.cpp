@@ -13,23 +13,24 @@
 namespace frangia {
 namespace {
 
-/// Maximum number of passes over all views.
-constexpr int kPasses = 2;
+/// Least score of the corrected order of a patch that other views do not contradict because it lies
+/// behind their surface.
+constexpr double kMinAgreementHidden = 0.75;
 
-/// Minimum share of free-space violations of a removed patch.
-constexpr double kMinViolations = 0.5;
+/// Largest share of the compared points that agrees with the present order.
+constexpr double kMaxCurrentAgreement = 0.1;
+
+/// Number of patches across a view.
+constexpr int kPatchesAcross = 32;
 
 /// Side of the patches around corrected ones.
 constexpr int kRefinedPatch_px = 3;
 
-/// Patches that a view is divided into, across.
-constexpr int kPatchesAcross = 32;
+/// Least share of the points of a removed patch that violate free space.
+constexpr double kMinViolations = 0.5;
 
-/// Maximum share that agrees with the present order.
-constexpr double kMaxCurrentAgreement = 0.1;
-
-/// The same for a patch that other views do not contradict because it lies behind their surface.
-constexpr double kMinAgreementHidden = 0.75;
+/// Maximum number of passes over all views.
+constexpr int kPasses = 2;
 
 struct Patch {
   FringePixels pixels;

@@ -16,11 +16,11 @@
 namespace frangia {
 namespace {
 
+/// Largest median distance of the laser line's points from the order of their region, in fringes.
+constexpr double kMaxDeparture = 0.25;
+
 /// Minimum number of laser line points on a region.
 constexpr int kMinCrossings = 3;
-
-/// Maximum median distance from that order, in fringes.
-constexpr double kMaxDeparture = 0.25;
 
 /// The order to add to each region, where known.
 using Orders = std::vector<std::optional<int>>;

@@ -15,17 +15,17 @@
 namespace frangia {
 namespace {
 
-/// A view sees a vertex if the depths of the pixels around it differ by less than this many pixel
-/// sizes along the surface, plus as many standard deviations.
-constexpr double kMaxDistance_px = 3.0;
+/// Cosine of the largest angle between a vertex normal and the ray to the camera: pixels that see
+/// the surface at a steeper angle are stretched over many vertices.
+constexpr double kMinCosine = 0.1;
 
 /// Distance from the edge of the measured area over which the weight of a view rises from 0, so
 /// that no seam shows where a view ends; px.
 constexpr int kRamp_px = 24;
 
-/// Cosine of the largest angle between a vertex normal and the ray to the camera: pixels that see
-/// the surface at a steeper angle are stretched over many vertices.
-constexpr double kMinCosine = 0.1;
+/// A view sees a vertex if the depths of the pixels around it differ by less than this many pixel
+/// sizes along the surface, plus as many standard deviations.
+constexpr double kMaxDistance_px = 3.0;
 
 using Eigen::Vector3d;
 using Eigen::Vector4f;

@@ -14,13 +14,13 @@
 
 #include "frangia/core/error.h"
 #include "frangia/core/median.h"
+#include "frangia/core/student_95.h"
 
 namespace frangia {
 namespace {
 
 using Eigen::Vector3d;
 
-constexpr double k95 = 1.959964;
 constexpr std::size_t kMostPlaces = 24;
 
 /// Guard bands of "out" for noise, which is independent from patch to patch, and for the
@@ -98,7 +98,7 @@ PatchDecision decide(const SurfacePatches& patches,
   if (value < rule.limits.lower - beyond || value > rule.limits.upper + beyond)
     return PatchDecision::Out;
   const double half = 0.5 * (rule.limits.upper - rule.limits.lower);
-  if (k95 * u > rule.max_uncertainty_share * half) return PatchDecision::NotWellMeasured;
+  if (kNormal95 * u > rule.max_uncertainty_share * half) return PatchDecision::NotWellMeasured;
   return conformity_of(value, u, rule.limits) == Conformity::In ? PatchDecision::In
                                                                 : PatchDecision::NearLimit;
 }
@@ -205,7 +205,7 @@ std::vector<SurfacePlace> places_of(const SurfacePatches& patches,
     place.normal = patches.normal[worst].cast<double>();
     if (patches.is_measured(worst)) {
       place.deviation_mm = static_cast<double>(patches.deviation_mm[worst]);
-      if (patches.uncertainty_known) place.u95_mm = k95 * patches.u_mm(worst);
+      if (patches.uncertainty_known) place.u95_mm = kNormal95 * patches.u_mm(worst);
     }
     places.push_back(place);
   }
@@ -229,7 +229,7 @@ std::vector<SurfacePlace> places_of(const SurfacePatches& patches,
 Extreme extreme_of(const SurfacePatches& patches, std::size_t i) {
   Extreme extreme;
   extreme.deviation_mm = static_cast<double>(patches.deviation_mm[i]);
-  if (patches.uncertainty_known) extreme.u95_mm = k95 * patches.u_mm(i);
+  if (patches.uncertainty_known) extreme.u95_mm = kNormal95 * patches.u_mm(i);
   extreme.at_mm = patches.center_mm[i].cast<double>();
   extreme.normal = patches.normal[i].cast<double>();
   return extreme;
@@ -240,7 +240,8 @@ double decidable_of(const SurfacePatches& patches, const SurfaceRule& rule) {
   std::vector<std::pair<double, double>> needs;  // half-widths, and the areas that need them
   for (std::size_t i = 0; i < patches.size(); ++i) {
     if (patches.is_measured(i) && std::isfinite(patches.u_mm(i)))
-      needs.emplace_back(k95 * patches.u_mm(i) / rule.max_uncertainty_share, patches.area_mm2[i]);
+      needs.emplace_back(kNormal95 * patches.u_mm(i) / rule.max_uncertainty_share,
+                         patches.area_mm2[i]);
   }
   std::sort(needs.begin(), needs.end());
   double area_mm2 = 0.0;

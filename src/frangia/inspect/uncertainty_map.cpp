@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "frangia/core/missing.h"
+#include "frangia/core/student_95.h"
 #include "frangia/inspect/internal/patch_grid.h"
 
 namespace frangia {
@@ -14,7 +15,6 @@ namespace {
 
 using Eigen::Vector3f;
 
-constexpr double kMap95 = 1.959964;
 constexpr float kMapFace = 0.3F;                 // cosine, as of the patches
 constexpr std::size_t kMostTriangles = 400'000;  // of a map
 
@@ -66,8 +66,8 @@ UncertaintyMap uncertainty_map(const SurfacePatches& patches,
     grid.within(point, patches.diameter_mm, [&](std::uint32_t patch, float squared) {
       if (squared >= nearest || normal.dot(patches.normal[patch]) < kMapFace) return;
       nearest = squared;
-      value =
-          patches.is_measured(patch) ? static_cast<float>(kMap95 * patches.u_mm(patch)) : kMissing;
+      value = patches.is_measured(patch) ? static_cast<float>(kNormal95 * patches.u_mm(patch))
+                                         : kMissing;
     });
     return value;
   };

@@ -7,12 +7,11 @@
 #include <Eigen/Geometry>
 #include <fmt/format.h>
 
+#include "frangia/core/student_95.h"
 #include "frangia/inspection/internal/shape_mismatch.h"
 
 namespace frangia {
 namespace {
-
-constexpr double k95 = 1.959964;
 
 /// What a plan says of a feature, and what was found.
 struct FoundFeature {
@@ -56,7 +55,7 @@ double farthest_mm(const std::vector<MeasuredFeature>& features) {
 }
 
 void decide_row(MeasuredCharacteristic& row) {
-  if (row.limits) row.conformity = conformity_of(row.value, row.u95 / k95, *row.limits);
+  if (row.limits) row.conformity = conformity_of(row.value, row.u95 / kNormal95, *row.limits);
 }
 
 ToleranceLimits at_most(double limit) {

@@ -19,7 +19,7 @@ namespace frangia {
 /// A reason of the verdict about a part.
 struct VerdictReason {
   std::string_view about;              ///< "surface" or "characteristics"
-  std::vector<VerdictClause> clauses;  ///< what is said about it
+  std::vector<VerdictClause> clauses;  ///< the parts of its sentence
 
   [[nodiscard]] std::string text() const;  ///< in English, one sentence
 };

@@ -9,17 +9,18 @@
 namespace frangia {
 namespace {
 
-/// Distance of a pixel from its plane.
-constexpr float kMaxOffSigmas = 4.0F;
+/// Largest ratio of the residual variance of a quadratic to the expected one: the surface is
+/// curved.
+constexpr float kMaxCurvedRatio = 1.3F;
 
-/// Of a shifted window's variance to the centered one's.
-constexpr float kMaxShiftedRatio = 0.5F;
-
-/// Of a quadratic with noisy residuals: 3 times the known noise.
+/// The same where the residuals are noisy: 3 times the known noise.
 constexpr float kMaxNoisyRatio = 9.0F;
 
-/// Of a quadratic: the surface is curved.
-constexpr float kMaxCurvedRatio = 1.3F;
+/// Largest ratio of the residual variance of a shifted window to that of the centered one.
+constexpr float kMaxShiftedRatio = 0.5F;
+
+/// Largest distance of a pixel from its plane, in standard deviations.
+constexpr float kMaxOffSigmas = 4.0F;
 
 const ChosenWindow kNoWindow{kNoFit, WindowKind::None, kMissing, kMissing};
 

@@ -12,17 +12,17 @@
 namespace frangia {
 namespace {
 
-/// Maximum number of saturated pixels of a peak.
-constexpr int kMaxSaturated_px = 3;
+/// Least height of a peak above its base, in standard deviations of the camera's noise.
+constexpr double kLaserProfileMinSigmas = 6.0;
 
-/// Minimum height of the brighter neighbour, per peak height.
-constexpr double kMinNeighbor = 0.1;
-
-/// Added to the minimum height: quantization of dark frames.
+/// Added to it for the quantization of dark frames.
 constexpr double kMinHeight_counts = 2.0;
 
-/// Minimum height of a peak above its base, in sigmas of camera noise.
-constexpr double kLaserProfileMinSigmas = 6.0;
+/// Least height of the brighter neighbour of a peak's pixel, as a share of the peak's height.
+constexpr double kMinNeighbor = 0.1;
+
+/// Largest number of saturated pixels of a peak.
+constexpr int kMaxSaturated_px = 3;
 
 struct Peak {
   double center_px;

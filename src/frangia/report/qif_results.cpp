@@ -7,11 +7,10 @@
 
 #include "frangia/core/html_escaped.h"
 #include "frangia/core/sha256.h"
+#include "frangia/core/student_95.h"
 
 namespace frangia {
 namespace {
-
-constexpr double kCoverage = 1.959964;  // of 95 %
 
 /// A text for XML: markup is escaped, control characters, which XML does not have, become spaces.
 std::string xml_text(std::string_view text) {
@@ -35,7 +34,7 @@ std::string measured_value(std::string_view name, double value, double u95) {
   if (!std::isfinite(u95)) return element(name, decimal(value));
   return fmt::format("<{0} combinedUncertainty=\"{1}\">{2}</{0}>\n",
                      name,
-                     decimal(u95 / kCoverage),
+                     decimal(u95 / kNormal95),
                      decimal(value));
 }
 

@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "frangia/core/angles.h"
+#include "frangia/core/student_95.h"
 #include "frangia/inspect/picture_positions.h"
 #include "frangia/inspect/render_mesh.h"
 #include "frangia/inspection/tolerance_use.h"
@@ -61,13 +62,14 @@ std::vector<LabelledPlace> labelled_places(const Inspection& part) {
         same->label.detail = std::string(detail) + ", " + same->label.detail;
         continue;
       }
-      places.push_back({{value_text(extreme.deviation_mm, extreme.u95_mm),
-                         detail,
-                         conformity_of(extreme.deviation_mm,
-                                       std::isfinite(extreme.u95_mm) ? extreme.u95_mm / 1.96 : 0.0,
-                                       verdict.rule.limits),
-                         {}},
-                        {extreme.at_mm, extreme.normal}});
+      places.push_back(
+          {{value_text(extreme.deviation_mm, extreme.u95_mm),
+            detail,
+            conformity_of(extreme.deviation_mm,
+                          std::isfinite(extreme.u95_mm) ? extreme.u95_mm / kNormal95 : 0.0,
+                          verdict.rule.limits),
+            {}},
+           {extreme.at_mm, extreme.normal}});
     }
   }
   // Of a feature with many characteristics the worst ones, or the labels of others have no room.

@@ -177,12 +177,7 @@ class Predictor {
                                     plan,
                                     {.statistics = false, .mesh_name = "the plan"},
                                     run_);
-    const double share = plan.surface.max_uncertainty_share;
-    tried.need = need_of(prediction.found, share);
-    if (prediction.found.surface)
-      tried.decidable_share = prediction.found.surface->verdict.coverage;
-    for (const DecidableCharacteristic& row : decidable_characteristics(prediction.found, share))
-      tried.decidable += row.is_decidable ? 1 : 0;
+    tried.reach = reach_of(prediction.found, plan.surface.max_uncertainty_share);
   }
 
   const InspectionReference& reference_;
@@ -194,11 +189,8 @@ class Predictor {
 
 /// Whether a recipe reaches clearly more than another one.
 bool reaches_more(const TriedRecipe& one, const TriedRecipe& other) {
-  constexpr double kClear = 0.005;  // of the nominal area
   if (one.fault.empty() != other.fault.empty()) return one.fault.empty();
-  if (one.need == ScanNeed::Nothing) return other.need != ScanNeed::Nothing;
-  return one.decidable > other.decidable ||
-         (one.decidable == other.decidable && one.decidable_share > other.decidable_share + kClear);
+  return decides_more(one.reach, other.reach);
 }
 
 }  // namespace
@@ -214,11 +206,11 @@ ScanPlan plan_scan(const InspectionReference& reference,
   Prediction best = predictor.of(options.start);
   found.tried.push_back(best.tried);
   std::set<Remedy> useless;
-  while (options.search && best.tried.need != ScanNeed::Nothing &&
+  while (options.search && best.tried.reach.need != ScanNeed::Nothing &&
          found.tried.size() < kMostTried) {
     std::optional<ScanRecipe> next;
     Remedy chosen{};
-    for (const Remedy remedy : remedies_for(best.tried.need)) {
+    for (const Remedy remedy : remedies_for(best.tried.reach.need)) {
       if (useless.contains(remedy)) continue;
       next = remedied(best.tried.recipe, remedy, rig, options);
       chosen = remedy;
@@ -236,8 +228,8 @@ ScanPlan plan_scan(const InspectionReference& reference,
   }
   if (!best.tried.fault.empty()) throw Error(ErrorKind::Input, best.tried.fault);
   found.recipe = best.tried.recipe;
-  found.need = best.tried.need;
-  found.suffices = best.tried.need == ScanNeed::Nothing;
+  found.need = best.tried.reach.need;
+  found.suffices = best.tried.reach.need == ScanNeed::Nothing;
   found.predicted = std::move(best.found);
   const SurfaceInspection& surface = found.predicted.surface.value();
   const SurfaceRule& rule = surface.verdict.rule;

@@ -25,12 +25,9 @@ struct ScanPlanOptions {
 
 /// A recipe that was tried, and what it reaches.
 struct TriedRecipe {
-  ScanRecipe recipe;                   ///< what was tried
-  ScanNeed need = ScanNeed::Coverage;  ///< what it lacks most
-  /// Share of the nominal area that is measured well enough; 0 without a surface.
-  double decidable_share = 0.0;
-  std::size_t decidable = 0;  ///< characteristics with a tolerance that are measured well enough
-  std::string fault;          ///< why there was nothing to inspect; empty: there was
+  ScanRecipe recipe;  ///< what was tried
+  ScanReach reach;    ///< how far it decides
+  std::string fault;  ///< why there was nothing to inspect; empty: there was
 };
 
 /// How a part is to be scanned so that a plan of inspection can decide, and what that reaches.

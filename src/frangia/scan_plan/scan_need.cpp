@@ -1,7 +1,6 @@
 #include "frangia/scan_plan/scan_need.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 namespace frangia {
@@ -27,12 +26,22 @@ ScanNeed need_of_surface(const SurfaceVerdict& verdict) {
   return ScanNeed::Noise;
 }
 
-}  // namespace
-
-std::string_view name_of(ScanNeed need) {
-  constexpr std::array<std::string_view, 4> kNames{"nothing", "coverage", "noise", "calibration"};
-  return kNames.at(static_cast<std::size_t>(need));
+/// What an inspection needs most.
+ScanNeed need_of(const Inspection& part, const std::vector<DecidableCharacteristic>& rows) {
+  if (part.verdict == Conformity::Out) return ScanNeed::Nothing;
+  const ScanNeed surface =
+      part.surface ? need_of_surface(part.surface->verdict) : ScanNeed::Nothing;
+  if (surface != ScanNeed::Nothing) return surface;
+  ScanNeed need = ScanNeed::Nothing;
+  for (const DecidableCharacteristic& row : rows) {
+    if (row.is_decidable) continue;
+    if (!std::isfinite(row.u95)) return ScanNeed::Coverage;
+    need = ScanNeed::Noise;
+  }
+  return need;
 }
+
+}  // namespace
 
 std::vector<DecidableCharacteristic> decidable_characteristics(const Inspection& part,
                                                                double max_uncertainty_share) {
@@ -46,19 +55,20 @@ std::vector<DecidableCharacteristic> decidable_characteristics(const Inspection&
   return rows;
 }
 
-ScanNeed need_of(const Inspection& part, double max_uncertainty_share) {
-  if (part.verdict == Conformity::Out) return ScanNeed::Nothing;
-  const ScanNeed surface =
-      part.surface ? need_of_surface(part.surface->verdict) : ScanNeed::Nothing;
-  if (surface != ScanNeed::Nothing) return surface;
-  ScanNeed need = ScanNeed::Nothing;
-  for (const DecidableCharacteristic& row :
-       decidable_characteristics(part, max_uncertainty_share)) {
-    if (row.is_decidable) continue;
-    if (!std::isfinite(row.u95)) return ScanNeed::Coverage;
-    need = ScanNeed::Noise;
-  }
-  return need;
+ScanReach reach_of(const Inspection& part, double max_uncertainty_share) {
+  const auto rows = decidable_characteristics(part, max_uncertainty_share);
+  ScanReach reach{.need = need_of(part, rows)};
+  if (part.surface) reach.decidable_share = part.surface->verdict.coverage;
+  for (const DecidableCharacteristic& row : rows)
+    reach.decidable += row.is_decidable ? 1 : 0;
+  return reach;
+}
+
+bool decides_more(const ScanReach& one, const ScanReach& other) {
+  constexpr double kClear = 0.005;  // of the nominal area
+  if (one.need == ScanNeed::Nothing) return other.need != ScanNeed::Nothing;
+  return one.decidable > other.decidable ||
+         (one.decidable == other.decidable && one.decidable_share > other.decidable_share + kClear);
 }
 
 }  // namespace frangia

@@ -1,10 +1,11 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
-#include <string_view>
 #include <vector>
 
+#include "frangia/core/enum_names.h"
 #include "frangia/inspection/inspect_part.h"
 
 namespace frangia {
@@ -17,8 +18,13 @@ enum class ScanNeed : std::uint8_t {
   Calibration  ///< a smaller systematic uncertainty, which no further frame gives
 };
 
-/// The name in files: nothing, coverage, noise, calibration.
-[[nodiscard]] std::string_view name_of(ScanNeed need);
+/// What users call them.
+[[nodiscard]] constexpr auto names_of(ScanNeed /*any*/) {
+  return EnumNames<ScanNeed, 4>{{{ScanNeed::Nothing, "nothing"},
+                                 {ScanNeed::Coverage, "coverage"},
+                                 {ScanNeed::Noise, "noise"},
+                                 {ScanNeed::Calibration, "calibration"}}};
+}
 
 /// How well a characteristic with a tolerance is measured.
 struct DecidableCharacteristic {
@@ -33,8 +39,18 @@ struct DecidableCharacteristic {
 [[nodiscard]] std::vector<DecidableCharacteristic> decidable_characteristics(
     const Inspection& part, double max_uncertainty_share);
 
-/// What an inspection needs most. A characteristic counts as decided when it is out, or when its
+/// How far an inspection decides what a plan asks for.
+struct ScanReach {
+  ScanNeed need = ScanNeed::Coverage;  ///< what lacks most
+  double decidable_share = 0.0;  ///< of the nominal area: measured well enough; 0 without a surface
+  std::size_t decidable = 0;     ///< characteristics with a tolerance that are measured well enough
+};
+
+/// How far an inspection decides. A characteristic counts as decided when it is out, or when its
 /// U95 is within the share of its tolerance that the plan allows.
-[[nodiscard]] ScanNeed need_of(const Inspection& part, double max_uncertainty_share);
+[[nodiscard]] ScanReach reach_of(const Inspection& part, double max_uncertainty_share);
+
+/// Whether one scan decides clearly more than another.
+[[nodiscard]] bool decides_more(const ScanReach& one, const ScanReach& other);
 
 }  // namespace frangia

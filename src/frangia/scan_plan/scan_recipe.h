@@ -9,7 +9,7 @@
 
 namespace frangia {
 
-/// How a part is scanned: what `frangia scan` is told.
+/// Settings of a scan: setups, stations, patterns and exposure.
 struct ScanRecipe {
   /// Tilts of the part about the x axis, one for each setup; the first is 0, as the model stands.
   std::vector<double> tilts_rad{0.0};

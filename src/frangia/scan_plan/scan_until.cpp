@@ -29,27 +29,13 @@ Scan plan_of_round(const Scan& first, std::size_t round) {
   return plan;
 }
 
-ScanRound round_of(const Scan& scan, const Inspection& found, double max_uncertainty_share) {
-  ScanRound round;
-  round.stations = scan.views.size();
-  round.need = need_of(found, max_uncertainty_share);
-  if (found.surface) round.decidable_share = found.surface->verdict.coverage;
-  for (const DecidableCharacteristic& row : decidable_characteristics(found, max_uncertainty_share))
-    round.decidable += row.is_decidable ? 1 : 0;
-  return round;
-}
-
 /// Why no further round is worth its time; nothing: it is.
 std::optional<ScanStop> stop_after(const std::vector<ScanRound>& rounds) {
-  constexpr double kGain = 0.005;  // of the nominal area
-  const ScanRound& last = rounds.back();
+  const ScanReach& last = rounds.back().reach;
   if (last.need == ScanNeed::Nothing) return ScanStop::Decided;
   if (last.need == ScanNeed::Calibration) return ScanStop::Rig;
   if (rounds.size() < 2) return std::nullopt;
-  const ScanRound& before = rounds[rounds.size() - 2];
-  const bool helped =
-      last.decidable > before.decidable || last.decidable_share > before.decidable_share + kGain;
-  if (helped) return std::nullopt;
+  if (decides_more(last, rounds[rounds.size() - 2].reach)) return std::nullopt;
   return last.need == ScanNeed::Coverage ? ScanStop::NotSeen : ScanStop::NotHelped;
 }
 
@@ -72,7 +58,8 @@ ScanUntil scan_until(const Scan& plan,
     scan.part_poses = planned.part_poses;
     const InspectOptions options{.statistics = false, .scan = &scan, .mesh_name = scan.folder};
     done.found = inspect_part(reconstruct(scan, {}, run).mesh, &reference, wanted, options, run);
-    done.rounds.push_back(round_of(scan, done.found, wanted.surface.max_uncertainty_share));
+    done.rounds.push_back(
+        {scan.views.size(), reach_of(done.found, wanted.surface.max_uncertainty_share)});
     if (const auto stop = stop_after(done.rounds)) {
       done.stop = *stop;
       return done;
@@ -80,8 +67,8 @@ ScanUntil scan_until(const Scan& plan,
     const ScanRound& last = done.rounds.back();
     run.note(fmt::format("{} stations decide {} of the nominal area; more are added for {}",
                          last.stations,
-                         share_text(last.decidable_share),
-                         name_of(last.need)));
+                         share_text(last.reach.decidable_share),
+                         name_of(last.reach.need)));
   }
   return done;
 }

@@ -17,10 +17,8 @@ namespace frangia {
 
 /// A round of `scan_until`: what all stations so far measure.
 struct ScanRound {
-  std::size_t stations = 0;            ///< of all rounds so far
-  ScanNeed need = ScanNeed::Coverage;  ///< what they lack most
-  double decidable_share = 0.0;        ///< of the nominal area; 0 without a surface
-  std::size_t decidable = 0;  ///< characteristics with a tolerance that are measured well enough
+  std::size_t stations = 0;  ///< of all rounds so far
+  ScanReach reach;           ///< how far they decide
 };
 
 /// Why `scan_until` stopped.

@@ -38,12 +38,6 @@ Vector3d triple_of(const nlohmann::json& json) {
   return {json.at(0).get<double>(), json.at(1).get<double>(), json.at(2).get<double>()};
 }
 
-PickedQuantity quantity_of(const std::string& name) {
-  for (const PickedQuantity quantity : kPickedQuantities)
-    if (name == name_of(quantity)) return quantity;
-  throw Error(ErrorKind::Input, "measurements.json: there is no quantity " + name);
-}
-
 /// Whether an operation of the editor leaves the mesh as it is.
 bool only_selects(std::string_view operation) {
   static constexpr std::array<std::string_view, 6> kSelecting{
@@ -78,7 +72,7 @@ HandMeasurement measurement_of(const nlohmann::json& json) {
   if (json.contains("points_mm")) {
     one = measurement_of_points(json);
   } else {
-    one.quantity = quantity_of(json.at("quantity").get<std::string>());
+    one.quantity = value_named<PickedQuantity>("quantity", json.at("quantity").get<std::string>());
     one.value = number_or_missing(json.at("value"));
     one.u95 = number_or_missing(json.at("u95"));
     one.from_mm = triple_of(json.at("from_mm"));

@@ -71,10 +71,7 @@ SeriesPart part_of(const nlohmann::json& json) {
     row.u95 = number_of(one.at("u95"), kMissing);
     if (const auto& limits = one.at("limits"); !limits.is_null()) {
       row.limits = ToleranceLimits{number_of(limits.at(0), -kNone), number_of(limits.at(1), kNone)};
-      const std::string verdict = one.at("verdict").get<std::string>();
-      row.conformity = verdict == name_of(Conformity::In)    ? Conformity::In
-                       : verdict == name_of(Conformity::Out) ? Conformity::Out
-                                                             : Conformity::Undecided;
+      row.conformity = value_named<Conformity>("verdict", one.at("verdict").get<std::string>());
     }
     part.rows.push_back(std::move(row));
   }

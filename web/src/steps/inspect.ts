@@ -1,6 +1,7 @@
 import { html, svg, type TemplateResult } from 'lit';
 
 import type { App } from '../app';
+import { accepted, REFERENCE_FORMATS } from '../file_formats';
 import { icon } from '../icons';
 import { number, t } from '../messages';
 import type { Comparison, Inspection, MeasuredRow, Plan } from '../inspection_types';
@@ -241,7 +242,7 @@ function reference(app: App): TemplateResult {
         id="reference"
         class="sr"
         type="file"
-        accept=".stl,.ply,.obj,.3mf,.step,.stp"
+        accept=${accepted(REFERENCE_FORMATS)}
         ?disabled=${off || inspecting.sent !== null}
         @change=${choose}
       />

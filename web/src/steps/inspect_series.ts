@@ -1,6 +1,7 @@
 import { html, svg, type TemplateResult } from 'lit';
 
 import type { App } from '../app';
+import { accepted, MESH_FORMATS } from '../file_formats';
 import { icon } from '../icons';
 import type { Inspection, SeriesPart, SeriesRow } from '../inspection_types';
 import { number, t } from '../messages';
@@ -102,7 +103,14 @@ export function series(app: App, found: Inspection | null): TemplateResult | str
       }
       <label class="btn choose"
         >${icon('folder')}${t('series.file')}
-        <input id="next-file" class="sr" type="file" accept=".stl,.ply,.obj,.3mf" ?disabled=${off} @change=${choose} />
+        <input
+          id="next-file"
+          class="sr"
+          type="file"
+          accept=${accepted(MESH_FORMATS)}
+          ?disabled=${off}
+          @change=${choose}
+        />
       </label>
     </div>
   </section>`;

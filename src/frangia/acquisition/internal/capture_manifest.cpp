@@ -174,7 +174,9 @@ void CaptureManifest::store(const std::string& set, const ManifestSet& outcome) 
 }
 
 void CaptureManifest::add_exposures(const std::vector<double>& exposures_ms) {
-  log_.append(fmt::format("exposures {}", fmt::join(exposures_ms, " ")));
+  // Twice: the frames tell all other lines again, but not this one.
+  for (int copy = 0; copy < 2; ++copy)
+    log_.append(fmt::format("exposures {}", fmt::join(exposures_ms, " ")));
   exposures_ms_ = exposures_ms;
 }
 

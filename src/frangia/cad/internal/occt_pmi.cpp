@@ -7,7 +7,6 @@
 #include <Interface_InterfaceModel.hxx>
 #include <STEPCAFControl_Reader.hxx>
 #include <Standard_Type.hxx>
-#include <TColStd_SequenceOfAsciiString.hxx>
 #include <TCollection_HAsciiString.hxx>
 #include <TDF_Label.hxx>
 #include <TDF_LabelSequence.hxx>
@@ -27,7 +26,6 @@
 #include <XCAFDoc_ShapeTool.hxx>
 #include <XSControl_WorkSession.hxx>
 
-#include "frangia/cad/internal/lowercase_text.h"
 #include "frangia/cad/internal/occt_translate.h"
 
 namespace frangia {
@@ -265,18 +263,23 @@ TopoDS_Shape read_step_with_pmi(const std::string& path, CadTranslation& said) {
     said.error = "it is no valid STEP file; export it again";
     return {};
   }
-  TColStd_SequenceOfAsciiString lengths;
-  TColStd_SequenceOfAsciiString angles;
-  TColStd_SequenceOfAsciiString solid_angles;
-  reader.ChangeReader().FileUnits(lengths, angles, solid_angles);
-  if (lengths.Length() > 0) said.unit = lowercase(lengths.First().ToCString());
+  said.unit = stated_unit(reader.ChangeReader());
+  if (said.unit.empty()) {
+    said.error =
+        "it states no unit of length, so its tolerances have none; export it with its unit";
+    return {};
+  }
   Handle(TDocStd_Document) document = new TDocStd_Document("BinXCAF");
   XCAFDoc_DocumentTool::Set(document->Main());
   if (!reader.Transfer(document)) {
     said.error = "its parts cannot be translated; export it again";
     return {};
   }
-  const TopoDS_Shape shape = reader.Reader().OneShape();
+  const STEPControl_Reader& parts = reader.Reader();
+  const TopoDS_Shape shape = parts.OneShape();
+  const int roots = reader.ChangeReader().NbRootsForTransfer();
+  if (const std::string left_out = left_out_text(roots, parts.NbShapes()); !left_out.empty())
+    said.warnings.push_back(left_out);
   said.pmi.has_graphics = holds_annotations(reader.Reader().WS()->Model());
   said.pmi.requirements = PmiFinder(document, shape).all();
   return shape;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
 #include <new>
 
@@ -23,7 +24,6 @@
 #include <TopExp_Explorer.hxx>
 #include <TopoDS.hxx>
 
-#include "frangia/cad/internal/lowercase_text.h"
 #include "frangia/cad/internal/shape_checks.h"
 #include "frangia/core/error.h"
 #include "frangia/core/lowercase_extension.h"
@@ -32,6 +32,14 @@ namespace frangia {
 namespace {
 
 constexpr int kMostFaces = 200'000;
+
+/// A text of ASCII letters without capitals.
+std::string lowercase(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) {
+    return static_cast<char>(std::tolower(c));
+  });
+  return text;
+}
 
 /// The number of faces, at most one more than the limit: nested assemblies can name billions.
 int counted_faces(const TopoDS_Shape& shape) {
@@ -53,10 +61,8 @@ template <typename Reader>
 TopoDS_Shape transferred(Reader& reader, CadTranslation& said) {
   const int roots = reader.NbRootsForTransfer();
   const int done = reader.TransferRoots();
-  if (done < roots) {
-    said.warnings.push_back(std::to_string(roots - done) + " of its " + std::to_string(roots) +
-                            " parts cannot be translated and are left out");
-  }
+  if (const std::string left_out = left_out_text(roots, done); !left_out.empty())
+    said.warnings.push_back(left_out);
   return reader.OneShape();
 }
 
@@ -68,11 +74,7 @@ TopoDS_Shape read_step(const std::string& path,
     said.error = "it is no valid STEP file; export it again";
     return {};
   }
-  TColStd_SequenceOfAsciiString lengths;
-  TColStd_SequenceOfAsciiString angles;
-  TColStd_SequenceOfAsciiString solid_angles;
-  reader.FileUnits(lengths, angles, solid_angles);
-  if (lengths.Length() > 0) said.unit = lowercase(lengths.First().ToCString());
+  said.unit = stated_unit(reader);
   TopoDS_Shape shape = transferred(reader, said);
   if (said.unit.empty() && unit_mm) return scaled(shape, *unit_mm);
   return shape;
@@ -195,6 +197,20 @@ void translate(const std::string& path,
 }
 
 }  // namespace
+
+std::string stated_unit(STEPControl_Reader& reader) {
+  TColStd_SequenceOfAsciiString lengths;
+  TColStd_SequenceOfAsciiString angles;
+  TColStd_SequenceOfAsciiString solid_angles;
+  reader.FileUnits(lengths, angles, solid_angles);
+  return lengths.Length() > 0 ? lowercase(lengths.First().ToCString()) : std::string();
+}
+
+std::string left_out_text(int roots, int done) {
+  if (done >= roots) return {};
+  return std::to_string(roots - done) + " of its " + std::to_string(roots) +
+         " parts cannot be translated and are left out";
+}
 
 CadTranslation translate_cad(const std::filesystem::path& path,
                              const CadRequest& asked,

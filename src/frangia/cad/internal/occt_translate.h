@@ -8,6 +8,7 @@
 
 #include "frangia/cad/cad_pmi.h"
 
+class STEPControl_Reader;
 class TopoDS_Shape;
 
 namespace frangia {
@@ -35,7 +36,14 @@ struct CadTranslation {
 /// Reads the shape of a STEP file and its product and manufacturing information, which names faces
 /// by their number in the shape, from 1. May crash or print on a malicious file.
 ///
-/// What is wrong with the file is `said.error`, and the shape is null then.
+/// What is wrong with the file is `said.error`, and the shape is null then. A file that states no
+/// unit of length is refused, because its tolerances have none either.
 [[nodiscard]] TopoDS_Shape read_step_with_pmi(const std::string& path, CadTranslation& said);
+
+/// The unit of length that a STEP file states, in words; empty: none.
+[[nodiscard]] std::string stated_unit(STEPControl_Reader& reader);
+
+/// The warning of roots of a file of which no shape came; empty: of each came one.
+[[nodiscard]] std::string left_out_text(int roots, int done);
 
 }  // namespace frangia

@@ -85,7 +85,7 @@ std::optional<CadRequirement> parsed_pmi_record(std::string_view line) {
   if (fields.size() != kFields) return std::nullopt;
   unsigned kind = 0;
   CadRequirement found;
-  if (!read(fields[0], kind) || kind >= kCadRequirementKinds) return std::nullopt;
+  if (!read(fields[0], kind) || kind >= names_of(CadRequirementKind{}).size()) return std::nullopt;
   found.kind = static_cast<CadRequirementKind>(kind);
   found.name = word(fields[1]);
   if (!read_number(fields[2], found.value) || !read_number(fields[3], found.lower) ||

@@ -19,12 +19,12 @@
 namespace frangia {
 namespace {
 
+/// Above it the poses of a screen contradict each other.
+constexpr double kMaxCameraRms_px = 2.0;
+
 /// Root mean square of the residuals, as a share of the range of the light, above which the views
 /// contradict each other.
 constexpr double kMaxLightShare = 0.004;
-
-/// Above it the poses of a screen contradict each other.
-constexpr double kMaxCameraRms_px = 2.0;
 
 template <typename Kind>
 bool is_kind(const Scan& scan) {

@@ -12,7 +12,7 @@
 namespace frangia {
 namespace {
 
-/// Relative; a rig of unknown scale measures another radius.
+/// Largest relative error of a radius; a rig of unknown scale measures another one.
 constexpr double kRadiusError = 0.25;
 
 /// The sphere through four points; none where they lie in a plane.

@@ -18,29 +18,29 @@
 namespace frangia {
 namespace {
 
-/// Share of a board's points with projector coordinates.
-constexpr double kMinLit = 0.5;
+/// Least number of poses that show the board; Zhang's method needs three.
+constexpr std::size_t kMinViews = 3;
 
-/// Median distance of the projector pixels from a homography of the board above which the phases of
-/// a pose are wrong; distortion causes 2 px.
-constexpr double kMaxPlane_px = 6.0;
-
-/// Misfit above which the frames are not those of the pattern's shifts; half of what swapped frames
-/// give, and twice that of a gamma of 2.2.
-constexpr double kWrongFrames = 0.7;
-
-/// Likeness of a pattern below which it shows the board in another pose; sound ones have 0.95.
-constexpr double kMinLikeness = 0.5;
+/// Least of the largest angles between two poses; below it all boards are parallel.
+constexpr double kMinTilt_deg = 5.0;
 
 /// Motion of the board between patterns above which a pose is left out: the reprojection error of
 /// good poses.
 constexpr double kMaxMotion_px = 0.3;
 
-/// Largest angle between two poses; smaller: parallel.
-constexpr double kMinTilt_deg = 5.0;
+/// Likeness of a pattern below which it shows the board in another pose; sound ones have 0.95.
+constexpr double kMinLikeness = 0.5;
 
-/// Poses with the board; Zhang's method needs three.
-constexpr std::size_t kMinViews = 3;
+/// Misfit above which the frames are not those of the pattern's shifts; half of what swapped frames
+/// give, and twice that of a gamma of 2.2.
+constexpr double kWrongFrames = 0.7;
+
+/// Median distance of the projector pixels from a homography of the board above which the phases of
+/// a pose are wrong; distortion causes 2 px.
+constexpr double kMaxPlane_px = 6.0;
+
+/// Least share of a board's points with projector coordinates.
+constexpr double kMinLit = 0.5;
 
 [[noreturn]] void fail(const std::string& sentence) {
   throw Error(ErrorKind::Input, sentence);

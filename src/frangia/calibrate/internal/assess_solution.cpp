@@ -13,11 +13,11 @@
 namespace frangia {
 namespace {
 
-/// Reprojection error below which a pose is never named: corners of sharp images have up to this.
-constexpr double kOutlierFloor_px = 0.3;
-
 /// Poses whose error exceeds this multiple of the median are named.
 constexpr double kOutlierRms = 3.0;
+
+/// Reprojection error below which a pose is never named: corners of sharp images have up to this.
+constexpr double kOutlierFloor_px = 0.3;
 
 double median_rms_px(const std::vector<ResidualSummary>& by_view) {
   std::vector<double> errors;

@@ -8,6 +8,7 @@
 #include <Eigen/Geometry>
 
 #include "frangia/core/error.h"
+#include "frangia/core/student_95.h"
 #include "frangia/core/symmetric_eigen.h"
 
 namespace frangia {
@@ -140,12 +141,12 @@ FilteredRange filtered_range(std::vector<SurfaceValue> values) {
   require(!values.empty(), "the feature has no points to measure a form by");
   RangeSums sums;
   split(values, sums);
-  constexpr double k95 = 1.959964;
   const double corner = std::sqrt(7.0);  // of a fitted value at a corner over that of the mean
   const double u = corner * sums.largest_mean_u * std::sqrt(inflation_of(sums));
   // The extremes of many blocks lie apart by chance, too.
   const double apart = 2.0 * u * std::sqrt(2.0 * std::log(4.0 * static_cast<double>(sums.blocks)));
-  return {sums.low, sums.high, std::hypot(k95 * std::sqrt(2.0) * u, apart), std::move(values)};
+  return {
+      sums.low, sums.high, std::hypot(kNormal95 * std::sqrt(2.0) * u, apart), std::move(values)};
 }
 
 }  // namespace frangia

@@ -12,13 +12,13 @@
 namespace frangia {
 namespace {
 
-/// Variance of a pixel next to an edge, per variance that its fit predicts: neither slope nor
-/// position are as accurate there as in the middle of a face.
-constexpr float kOffCenterVarianceFactor = 9.0F;
-
 /// Maximum change of the pixel's value, per standard deviation of its noise: about 2.5 standard
 /// deviations of the difference between both fits.
 constexpr float kMaxChange = 0.7F;
+
+/// Variance of a pixel next to an edge, per variance that its fit predicts: neither slope nor
+/// position are as accurate there as in the middle of a face.
+constexpr float kOffCenterVarianceFactor = 9.0F;
 
 /// A row of window fits and of the pixels' noise.
 struct WindowRow {

@@ -22,7 +22,7 @@ constexpr double kMinLitContrast = 10.0;  ///< counts: less may be noise
 constexpr std::size_t kMinLit = 300;      ///< pixels; fewer decide nothing
 constexpr double kOff = 0.5;              ///< of the contrast: a wrong stripe is off by all of it
 constexpr double kMaxWrongShare = 0.05;   ///< of the lit pixels: edges of stripes and highlights
-constexpr int kStride = 3;                ///< every third pixel along both axes
+constexpr double kPixels = 60'000.0;      ///< that are looked at, on a grid
 
 /// Light of a bit and its inverse at one pixel: sum and difference of each bit.
 struct BitLight {
@@ -39,10 +39,14 @@ SequenceCheck check_gray_inverses(const FrameStack& gray) {
   SequenceCheck out;
   out.patterns = {code.name};
   if (code.inverted == InvertedFrames::None || code.bits < kMinBits) return out;
+  const int width = width_of(gray.frames.front());
+  const int height = height_of(gray.frames.front());
+  const double each = static_cast<double>(width) * height / kPixels;
+  const int stride = std::max(1, static_cast<int>(std::ceil(std::sqrt(each))));
   std::vector<BitLight> pixels;
   std::vector<double> contrasts;
-  for (int y = 0; y < height_of(gray.frames.front()); y += kStride) {
-    for (int x = 0; x < width_of(gray.frames.front()); x += kStride) {
+  for (int y = 0; y < height; y += stride) {
+    for (int x = 0; x < width; x += stride) {
       BitLight pixel;
       std::vector<double> differences;
       for (int bit = 0; bit < code.bits; ++bit) {

@@ -15,16 +15,16 @@
 namespace frangia {
 namespace {
 
-/// A region of more than this share of the size of its neighbour is discarded instead of corrected,
-/// because either may be wrong.
-constexpr double kMaxSize = 0.5;
-
-/// Least number of these pairs for each pair at which the surface has a step.
-constexpr double kMinRatio = 2.0;
-
 /// Least number of pixel pairs at a border at which only the order jumps. A wrong order by noise
 /// concerns single pixels, which have at most four.
 constexpr std::size_t kMinPairs = 8;
+
+/// Least number of such pairs for each pair at which the surface has a step.
+constexpr double kMinRatio = 2.0;
+
+/// A region of more than this share of the size of its neighbour is discarded instead of corrected,
+/// because either may be wrong.
+constexpr double kMaxSize = 0.5;
 
 /// Two neighbouring pixels between which the absolute phase jumps and the wrapped one does not.
 struct Jump {

@@ -17,13 +17,13 @@
 namespace frangia {
 namespace {
 
-/// A pixel's squared residual counts up to this multiple of its expectation, so that the few pixels
-/// on depth edges do not decide: (5 sigma)^2.
-constexpr double kMaxPixelRatio = 25.0;
-
 /// Share of the excess residual that harmonics and gains may leave unexplained: their amplitude
 /// varies over the image with blur and ambient light.
 constexpr double kMaxUnexplainedShare = 0.1;
+
+/// A pixel's squared residual counts up to this multiple of its expectation, so that the few pixels
+/// on depth edges do not decide: (5 sigma)^2.
+constexpr double kMaxPixelRatio = 25.0;
 
 /// The fringe model of one pattern with what its frames add to it.
 class ResidualModel {

@@ -15,14 +15,14 @@
 namespace frangia {
 namespace {
 
-/// Least rms of significant gains.
-constexpr double kMinFlicker = 0.003;
+/// Least amplitude of a significant harmonic, in standard deviations.
+constexpr double kWaveformMinHarmonicSigmas = 5.0;
 
-/// Least rms of significant gains, in sigmas.
+/// The same in standard deviations.
 constexpr double kMinFlickerSigmas = 6.0;
 
-/// Least amplitude of a significant harmonic, in sigmas.
-constexpr double kWaveformMinHarmonicSigmas = 5.0;
+/// Least RMS of significant gains.
+constexpr double kMinFlicker = 0.003;
 
 constexpr int kHighest = 13;  // beyond it a tenth of a pixel of blur leaves nothing
 constexpr double kLeastThird = 0.02;

@@ -39,14 +39,17 @@ class CommandArguments {
   [[nodiscard]] std::string text(const char* key);  ///< a string; required
   [[nodiscard]] std::string text_or(const char* key, const std::string& otherwise);
   [[nodiscard]] std::optional<std::string> text_if_given(const char* key);
-  /// The value of an enum that a name stands for.
+  /// The value of an enum that a name stands for; required.
   template <NamedEnum Enum>
-  [[nodiscard]] Enum named_or(const char* key, Enum otherwise) {
-    const std::optional<std::string> name = text_if_given(key);
-    if (!name) return otherwise;
-    const std::optional<Enum> value = find_named<Enum>(*name);
+  [[nodiscard]] Enum named(const char* key) {
+    const std::optional<Enum> value = find_named<Enum>(text(key));
     if (!value) throw Error(ErrorKind::Input, fmt::format("{}: is {}", key, listed_names<Enum>()));
     return *value;
+  }
+  /// Likewise, or `otherwise` without the key.
+  template <NamedEnum Enum>
+  [[nodiscard]] Enum named_or(const char* key, Enum otherwise) {
+    return find(key) == nullptr ? otherwise : named<Enum>(key);
   }
   /// A whole number from `least` to `most`; required.
   [[nodiscard]] std::size_t whole(const char* key, std::size_t least, std::size_t most);

@@ -18,13 +18,6 @@ namespace {
 constexpr std::size_t kMostPlaces = 3;
 constexpr const char* kTooMany = "this project has 500 measurements; remove some";
 
-PickedQuantity quantity_named(const std::string& name) {
-  for (const PickedQuantity quantity : kPickedQuantities)
-    if (name == name_of(quantity)) return quantity;
-  throw Error(ErrorKind::Input,
-              "quantity: is distance, angle, diameter, thickness, area or volume");
-}
-
 std::vector<PickedPlace> places_of(const nlohmann::json& json) {
   require(json.is_array() && json.size() <= kMostPlaces, "places: is a list of at most 3 places");
   std::vector<PickedPlace> places;
@@ -55,7 +48,7 @@ std::string mesh_name(const SurfaceSnapshot& surface) {
 
 nlohmann::ordered_json Service::Implementation::start_measure(CommandArguments& arguments) {
   const ProjectFolder project = folder();
-  const PickedQuantity quantity = quantity_named(arguments.text("quantity"));
+  const PickedQuantity quantity = arguments.named<PickedQuantity>("quantity");
   const std::vector<PickedPlace> places = places_of(arguments.value("places"));
   const std::string mesh = arguments.text("mesh");
   arguments.check_all_read();

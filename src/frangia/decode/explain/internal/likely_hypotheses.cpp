@@ -124,6 +124,19 @@ FrameSample thinned(const FrameSample& sample) {
   return out;
 }
 
+/// The frames before which a path makes nearly all of its way: one, or none for a part that moves
+/// all the time.
+std::vector<std::size_t> jump_of(const std::vector<double>& path) {
+  constexpr double kRest = 0.2;  // of the largest step: the noise of the others
+  const auto step = [&](std::size_t k) { return std::abs(path[k] - path[k - 1]); };
+  std::size_t largest = 1;
+  for (std::size_t k = 2; k < path.size(); ++k)
+    if (step(k) > step(largest)) largest = k;
+  for (std::size_t k = 1; k < path.size(); ++k)
+    if (k != largest && step(k) > kRest * step(largest)) return {};
+  return {largest};
+}
+
 /// A part that moved as the free steps of its frames say.
 FrameHypothesis moved_freely(const FrameHypothesis& steps, const Eigen::VectorXd& errors_rad) {
   FrameHypothesis out = steps;
@@ -135,6 +148,7 @@ FrameHypothesis moved_freely(const FrameHypothesis& steps, const Eigen::VectorXd
   const double largest = std::max(1e-6, moved.cwiseAbs().maxCoeff());
   for (Eigen::Index k = 0; k < moved.size(); ++k)
     out.path.push_back(moved(k) / largest);
+  out.frames = jump_of(out.path);
   return out;
 }
 
