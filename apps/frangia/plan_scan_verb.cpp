@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "frangia/core/angles.h"
+#include "frangia/core/student_95.h"
 #include "frangia/files/ply.h"
 #include "frangia/frames/png.h"
 #include "frangia/inspect/render_mesh.h"
@@ -135,7 +136,7 @@ nlohmann::ordered_json json_of_plan(const ScanPlan& plan, const Rig& rig) {
   const SurfaceVerdict& verdict = surface.verdict;
   json["surface"] = {{"decidable_share", verdict.coverage},
                      {"not_measured_share", verdict.share_of(PatchDecision::NotMeasured)},
-                     {"median_u95_mm", number_or_null(1.959964 * surface.summary.median_u_mm)},
+                     {"median_u95_mm", number_or_null(kNormal95 * surface.summary.median_u_mm)},
                      {"decidable_mm", number_or_null(verdict.decidable_mm)},
                      {"sentence", sentence_of(verdict)}};
   json["characteristics"] = nlohmann::ordered_json::array();

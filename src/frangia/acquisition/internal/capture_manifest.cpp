@@ -174,8 +174,9 @@ void CaptureManifest::store(const std::string& set, const ManifestSet& outcome) 
 }
 
 void CaptureManifest::add_exposures(const std::vector<double>& exposures_ms) {
-  // Twice: the frames tell all other lines again, but not this one.
-  for (int copy = 0; copy < 2; ++copy)
+  // The frames can replace any other line, but not this one. A wrong line end damages two lines.
+  constexpr int kCopies = 3;
+  for (int copy = 0; copy < kCopies; ++copy)
     log_.append(fmt::format("exposures {}", fmt::join(exposures_ms, " ")));
   exposures_ms_ = exposures_ms;
 }
