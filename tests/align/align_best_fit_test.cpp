@@ -147,7 +147,7 @@ TEST(AlignBestFit, RefusesAnotherPartAndAnotherUnit) {
     vertex /= 25.4F;
   EXPECT_NE(testing::error_of([&] {
               static_cast<void>(align_best_fit(make_bracket(), RayScene(inches), quick()));
-            }).find("its unit may be in"),
+            }).find("the reference may be in inches"),
             std::string::npos);
 }
 
@@ -175,7 +175,7 @@ TEST(AlignBestFit, NamesTheFactorByWhichAPartOfThePartFits) {
   const Mesh part = transform_mesh(upper_part(20.0F), far_pose(6));
   const std::string centimetres = refusal_of(part, scaled(make_bracket(), 0.1F));
   EXPECT_NE(centimetres.find("10 times as large"), std::string::npos) << centimetres;
-  EXPECT_NE(centimetres.find("its unit may be cm"), std::string::npos) << centimetres;
+  EXPECT_NE(centimetres.find("the reference may be in centimetres"), std::string::npos) << centimetres;
 }
 
 TEST(AlignBestFit, NamesTheFactorByWhichASmallMeshFits) {
@@ -183,7 +183,7 @@ TEST(AlignBestFit, NamesTheFactorByWhichASmallMeshFits) {
   const std::string inches =
       refusal_of(transform_mesh(scaled(make_bracket(), 1.0F / 25.4F), far_pose(7)), make_bracket());
   EXPECT_NE(inches.find("0.0393701 times as large"), std::string::npos) << inches;
-  EXPECT_NE(inches.find("the unit of the mesh may be in:"), std::string::npos) << inches;
+  EXPECT_NE(inches.find("the mesh may be in inches:"), std::string::npos) << inches;
 }
 
 TEST(RefuseUnitOfPose, ComparesTheOverlapsAndNotTheBoxes) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -50,9 +51,14 @@ AlignmentPose best_pose_of(const Mesh& mesh,
 /// A length that people and programs take for another one, in mm.
 struct LengthUnit {
   const char* name;
+  const char* word;  ///< plural
   double mm;
 };
-constexpr std::array<LengthUnit, 4> kUnits{{{"cm", 10.0}, {"in", 25.4}, {"ft", 304.8}, {"m", 1e3}}};
+constexpr LengthUnit kMillimetre{"mm", "millimetres", 1.0};
+constexpr std::array<LengthUnit, 4> kUnits{{{"cm", "centimetres", 10.0},
+                                            {"in", "inches", 25.4},
+                                            {"ft", "feet", 304.8},
+                                            {"m", "metres", 1e3}}};
 
 /// How a mesh lies on a reference whose size is multiplied by a factor.
 struct ScaledPose {
@@ -88,27 +94,28 @@ ScaledPose best_unit(const Mesh& mesh, const RayScene& reference, const PoseOf& 
   return best;
 }
 
-/// The name of a length; empty where it has none.
-std::string name_of_length(double mm) {
+/// The unit of a length; none where it is no unit.
+std::optional<LengthUnit> unit_of_length(double mm) {
   const auto is_near = [](double a, double b) { return std::abs(a / b - 1.0) < 1e-9; };
-  if (is_near(mm, 1.0)) return "mm";
+  if (is_near(mm, kMillimetre.mm)) return kMillimetre;
   for (const LengthUnit& unit : kUnits)
-    if (is_near(mm, unit.mm)) return unit.name;
-  return {};
+    if (is_near(mm, unit.mm)) return unit;
+  return std::nullopt;
 }
 
 /// What to do where a reference that was read by one unit fits when it is `factor` times as large.
 std::string unit_advice(double factor, double read_by_mm) {
   const double right_mm = factor * read_by_mm;
-  const std::string name = name_of_length(right_mm);
+  const std::optional<LengthUnit> unit = unit_of_length(right_mm);
   if (read_by_mm != 1.0) {
     return fmt::format("it was read by a unit of {:.6g} mm, and {} fits: state that by `units`",
                        read_by_mm,
-                       name.empty() ? fmt::format("{:.6g}mm", right_mm) : name);
+                       unit ? unit->name : fmt::format("{:.6g}mm", right_mm));
   }
-  if (!name.empty()) return fmt::format("its unit may be {}; state it by `units`", name);
-  return fmt::format("the unit of the mesh may be {}: write it in mm, or state {:.6g}mm by `units`",
-                     name_of_length(1.0 / right_mm),
+  if (unit) return fmt::format("the reference may be in {}; state `units` {}", unit->word, unit->name);
+  const std::optional<LengthUnit> of_mesh = unit_of_length(1.0 / right_mm);
+  return fmt::format("{}write the mesh in mm, or state `units` {:.6g}mm",
+                     of_mesh ? fmt::format("the mesh may be in {}: ", of_mesh->word) : "",
                      right_mm);
 }
 

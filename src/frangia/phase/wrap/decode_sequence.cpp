@@ -16,8 +16,7 @@
 #include "frangia/core/vectorized.h"
 #include "frangia/phase/internal/hierarchical_unwrapper.h"
 #include "frangia/phase/internal/wrap_tile.h"
-#include "frangia/phase/wrap/internal/sum_frames.h"
-#include "frangia/phase/wrap/internal/wrap_four_step.h"
+#include "frangia/phase/wrap/internal/phase_kernel.h"
 
 namespace frangia {
 namespace {
@@ -28,23 +27,11 @@ constexpr std::size_t kDecodeChunk = 64 * kTilePixels;
 
 using TileInts = std::array<std::int32_t, kTilePixels>;
 
-/// The inverse variance of one map's phase, and its minimum over the maps so far.
-FRANGIA_VECTORIZED void find_precision(const WrapTile& __restrict tile,
-                                       std::size_t n,
-                                       TileNoise f,
-                                       float* __restrict precision,
-                                       float* __restrict lowest_precision) {
-  for (std::size_t i = 0; i < n; ++i) {
-    const float s = tile.sine[i];
-    const float c = tile.cosine[i];
-    const float square = s * s + c * c;
-    const float mean = tile.mean[i] > 0.0F ? tile.mean[i] : 0.0F;
-    const float variance = f.variance_floor + f.variance_slope * mean;
-    const float gain = c * c * f.sine_gain + s * s * f.cosine_gain - 2.0F * s * c * f.cross_gain;
-    const float found = square * square / (variance * gain + 1e-20F);
-    precision[i] = found;
-    lowest_precision[i] = found < lowest_precision[i] ? found : lowest_precision[i];
-  }
+FRANGIA_VECTORIZED void lower(const float* __restrict precision,
+                              std::size_t n,
+                              float* __restrict lowest_precision) {
+  for (std::size_t i = 0; i < n; ++i)
+    lowest_precision[i] = precision[i] < lowest_precision[i] ? precision[i] : lowest_precision[i];
 }
 
 /// Limits beyond which a pixel has no phase.
@@ -97,43 +84,39 @@ FRANGIA_VECTORIZED void narrow(const std::int32_t* __restrict status,
 /// Decodes all maps, tile by tile, in one thread.
 class TileDecoder {
  public:
-  TileDecoder(std::span<const SequenceFrames> maps,
-              std::span<const TileNoise> noises,
+  TileDecoder(std::span<const PhaseKernel> maps,
               const HierarchicalUnwrapper& unwrapper,
               float min_precision)
       : maps_(maps),
-        noises_(noises),
         unwrapper_(unwrapper),
         min_precision_(min_precision),
         lanes_(2 * maps.size() * kLane) {
     for (std::size_t m = 0; m < maps.size(); ++m) {
       phase_.push_back(lane(2 * m));
       precision_.push_back(lane(2 * m + 1));
-      is_four_step_.push_back(is_four_step(maps[m].algorithm));
     }
   }
 
   void decode(std::size_t at, std::size_t n, AbsolutePhase& out) {
-    tile_.brightest.fill(0);
+    brightest_.fill(0);
     lowest_precision_.fill(std::numeric_limits<float>::max());
     for (std::size_t m = 0; m < maps_.size(); ++m) {
       float* phase = lane(2 * m);
       float* precision = lane(2 * m + 1);
-      if (is_four_step_[m]) {
-        wrap_four_step({*maps_[m].stack, maps_[m].algorithm, noises_[m]},
-                       at,
-                       n,
-                       {phase, precision, lowest_precision_.data(), tile_.brightest.data()});
-        continue;
-      }
-      sum_frames(*maps_[m].stack, maps_[m].algorithm, at, n, tile_);
-      find_tile_phase(tile_, n, phase);
-      find_precision(tile_, n, noises_[m], precision, lowest_precision_.data());
+      maps_[m].wrap(at,
+                    n,
+                    scratch_,
+                    {.phase_rad = phase,
+                     .precision = precision,
+                     .modulation_counts = nullptr,
+                     .mean_counts = nullptr,
+                     .brightest = brightest_.data()});
+      lower(precision, n, lowest_precision_.data());
     }
     find_status(lowest_precision_.data(),
-                tile_.brightest.data(),
+                brightest_.data(),
                 n,
-                {min_precision_, noises_.front().white},
+                {min_precision_, maps_.front().white()},
                 status_.data());
     float* phase = out.phase_rad.pixels().data() + at;
     float* sigma = out.sigma_rad.pixels().data() + at;
@@ -146,16 +129,15 @@ class TileDecoder {
  private:
   float* lane(std::size_t k) { return lanes_.data() + k * kLane; }
 
-  std::span<const SequenceFrames> maps_;
-  std::span<const TileNoise> noises_;
+  std::span<const PhaseKernel> maps_;
   const HierarchicalUnwrapper& unwrapper_;
   float min_precision_;
-  WrapTile tile_;
+  WrapTile scratch_;
   std::vector<float> lanes_;  ///< phase and precision of each map
   std::vector<const float*> phase_;
   std::vector<const float*> precision_;
-  std::vector<bool> is_four_step_;  ///< whether each map's frames are 90 degrees apart
   alignas(64) Lane lowest_precision_{};
+  alignas(64) std::array<std::uint16_t, kTilePixels> brightest_{};
   TileInts status_{};
   TileInts uncertain_{};
 };
@@ -168,16 +150,15 @@ AbsolutePhase decode_sequence(std::span<const SequenceFrames> coarse_to_fine,
                               const SequenceOptions& options,
                               AbsolutePhase recycled) {
   std::vector<Pattern> patterns;
-  std::vector<TileNoise> noises;
+  std::vector<PhaseKernel> maps;
   for (const SequenceFrames& map : coarse_to_fine) {
-    check_frames(*map.stack, map.algorithm);
+    maps.emplace_back(*map.stack, map.algorithm, noise);
     require(width_of(map.stack->frames.front()) ==
                     width_of(coarse_to_fine.front().stack->frames.front()) &&
                 height_of(map.stack->frames.front()) ==
                     height_of(coarse_to_fine.front().stack->frames.front()),
             "decode_sequence: the patterns' frames differ in size");
     patterns.push_back(map.stack->pattern);
-    noises.push_back(tile_noise(*map.stack, map.algorithm, noise));
   }
   const HierarchicalUnwrapper unwrapper(patterns, projector, options.temporal.max_wrong_order);
   const Frame& first = coarse_to_fine.front().stack->frames.front();
@@ -190,7 +171,7 @@ AbsolutePhase decode_sequence(std::span<const SequenceFrames> coarse_to_fine,
   const float min_precision = 1.0F / (options.wrap.max_sigma_rad * options.wrap.max_sigma_rad);
   parallel_chunks(
       out.status.pixels().size(), kDecodeChunk, [&](std::size_t begin, std::size_t end) {
-        TileDecoder decoder(coarse_to_fine, noises, unwrapper, min_precision);
+        TileDecoder decoder(maps, unwrapper, min_precision);
         for (std::size_t at = begin; at < end; at += kTilePixels)
           decoder.decode(at, std::min(kTilePixels, end - at), out);
       });

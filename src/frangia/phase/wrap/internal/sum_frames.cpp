@@ -6,7 +6,6 @@
 #include <variant>
 
 #include "frangia/core/vectorized.h"
-#include "frangia/phase/wrap/internal/wrap_four_step.h"
 
 namespace frangia {
 namespace {
@@ -63,31 +62,6 @@ FRANGIA_VECTORIZED void set_four(std::array<const T*, 4> frames,
     tile.cosine[i] =
         (w[0].cosine * one + w[1].cosine * two) + (w[2].cosine * three + w[3].cosine * four);
     tile.mean[i] = (w[0].mean * one + w[1].mean * two) + (w[2].mean * three + w[3].mean * four);
-  }
-}
-
-/// Initializes the sums of the four-step algorithm, whose sine and cosine use two frames each: half
-/// the work of `set_four`.
-template <typename T>
-FRANGIA_VECTORIZED void set_four_step(std::array<const T*, 4> frames,
-                                      std::size_t n,
-                                      std::array<SineCosineMean, 4> w,
-                                      WrapTile& __restrict tile) {
-  const T* __restrict a = frames[0];
-  const T* __restrict b = frames[1];
-  const T* __restrict c = frames[2];
-  const T* __restrict d = frames[3];
-  const float sine = w[3].sine;
-  const float cosine = w[0].cosine;
-  const float mean = w[0].mean;
-  for (std::size_t i = 0; i < n; ++i) {
-    const auto one = static_cast<std::int32_t>(a[i]);
-    const auto two = static_cast<std::int32_t>(b[i]);
-    const auto three = static_cast<std::int32_t>(c[i]);
-    const auto four = static_cast<std::int32_t>(d[i]);
-    tile.sine[i] = sine * static_cast<float>(four - two);
-    tile.cosine[i] = cosine * static_cast<float>(one - three);
-    tile.mean[i] = mean * static_cast<float>((one + three) + (two + four));
   }
 }
 
@@ -160,7 +134,8 @@ void sum_all(const FrameStack& stack,
              const PhaseAlgorithm& algorithm,
              std::size_t at,
              std::size_t n,
-             WrapTile& tile) {
+             WrapTile& tile,
+             std::uint16_t* brightest) {
   const auto pixels = [&](std::size_t k) {
     return std::get<Image<T>>(stack.frames[k]).pixels().data() + at;
   };
@@ -172,14 +147,10 @@ void sum_all(const FrameStack& stack,
   } else {
     const std::array<SineCosineMean, 4> four = {weights(0), weights(1), weights(2), weights(3)};
     const std::array<const T*, 4> frames = {pixels(0), pixels(1), pixels(2), pixels(3)};
-    if (is_four_step(algorithm)) {
-      set_four_step<T>(frames, n, four, tile);
-    } else {
-      set_four<T>(frames, n, four, tile);
-    }
+    set_four<T>(frames, n, four, tile);
   }
   for (std::size_t k = 0; k < count; ++k)
-    raise_brightest<T>(pixels(k), n, tile.brightest.data());
+    raise_brightest<T>(pixels(k), n, brightest);
   for (std::size_t k = first; k < count; k += 2) {
     const bool pair =
         k + 1 < count;  // the last frame of an odd number is paired with itself at weight zero
@@ -197,11 +168,12 @@ void sum_frames(const FrameStack& stack,
                 const PhaseAlgorithm& algorithm,
                 std::size_t at,
                 std::size_t n,
-                WrapTile& tile) {
+                WrapTile& tile,
+                std::uint16_t* brightest) {
   if (std::holds_alternative<Image<std::uint8_t>>(stack.frames.front())) {
-    sum_all<std::uint8_t>(stack, algorithm, at, n, tile);
+    sum_all<std::uint8_t>(stack, algorithm, at, n, tile, brightest);
   } else {
-    sum_all<std::uint16_t>(stack, algorithm, at, n, tile);
+    sum_all<std::uint16_t>(stack, algorithm, at, n, tile, brightest);
   }
   if (!algorithm.outer.empty()) add_carre(stack, algorithm, at, n, tile);
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 
 #include "frangia/frames/frame_stack.h"
 #include "frangia/phase/algorithm/phase_algorithm.h"
@@ -8,12 +9,13 @@
 
 namespace frangia {
 
-/// Computes the sums over all frames for the pixels [at, at + n), n <= kTilePixels. `brightest`
-/// accumulates; set it to 0 before the first stack.
+/// Computes the sums over all frames for the pixels [at, at + n), n <= kTilePixels, and raises
+/// `brightest` to the largest counts of each.
 void sum_frames(const FrameStack& stack,
                 const PhaseAlgorithm& algorithm,
                 std::size_t at,
                 std::size_t n,
-                WrapTile& tile);
+                WrapTile& tile,
+                std::uint16_t* brightest);
 
 }  // namespace frangia

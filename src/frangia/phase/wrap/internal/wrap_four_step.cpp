@@ -28,6 +28,13 @@ struct FourStepNoise {
   float slope;  ///< per count of the sum of all four frames
 };
 
+/// What unscaled differences and sums of counts are multiplied with.
+struct FourStepScales {
+  FourStepNoise noise;
+  float modulation;
+  float mean;
+};
+
 /// Differences and sum of the four frames, as integers twice as wide as the counts, which vectorize
 /// better than float.
 template <typename T>
@@ -65,7 +72,6 @@ FRANGIA_VECTORIZED void find_phase(const Sums<T>& __restrict sums,
                                    const TilePhase& out) {
   float* __restrict phase = out.phase_rad;
   float* __restrict precision = out.precision;
-  float* __restrict lowest_precision = out.lowest_precision;
   for (std::size_t i = 0; i < n; ++i) {
     const auto y = static_cast<float>(sums.sine[i]);
     const auto x = static_cast<float>(sums.cosine[i]);
@@ -76,11 +82,30 @@ FRANGIA_VECTORIZED void find_phase(const Sums<T>& __restrict sums,
     const float smaller = ax > ay ? ay : ax;
     const float large = larger > 0.5F ? larger : 0.5F;  // otherwise an integer of at least 1
     const float inverse = 1.0F / (large * variance);    // one division serves both quotients
-    const float found = (x * x + y * y) * (large * inverse);
     phase[i] = restore_octant(fast_atan(smaller * (variance * inverse)), y, x);
-    precision[i] = found;
-    lowest_precision[i] = found < lowest_precision[i] ? found : lowest_precision[i];
+    precision[i] = (x * x + y * y) * (large * inverse);
   }
+}
+
+template <typename T>
+FRANGIA_VECTORIZED void find_modulation(const Sums<T>& __restrict sums,
+                                        std::size_t n,
+                                        float scale,
+                                        float* __restrict modulation_counts) {
+  for (std::size_t i = 0; i < n; ++i) {
+    const auto y = static_cast<float>(sums.sine[i]);
+    const auto x = static_cast<float>(sums.cosine[i]);
+    modulation_counts[i] = scale * std::sqrt(x * x + y * y);
+  }
+}
+
+template <typename T>
+FRANGIA_VECTORIZED void find_mean(const Sums<T>& __restrict sums,
+                                  std::size_t n,
+                                  float scale,
+                                  float* __restrict mean_counts) {
+  for (std::size_t i = 0; i < n; ++i)
+    mean_counts[i] = scale * static_cast<float>(sums.all[i]);
 }
 
 /// Maximum over the frames in their own integer type, which gives the widest vectors.
@@ -101,10 +126,13 @@ FRANGIA_VECTORIZED void update_brightest(FourFrames<T> frames,
 }
 
 template <typename T>
-void wrap(FourFrames<T> frames, std::size_t n, FourStepNoise noise, const TilePhase& out) {
+void wrap(FourFrames<T> frames, std::size_t n, const FourStepScales& scales, const TilePhase& out) {
   Sums<T> sums;  // NOLINT(cppcoreguidelines-pro-type-member-init): filled below
   sum_four<T>(frames, n, sums);
-  find_phase(sums, n, noise, out);
+  find_phase(sums, n, scales.noise, out);
+  if (out.modulation_counts != nullptr)
+    find_modulation(sums, n, scales.modulation, out.modulation_counts);
+  if (out.mean_counts != nullptr) find_mean(sums, n, scales.mean, out.mean_counts);
   update_brightest<T>(frames, n, out.brightest);
 }
 
@@ -127,15 +155,17 @@ void wrap_four_step(const FourStepFrames& frames,
                     std::size_t n,
                     const TilePhase& out) {
   const PhaseAlgorithm& algorithm = frames.algorithm;
-  const TileNoise& noise = frames.noise;
+  const SumNoise& noise = frames.noise;
   const std::vector<Frame>& images = frames.stack.frames;
   // The differences are not scaled: their scale enters the noise, their sign the order of the
   // frames.
   const double scale = algorithm.sine[3] * algorithm.sine[3];
   const double gain = static_cast<double>(noise.sine_gain) / scale;
-  const FourStepNoise of_counts{
-      .floor = static_cast<float>(noise.variance_floor * gain + 1e-20),
-      .slope = static_cast<float>(noise.variance_slope * gain * algorithm.mean.front())};
+  const FourStepScales scales{
+      .noise = {.floor = static_cast<float>(noise.variance_floor * gain + kLeastVariance),
+                .slope = static_cast<float>(noise.variance_slope * gain * algorithm.mean.front())},
+      .modulation = static_cast<float>(std::abs(algorithm.sine[3])),
+      .mean = static_cast<float>(algorithm.mean.front())};
   const std::size_t b = algorithm.sine[3] > 0.0 ? 1 : 3;
   const std::size_t a = algorithm.cosine[0] > 0.0 ? 0 : 2;
   std::visit(
@@ -144,7 +174,7 @@ void wrap_four_step(const FourStepFrames& frames,
         const auto pixels = [&](std::size_t k) {
           return std::get<Image<T>>(images[k]).pixels().data() + at;
         };
-        wrap<T>({pixels(a), pixels(b), pixels(2 - a), pixels(4 - b)}, n, of_counts, out);
+        wrap<T>({pixels(a), pixels(b), pixels(2 - a), pixels(4 - b)}, n, scales, out);
       },
       images.front());
 }

@@ -1,11 +1,11 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 
 #include "frangia/frames/frame_stack.h"
 #include "frangia/phase/algorithm/phase_algorithm.h"
 #include "frangia/phase/internal/wrap_tile.h"
+#include "frangia/phase/wrap/internal/phase_kernel.h"
 
 namespace frangia {
 
@@ -17,19 +17,11 @@ namespace frangia {
 struct FourStepFrames {
   const FrameStack& stack;
   const PhaseAlgorithm& algorithm;
-  const TileNoise& noise;
+  const SumNoise& noise;
 };
 
-/// Output of a tile.
-struct TilePhase {
-  float* phase_rad;
-  float* precision;          ///< inverse variance of the phase
-  float* lowest_precision;   ///< minimum over all maps so far; initialize with a large number
-  std::uint16_t* brightest;  ///< maximum over all frames so far; initialize with 0
-};
-
-/// Computes phase and precision of the pixels [at, at + n), n <= kTilePixels, without storing the
-/// weighted sums.
+/// Computes the pixels [at, at + n), n <= kTilePixels, as PhaseKernel does, from two differences of
+/// counts instead of three weighted sums.
 void wrap_four_step(const FourStepFrames& frames,
                     std::size_t at,
                     std::size_t n,

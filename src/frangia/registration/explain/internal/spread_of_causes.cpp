@@ -175,6 +175,9 @@ RigCovariance open_rig(const PoseRound& scored,
     const double share = probability.of(cause.log_odds);
     if (!changes_rig(cause.cause) || share < kLeastProbable) continue;
     const PosePosterior found = scored.posterior(cause.best);
+    // Sound views have small errors in common, which some rig far off explains. Their evidence is
+    // none about the rig, least of all about changes that no overlap shows.
+    if (scored.effect_mm(found.motion - scored.stated()) < noticeable_mm(scored)) continue;
     const Eigen::MatrixXd open = mean_of_views(found.factor);
     covariance += share * open * open.transpose();
     if (applied == cause.cause) continue;

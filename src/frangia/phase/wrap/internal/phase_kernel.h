@@ -1,0 +1,47 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "frangia/frames/frame_stack.h"
+#include "frangia/frames/noise_model.h"
+#include "frangia/phase/algorithm/phase_algorithm.h"
+#include "frangia/phase/internal/wrap_tile.h"
+
+namespace frangia {
+
+/// What the kernel computes of a tile, one value per pixel. Callers choose what is kept.
+struct TilePhase {
+  float* phase_rad;          ///< in (-pi, pi]; meaningless where the precision is 0
+  float* precision;          ///< inverse variance of the phase, in 1 / rad^2; 0 without modulation
+  float* modulation_counts;  ///< none is computed where null
+  float* mean_counts;        ///< none is computed where null
+  std::uint16_t*
+      brightest;  ///< maximum over all frames so far; set it to 0 before the first pattern
+};
+
+/// Phase of the pixels of one pattern and its noise, tile by tile. Everything that needs the phase
+/// of frames uses it, so that the noise of a phase is computed in one place:
+/// d phi = (cos phi dS - sin phi dC) / B, where S and C are sums over frames of equal variance.
+class PhaseKernel {
+ public:
+  /// The stack and the algorithm must outlive the kernel.
+  ///
+  /// @errors   Error(Input) unless the frames match the algorithm in number and each other in size
+  ///          and depth
+  PhaseKernel(const FrameStack& stack, const PhaseAlgorithm& algorithm, const NoiseModel& noise);
+
+  /// Computes the pixels [at, at + n), n <= kTilePixels. The error of a phase is below 5e-7 rad.
+  void wrap(std::size_t at, std::size_t n, WrapTile& scratch, const TilePhase& out) const;
+
+  /// The level at which a pixel is saturated, in counts.
+  [[nodiscard]] std::int32_t white() const { return stack_->white_level; }
+
+ private:
+  const FrameStack* stack_;
+  const PhaseAlgorithm* algorithm_;
+  SumNoise noise_;
+  bool is_four_step_;
+};
+
+}  // namespace frangia
