@@ -83,6 +83,23 @@ TEST(ResolveByLaserSheet, LeavesARegionUnresolvedWhoseCrossingsDisagreeOrAreFew)
             2U);
 }
 
+TEST(ResolveByLaserSheet, BelievesFewPointsOnlyNearAnOrder) {
+  // Six points of a reflection in a clipped image lay 0.19 fringes from an order, and a region was
+  // 40 mm wrong.
+  const TwoWalls walls;
+  const Eigen::Vector3d ray = walls.line_at(20, 1.0, 1).front().point_mm;
+  const double per_mm = std::abs(phase_at(481.0 * ray, kPattern, walls.rig.projector) -
+                                 phase_at(480.0 * ray, kPattern, walls.rig.projector)) /
+                        kTwoPi;
+  const auto unresolved = [&](double departure, int points) {
+    const auto line = walls.line_at(20, 480.0 + departure / per_mm, points);
+    return resolve_by_laser_sheet(walls.phase, line, walls.rig.projector).unresolved.size();
+  };
+  EXPECT_EQ(unresolved(0.05, 6), 1U);
+  EXPECT_EQ(unresolved(0.18, 6), 2U);
+  EXPECT_EQ(unresolved(0.18, 30), 1U);
+}
+
 TEST(ResolveByDistance, ChoosesTheOrderClosestToTheDistance) {
   const TwoWalls walls;
   const ResolvedPhase resolved = resolve_by_distance(walls.phase, walls.rig, walls.rays, 485.0);

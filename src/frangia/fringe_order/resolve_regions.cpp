@@ -16,11 +16,18 @@
 namespace frangia {
 namespace {
 
-/// Largest median distance of the laser line's points from the order of their region, in fringes.
-constexpr double kMaxDeparture = 0.25;
-
 /// Minimum number of laser line points on a region.
-constexpr int kMinCrossings = 3;
+constexpr std::size_t kMinCrossings = 3;
+
+/// Largest median distance of the laser line's points from the order of their region, in fringes. A
+/// few neighbouring points lie equally far from some order by chance, such as those of light that
+/// is not the line: they count where the distance is that of a calibrated sheet.
+double most_departure(std::size_t crossings) {
+  constexpr std::size_t kFew = 20;
+  constexpr double kOfFew = 0.1;
+  constexpr double kOfMany = 0.25;  // so far a sheet may be from where the rig states it
+  return crossings < kFew ? kOfFew : kOfMany;
+}
 
 /// The order to add to each region, where known.
 using Orders = std::vector<std::optional<int>>;
@@ -115,7 +122,7 @@ std::optional<LaserCrossing> crossing_of(const RelativePhase& phase,
 }
 
 std::optional<int> vote(const std::vector<double>& fringes, const FringeOrderOptions& options) {
-  if (fringes.size() < static_cast<std::size_t>(kMinCrossings)) return {};
+  if (fringes.size() < kMinCrossings) return {};
   std::map<int, int> votes;
   for (const double value : fringes)
     ++votes[static_cast<int>(std::lround(value))];
@@ -125,7 +132,7 @@ std::optional<int> vote(const std::vector<double>& fringes, const FringeOrderOpt
   std::vector<double> departures;
   for (const double value : fringes)
     departures.push_back(std::abs(value - winner->first));
-  if (median_in_place(std::span<double>(departures)) > kMaxDeparture) return {};
+  if (median_in_place(std::span<double>(departures)) > most_departure(fringes.size())) return {};
   return winner->first;
 }
 
