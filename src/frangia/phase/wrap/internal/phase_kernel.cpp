@@ -57,10 +57,15 @@ FRANGIA_VECTORIZED void find_phase(const WrapTile& __restrict tile,
     phase_rad[i] = fast_atan2(tile.sine[i], tile.cosine[i]);
 }
 
+/// `kAll`: modulation and mean, too.
+template <bool kAll>
 FRANGIA_VECTORIZED void find_precision(const WrapTile& __restrict tile,
                                        std::size_t n,
                                        SumNoise f,
-                                       float* __restrict precision) {
+                                       const TilePhase& out) {
+  float* __restrict precision = out.precision;
+  float* __restrict modulation = out.modulation_counts;
+  float* __restrict means = out.mean_counts;
   for (std::size_t i = 0; i < n; ++i) {
     const float s = tile.sine[i];
     const float c = tile.cosine[i];
@@ -69,21 +74,11 @@ FRANGIA_VECTORIZED void find_precision(const WrapTile& __restrict tile,
     const float variance = f.variance_floor + f.variance_slope * mean;
     const float gain = c * c * f.sine_gain + s * s * f.cosine_gain - 2.0F * s * c * f.cross_gain;
     precision[i] = square * square / (variance * gain + kLeastVariance);
+    if constexpr (kAll) {
+      modulation[i] = std::sqrt(square);
+      means[i] = tile.mean[i];
+    }
   }
-}
-
-FRANGIA_VECTORIZED void find_modulation(const WrapTile& __restrict tile,
-                                        std::size_t n,
-                                        float* __restrict modulation_counts) {
-  for (std::size_t i = 0; i < n; ++i)
-    modulation_counts[i] = std::sqrt(tile.sine[i] * tile.sine[i] + tile.cosine[i] * tile.cosine[i]);
-}
-
-FRANGIA_VECTORIZED void copy_mean(const WrapTile& __restrict tile,
-                                  std::size_t n,
-                                  float* __restrict mean_counts) {
-  for (std::size_t i = 0; i < n; ++i)
-    mean_counts[i] = tile.mean[i];
 }
 
 }  // namespace
@@ -108,9 +103,11 @@ void PhaseKernel::wrap(std::size_t at,
   }
   sum_frames(*stack_, *algorithm_, at, n, scratch, out.brightest);
   find_phase(scratch, n, out.phase_rad);
-  find_precision(scratch, n, noise_, out.precision);
-  if (out.modulation_counts != nullptr) find_modulation(scratch, n, out.modulation_counts);
-  if (out.mean_counts != nullptr) copy_mean(scratch, n, out.mean_counts);
+  if (out.modulation_counts != nullptr) {
+    find_precision<true>(scratch, n, noise_, out);
+  } else {
+    find_precision<false>(scratch, n, noise_, out);
+  }
 }
 
 }  // namespace frangia

@@ -14,8 +14,8 @@ namespace frangia {
 struct TilePhase {
   float* phase_rad;          ///< in (-pi, pi]; meaningless where the precision is 0
   float* precision;          ///< inverse variance of the phase, in 1 / rad^2; 0 without modulation
-  float* modulation_counts;  ///< none is computed where null
-  float* mean_counts;        ///< none is computed where null
+  float* modulation_counts;  ///< null, as `mean_counts`, where neither is wanted
+  float* mean_counts;
   std::uint16_t*
       brightest;  ///< maximum over all frames so far; set it to 0 before the first pattern
 };

@@ -65,17 +65,23 @@ FRANGIA_VECTORIZED void sum_four(FourFrames<T> frames, std::size_t n, Sums<T>& _
   }
 }
 
-template <typename T>
+/// `kAll`: modulation and mean, too.
+template <bool kAll, typename T>
 FRANGIA_VECTORIZED void find_phase(const Sums<T>& __restrict sums,
                                    std::size_t n,
-                                   FourStepNoise noise,
+                                   FourStepScales scales,
                                    const TilePhase& out) {
+  const FourStepNoise noise = scales.noise;
   float* __restrict phase = out.phase_rad;
   float* __restrict precision = out.precision;
+  float* __restrict modulation = out.modulation_counts;
+  float* __restrict means = out.mean_counts;
   for (std::size_t i = 0; i < n; ++i) {
     const auto y = static_cast<float>(sums.sine[i]);
     const auto x = static_cast<float>(sums.cosine[i]);
-    const float variance = noise.floor + noise.slope * static_cast<float>(sums.all[i]);
+    const auto all = static_cast<float>(sums.all[i]);
+    const float square = x * x + y * y;
+    const float variance = noise.floor + noise.slope * all;
     const float ax = std::fabs(x);
     const float ay = std::fabs(y);
     const float larger = ax > ay ? ax : ay;
@@ -83,29 +89,12 @@ FRANGIA_VECTORIZED void find_phase(const Sums<T>& __restrict sums,
     const float large = larger > 0.5F ? larger : 0.5F;  // otherwise an integer of at least 1
     const float inverse = 1.0F / (large * variance);    // one division serves both quotients
     phase[i] = restore_octant(fast_atan(smaller * (variance * inverse)), y, x);
-    precision[i] = (x * x + y * y) * (large * inverse);
+    precision[i] = square * (large * inverse);
+    if constexpr (kAll) {
+      modulation[i] = scales.modulation * std::sqrt(square);
+      means[i] = scales.mean * all;
+    }
   }
-}
-
-template <typename T>
-FRANGIA_VECTORIZED void find_modulation(const Sums<T>& __restrict sums,
-                                        std::size_t n,
-                                        float scale,
-                                        float* __restrict modulation_counts) {
-  for (std::size_t i = 0; i < n; ++i) {
-    const auto y = static_cast<float>(sums.sine[i]);
-    const auto x = static_cast<float>(sums.cosine[i]);
-    modulation_counts[i] = scale * std::sqrt(x * x + y * y);
-  }
-}
-
-template <typename T>
-FRANGIA_VECTORIZED void find_mean(const Sums<T>& __restrict sums,
-                                  std::size_t n,
-                                  float scale,
-                                  float* __restrict mean_counts) {
-  for (std::size_t i = 0; i < n; ++i)
-    mean_counts[i] = scale * static_cast<float>(sums.all[i]);
 }
 
 /// Maximum over the frames in their own integer type, which gives the widest vectors.
@@ -129,10 +118,11 @@ template <typename T>
 void wrap(FourFrames<T> frames, std::size_t n, const FourStepScales& scales, const TilePhase& out) {
   Sums<T> sums;  // NOLINT(cppcoreguidelines-pro-type-member-init): filled below
   sum_four<T>(frames, n, sums);
-  find_phase(sums, n, scales.noise, out);
-  if (out.modulation_counts != nullptr)
-    find_modulation(sums, n, scales.modulation, out.modulation_counts);
-  if (out.mean_counts != nullptr) find_mean(sums, n, scales.mean, out.mean_counts);
+  if (out.modulation_counts != nullptr) {
+    find_phase<true>(sums, n, scales, out);
+  } else {
+    find_phase<false>(sums, n, scales, out);
+  }
   update_brightest<T>(frames, n, out.brightest);
 }
 
