@@ -19,7 +19,7 @@ CadReader load_reader() {
   void* const object = ::dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
   void* const symbol = object == nullptr ? nullptr : ::dlsym(object, kCadReaderSymbol);
   if (symbol == nullptr) {
-    const char* const why = ::dlerror();
+    const char* const why = ::dlerror();  // NOLINT(concurrency-mt-unsafe) each thread has its own
     throw Error(
         ErrorKind::File,
         fmt::format("{}, which reads CAD files, cannot be loaded ({}); install frangia again",
