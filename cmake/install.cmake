@@ -7,6 +7,9 @@ install(TARGETS ${modules} EXPORT frangiaTargets
   ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT development
   FILE_SET HEADERS DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT development)
 install(TARGETS frangia RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT program)
+if(FRANGIA_CAD)
+  install(TARGETS frangia_cad_module LIBRARY DESTINATION lib/frangia COMPONENT program)
+endif()
 # What `cmake --install` takes, and no test: `./run build`. python/ adds its modules.
 add_custom_target(installed_files)
 add_dependencies(installed_files frangia ${modules})

@@ -18,6 +18,12 @@ cmake --build "$work/build" >"$work/build.log" || { cat "$work/build.log"; exit 
 "$work/build/scan_to_mesh" "$work/scan" "$work/mesh.ply"
 test -s "$work/mesh.ply"
 
+# The installed program finds what reads CAD files.
+if [ -f "$build_dir/lib/frangia/frangia_cad.so" ]; then
+  "$build_dir/tests/make_cad_parts" "$work" >"$work/parts.log"
+  "$work/usr/bin/frangia" --quiet inspect "$work/mesh.ply" --reference "$work/primitives.step" --align none >"$work/inspect.log"
+fi
+
 # A module that does not exist is refused, and so is another minor version.
 refuses() {
   mkdir -p "$work/refused"

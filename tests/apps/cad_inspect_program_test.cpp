@@ -1,5 +1,6 @@
 // CAD references of `frangia inspect`.
 #include <cstdlib>
+#include <filesystem>
 #include <fstream>
 #include <string>
 
@@ -46,6 +47,29 @@ TEST_F(CadInspectProgram, MeasuresToTheExactFaceAndStatesItsNominalSize) {
   const auto& nominal = json.at("feature_details")[0].at("nominal");
   EXPECT_NEAR(nominal.at("diameter_mm").get<double>(), 40.0, 1e-9);
   EXPECT_NEAR(nominal.at("difference_mm").get<double>(), 0.02, 1e-3);
+}
+
+// OpenCASCADE's libraries are three quarters of a start; a program that reads no CAD file does
+// without.
+TEST_F(CadInspectProgram, LoadsOpenCascadeWhenACadFileIsReadAndSaysWhereItIsMissing) {
+  const auto libraries = testing::run_shell("ldd " FRANGIA_PROGRAM);
+  ASSERT_EQ(libraries.exit_code, 0) << libraries.output;
+  EXPECT_NE(libraries.output.find("libstdc++"), std::string::npos);
+  EXPECT_EQ(libraries.output.find("libTK"), std::string::npos) << libraries.output;
+
+  std::filesystem::create_directory(at("bin"));
+  std::filesystem::copy_file(FRANGIA_PROGRAM, at("bin/frangia"));
+  const auto answer = testing::run_shell(at("bin/frangia") + " inspect " + at("ball.ply") +
+                                         " --reference " + at("primitives.step"));
+  EXPECT_EQ(answer.exit_code, 3) << answer.output;
+  EXPECT_NE(
+      answer.output.find("/lib/frangia/frangia_cad.so, which reads CAD files, cannot be loaded"),
+      std::string::npos)
+      << answer.output;
+  EXPECT_NE(testing::run_shell(at("bin/frangia") + " inspect " + at("ball.ply") + " --reference " +
+                               at("ball.ply"))
+                .exit_code,
+            3);
 }
 
 TEST_F(CadInspectProgram, TakesTheNominalOfAPlannedFeatureFromItsFace) {

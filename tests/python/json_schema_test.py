@@ -248,7 +248,9 @@ class Answers(unittest.TestCase):
         self.answer("algorithms", SOURCE / "examples/algorithms/my-algorithm.toml")
         self.answer("plan", "--rig", "digital", "--fringes", "64", verb="plan-patterns")
         self.answer("plan", "patterns", "--rig", "angular", verb="plan-patterns")
-        self.answer("plan", "scan", "scan/truth.ply", "--rig", "rig.toml", "--quick", verb="plan-scan")
+        self.run_quietly("simulate", "plate", "--rig", SMALL, "--views", "1", "-o", "small")
+        planned = self.answer("plan", "scan", "small/truth.ply", "--rig", SMALL, "--quick", verb="plan-scan")
+        self.assertGreater(len(planned["tried"]), 1)
 
     def test_serve(self):
         server = subprocess.Popen(

@@ -71,6 +71,8 @@ class Pip(unittest.TestCase):
         self.assertTrue(shown.startswith(str(home)), shown)
         about = run(home / "bin" / "python3", "-m", "pip", "show", "--files", "frangia")
         self.assertRegex(about, r"bin/frangia")
+        if (TREE / "lib" / "frangia").is_dir():  # what reads CAD files
+            self.assertTrue((home / "lib" / "frangia" / "frangia_cad.so").exists(), about)
         self.assertNotEqual(
             re.findall(
                 r"Requires-External: libembree",

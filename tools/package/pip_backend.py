@@ -117,7 +117,7 @@ def stripped(file, folder):
 
 def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
     tree = build_tree()
-    program = tree / "bin" / "frangia"
+    program, on_demand = tree / "bin" / "frangia", sorted((tree / "lib" / "frangia").glob("*.so"))
     package = sorted(path for path in (tree / "python" / "frangia").iterdir() if path.is_file())
     if not program.exists() or not any(path.suffix == ".so" for path in package):
         sys.exit(f"{tree} does not hold the program and the Python package; build them there first")
@@ -126,10 +126,11 @@ def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
     with tempfile.TemporaryDirectory() as folder:
         for path in package:
             wheel.add(f"frangia/{path.name}", stripped(path, folder) if path.suffix == ".so" else path.read_bytes())
+        for path in on_demand:  # which the program loads when it reads a CAD file
+            wheel.add(f"frangia-{version()}.data/data/lib/frangia/{path.name}", stripped(path, folder))
         wheel.add(f"frangia-{version()}.data/scripts/frangia", stripped(program, folder), 0o755)
-    wheel.add(
-        f"{info}/METADATA", metadata(libraries_of([program, *[path for path in package if path.suffix == ".so"]]))
-    )
+    compiled = [program, *on_demand, *[path for path in package if path.suffix == ".so"]]
+    wheel.add(f"{info}/METADATA", metadata(libraries_of(compiled)))
     wheel.add(
         f"{info}/WHEEL", f"Wheel-Version: 1.0\nGenerator: frangia\nRoot-Is-Purelib: false\nTag: {tag()}\n".encode()
     )
