@@ -53,7 +53,7 @@ FrameStack neighbour_frames(bool is_binary, bool with_inverses = false) {
 std::string fitted_name(const FrameStack& stack) {
   const SequenceCheck found = check_gray_neighbours(stack);
   EXPECT_TRUE(found.decided);
-  EXPECT_FALSE(found.consistent);
+  EXPECT_FALSE(found.consistent) << found.agreement;
   EXPECT_EQ(found.fits.size(), 1U);
   return found.fits.empty() ? "" : found.fits.front().what;
 }
@@ -93,6 +93,7 @@ TEST(CheckGrayNeighbours, NamesAFrameWithoutStripes) {
   for (const int counts : {0, 255}) {
     FrameStack stack = neighbour_frames(false);
     stack.frames[4] = Image<std::uint8_t>(220, 120, static_cast<std::uint8_t>(counts));
+    SCOPED_TRACE(counts);
     EXPECT_EQ(fitted_name(stack), "a missing frame: frame 4 shows no stripes");
   }
 }
@@ -102,7 +103,7 @@ TEST(CheckGrayNeighbours, SaysThatNothingExplainsNumbersThatJump) {
   std::swap(stack.frames[1], stack.frames[3]);
   std::swap(stack.frames[2], stack.frames[5]);
   const SequenceCheck found = check_gray_neighbours(stack);
-  EXPECT_FALSE(found.consistent);
+  EXPECT_FALSE(found.consistent) << found.agreement;
   EXPECT_TRUE(found.fits.empty());
   EXPECT_NE(found.finding.find("no other order of the frames explains it"), std::string::npos);
 }

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -34,17 +35,68 @@ struct CodeBorder {
   std::uint64_t second = 0;
 };
 
-/// The frames that are bright at a pixel; false where one is neither bright nor dark.
-bool read_pixel(const FrameStack& gray, int x, int y, std::uint64_t& bright) {
-  int low = counts_at(gray.frames.front(), x, y);
-  int high = low;
+/// Frames that are saturated nearly everywhere and outshine the stripes.
+std::vector<bool> white_frames(const FrameStack& gray) {
+  constexpr double kNearlyAll = 0.9;
+  constexpr int kEvery_px = 7;
+  std::vector<bool> out;
   for (const Frame& frame : gray.frames) {
-    low = std::min(low, counts_at(frame, x, y));
-    high = std::max(high, counts_at(frame, x, y));
+    double saturated = 0.0;
+    double pixels = 0.0;
+    for (int y = 0; y < height_of(frame); y += kEvery_px) {
+      for (int x = 0; x < width_of(frame); x += kEvery_px) {
+        pixels += 1.0;
+        saturated += counts_at(frame, x, y) >= gray.white_level ? 1.0 : 0.0;
+      }
+    }
+    out.push_back(saturated > kNearlyAll * pixels);
   }
-  const double contrast = high - low;
-  const double middle = low + 0.5 * contrast;
-  if (contrast < kLeastContrast) return false;
+  return out;
+}
+
+/// The least and the largest counts of a pixel.
+struct CountRange {
+  int low = std::numeric_limits<int>::max();
+  int high = 0;
+
+  [[nodiscard]] double contrast() const { return high - low; }
+};
+
+CountRange range_of(const FrameStack& gray, const std::vector<bool>& white, int x, int y) {
+  CountRange out;
+  for (std::size_t k = 0; k < gray.frames.size(); ++k) {
+    if (white[k]) continue;
+    const int counts = counts_at(gray.frames[k], x, y);
+    out.low = std::min(out.low, counts);
+    out.high = std::max(out.high, counts);
+  }
+  return out;
+}
+
+/// Contrast from which on a pixel shows bright and dark stripes: without bright ones, a black frame
+/// is all its contrast.
+double least_contrast(const FrameStack& gray, const std::vector<bool>& white) {
+  constexpr double kOfBright = 0.25;
+  constexpr int kEvery_px = 7;
+  std::vector<double> contrasts;
+  for (int y = 0; y < height_of(gray.frames.front()); y += kEvery_px)
+    for (int x = 0; x < width_of(gray.frames.front()); x += kEvery_px)
+      contrasts.push_back(range_of(gray, white, x, y).contrast());
+  const auto high = contrasts.begin() + std::ssize(contrasts) * 9 / 10;
+  std::nth_element(contrasts.begin(), high, contrasts.end());
+  return std::max(kLeastContrast, kOfBright * *high);
+}
+
+/// The frames that are bright at a pixel; false where one is neither bright nor dark.
+bool read_pixel(const FrameStack& gray,
+                const CountRange& range,
+                double least,
+                int x,
+                int y,
+                std::uint64_t& bright) {
+  const double contrast = range.contrast();
+  if (contrast < least) return false;
+  const double middle = range.low + 0.5 * contrast;
   bright = 0;
   for (std::size_t k = 0; k < gray.frames.size(); ++k) {
     const double above = counts_at(gray.frames[k], x, y) - middle;
@@ -60,13 +112,17 @@ std::vector<CodeBorder> borders_of(const FrameStack& gray) {
   const int height = height_of(gray.frames.front());
   const int across = columns ? width : height;
   const int along = columns ? height : width;
+  const std::vector<bool> white = white_frames(gray);
+  const double least = least_contrast(gray, white);
   std::vector<CodeBorder> out;
   for (int line = 0; line < across; line += std::max(1, across / kCheckedLines)) {
     std::uint64_t last = 0;
     int last_place = -kNeighbourGap_px - 1;
     for (int place = 0; place < along; ++place) {
       std::uint64_t bright = 0;
-      if (!read_pixel(gray, columns ? line : place, columns ? place : line, bright)) continue;
+      const int x = columns ? line : place;
+      const int y = columns ? place : line;
+      if (!read_pixel(gray, range_of(gray, white, x, y), least, x, y, bright)) continue;
       if (place - last_place <= kNeighbourGap_px && bright != last) out.push_back({last, bright});
       last = bright;
       last_place = place;

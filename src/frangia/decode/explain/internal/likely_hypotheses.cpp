@@ -17,6 +17,7 @@ namespace frangia {
 namespace {
 
 constexpr std::size_t kThreeSteps = 3;
+constexpr std::size_t kFourSteps = 4;  ///< whose single residual any movement resembles
 constexpr std::size_t kScoredSingles = 8;
 constexpr std::size_t kPairedSingles = 5;
 
@@ -168,8 +169,9 @@ std::vector<FrameHypothesis> likely_singles(const FrameSample& sample,
   for (FrameHypothesis& one : all) {
     if (one.cause == FrameCause::Gain && !fit_gain(moments, one.frames.front(), one)) continue;
     if (!one.path.empty() || one.has_free_steps || one.lamp_on) {
+      const std::size_t steps = declared.shifts_rad.size();
       const bool like_harmonic =
-          one.lamp_on ? declared.shifts_rad.size() <= kFewSteps : one.cause == FrameCause::Steps;
+          one.lamp_on ? steps <= kFewSteps : one.cause == FrameCause::Steps || steps <= kFourSteps;
       if (both_sides || !like_harmonic) others.push_back(std::move(one));
       continue;
     }

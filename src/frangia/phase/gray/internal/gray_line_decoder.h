@@ -39,8 +39,8 @@ struct StripeBorder {
 /// A border of which the pixel on either side is fully bright or dark.
 inline constexpr double kSharp = 0.9;
 
-/// Standard deviation of a border's place by the shape of the pixels, whose light is not quite that
-/// of their width; tests/phase/decode_gray_alone_test.cpp measures it.
+/// Least standard deviation of a border's place by the shape of the pixels, whose light is not
+/// quite that of their width; tests/phase/decode_gray_alone_test.cpp measures it.
 inline constexpr double kPlace_px = 0.025;
 
 /// A column of the projector and its uncertainty, in projector pixels.
@@ -95,13 +95,16 @@ class GrayLineDecoder {
   /// Sets the share of the pixels that do not integrate light over their width.
   void set_point_like(double share) { point_like_ = share; }
 
-  /// The sharpness of the borders on a line.
-  [[nodiscard]] std::vector<double> sharpness(int line, int count) {
+  /// Sets the standard deviation of a border's place by the shape of the pixels.
+  void set_place_px(double place_px) { place_px_ = place_px; }
+
+  /// The borders on a line.
+  [[nodiscard]] std::vector<StripeBorder> borders(int line, int count) {
     read(line, count);
     find_borders();
-    std::vector<double> found;
+    std::vector<StripeBorder> found;
     for (const auto& border : borders_)
-      if (border) found.push_back(border->sharpness);
+      if (border) found.push_back(*border);
     return found;
   }
 
@@ -228,7 +231,7 @@ class GrayLineDecoder {
     out.noise_px = std::hypot((1.0 - share) * at(i).sigma, share * at(i + 1).sigma) / step;
     // Linear interpolation between the two pixels is wrong by up to 0.086 px.
     out.width_px =
-        place_sigma_px(out.sharpness, std::hypot(kPlace_px, 0.13 * out.sharpness * out.sharpness));
+        place_sigma_px(out.sharpness, std::hypot(place_px_, 0.13 * out.sharpness * out.sharpness));
     return out;
   }
 
@@ -267,7 +270,7 @@ class GrayLineDecoder {
     }
     out.at = std::clamp(place, static_cast<double>(i), static_cast<double>(i + 1));
     out.noise_px = std::sqrt(variance);
-    out.width_px = place_sigma_px(out.sharpness, kPlace_px);
+    out.width_px = place_sigma_px(out.sharpness, place_px_);
     return true;
   }
 
@@ -391,6 +394,7 @@ class GrayLineDecoder {
   std::size_t bits_;
   bool rows_;  ///< lines are image rows
   double point_like_ = 0.0;
+  double place_px_ = kPlace_px;
   std::vector<Margin> margins_;
   std::vector<std::int64_t> stripes_;
   std::vector<PixelStatus> status_;
