@@ -47,10 +47,8 @@ inline constexpr double kPlace_px = 0.025;
 struct Located {
   double column = 0.0;
   double noise = 0.0;
-  double shared = 0.0;  ///< error that neighbouring pixels share
-  /// What a steady curvature and an edge between two faces, each with half of its effect, leave
-  /// open.
-  double curvature = 0.0;
+  double shared = 0.0;     ///< error that neighbouring pixels share
+  double curvature = 0.0;  ///< what a steady curvature and an edge between faces leave open
 };
 
 /// Decodes one line of pixels across the stripes.
@@ -235,9 +233,9 @@ class GrayLineDecoder {
     return out;
   }
 
-  /// Places a border where the light of the pixels around it is divided: each pixel that integrates
-  /// light over its width has a share of the stripe before the border, and the sum of the shares
-  /// is its place whatever the blur. False where the blur is wider than the pixels that are summed.
+  /// Places a border by the light of the pixels around it: each integrates light over its width and
+  /// has a share of the stripe before the border, and the shares sum up to its place whatever the
+  /// blur. False where the blur is wider than these pixels.
   ///
   /// @source   Tabatabai and Mitchell 1984, edges that preserve moments
   bool place_by_light(std::size_t i, std::size_t bit, StripeBorder& out) const {
@@ -274,10 +272,8 @@ class GrayLineDecoder {
     return true;
   }
 
-  /// Standard deviation of a border's place between two pixels that differ by `sharpness` of the
-  /// contrast, `exact_px` where these integrate light over their width.
-  ///
-  /// Where they do not, and both are fully bright or dark, the border lies anywhere between them.
+  /// Standard deviation of a border's place between two pixels, `exact_px` where these integrate
+  /// light over their width. Otherwise it lies anywhere between two that differ by the contrast.
   [[nodiscard]] double place_sigma_px(double sharpness, double exact_px) const {
     constexpr double kUniform_px2 = 1.0 / 12.0;
     if (sharpness < kSharp) return exact_px;
