@@ -247,6 +247,31 @@ class FramesAtFault(unittest.TestCase):
         self.assertEqual(code, 5, text)
         self.assertIn("show no fringes with its shifts", text)
 
+    def test_four_frames_that_are_no_fringes_are_refused(self):
+        x, y = np.meshgrid(np.arange(WIDTH), np.arange(HEIGHT))
+        for seed in range(4):
+            draw = np.random.default_rng(seed)
+
+            def photographs(view, name, frames):
+                out = []
+                for _ in frames:
+                    waves = [draw.uniform(0.03, 0.15, 2) @ [x.ravel(), y.ravel()] + draw.uniform(0, 6) for _ in "abc"]
+                    light = 0.5 + sum(map(np.sin, waves)).reshape(x.shape) / 6
+                    out.append(190 * light * draw.uniform(0.5, 1) + draw.standard_normal(x.shape))
+                return out
+
+            with self.subTest(seed):
+                code, _, text, _, _ = self.scan(4).capture(photographs).reconstruct()
+                self.assertEqual(code, 5, text)
+
+    def test_a_frame_of_three_is_named_by_coarser_patterns(self):
+        def half(view, name, frames):
+            return [counts * (0.5 if name == "f" and k == 1 else 1) for k, counts in enumerate(frames)]
+
+        code, _, text, _, _ = self.scan(3, coarse=True).capture(half).reconstruct()
+        self.assertEqual(code, 5, text)
+        self.assertIn("frame 1 has 0.50 times the light", text)
+
     def test_columns_outside_the_projector_are_not_measured(self):
         scan = self.scan(4).capture()
         rig = scan.folder / "rig.toml"

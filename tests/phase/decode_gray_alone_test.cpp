@@ -1,6 +1,7 @@
 // A Gray code without fringes against the columns that the frames were made of.
 #include "frangia/phase/gray/decode_gray_alone.h"
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <string>
@@ -35,7 +36,7 @@ using Columns = std::function<double(double across, double along)>;
 
 /// Frames of a camera whose pixels integrate over their width; `blur_px` widens them.
 FrameStack frames_of(const Pattern& code, const Columns& columns, double blur_px = 1.0) {
-  constexpr int kSamples = 40;
+  constexpr int kSamples = 60;
   const bool rows = code.direction == FringeDirection::Horizontal;
   FrameStack stack{code, {}, 255};
   for (int frame = 0; frame < code.frame_count(); ++frame) {
@@ -116,6 +117,7 @@ TEST(DecodeGrayAlone, StatesTheErrorsOfItsColumns) {
   };
   for (const Case& c : {Case{8.0, 0.8, 1.0},
                         Case{4.0, 0.8, 1.0},
+                        Case{4.0, 0.8, 1.6},
                         Case{4.0, 0.8, 2.5},
                         Case{1.0, 0.37, 1.0},
                         Case{2.0, 1.9, 1.0},
@@ -123,10 +125,29 @@ TEST(DecodeGrayAlone, StatesTheErrorsOfItsColumns) {
     const Scatter scatter = decoded(code_of(c.stripe_px), surface(c.columns_per_px), c.blur_px);
     SCOPED_TRACE(::testing::Message() << c.stripe_px << ' ' << c.columns_per_px << ' ' << c.blur_px
                                       << ": " << scatter.rms_px << " px");
-    EXPECT_GT(scatter.over_sigma, 0.6);
-    EXPECT_LT(scatter.over_sigma, 1.5);
+    // Pixels whose light is exactly that of their width are better than what is stated.
+    EXPECT_GT(scatter.over_sigma, c.blur_px == 1.0 ? 0.25 : 0.5);
+    EXPECT_LT(scatter.over_sigma, 1.6);
     EXPECT_GT(scatter.share, 0.98);
   }
+}
+
+TEST(DecodeGrayAlone, PlacesBordersByTheLightOfThePixelsAroundThem) {
+  // By linear interpolation between the two pixels at a border they are off by 0.08 px.
+  for (const double columns_per_px : {0.8, 1.9})
+    EXPECT_LT(decoded(code_of(8.0), surface(columns_per_px)).rms_px, 0.02 * columns_per_px);
+}
+
+TEST(DecodeGrayAlone, CountsAnEdgeBetweenFacesWithinAStripe) {
+  // Faces of 2.1, 0.25 and 2.4 columns per pixel.
+  const Columns steps = [](double across, double along) {
+    const double u = across - 100.0 - 0.37 * along;
+    const double slow = std::clamp(u, 0.0, 14.0);
+    return 300.0 + (u < 0.0 ? 2.1 * u : 2.4 * (u - slow)) + 0.25 * slow;
+  };
+  const Scatter scatter = decoded(code_of(5.0), steps);
+  EXPECT_GT(scatter.over_sigma, 0.3);
+  EXPECT_LT(scatter.over_sigma, 1.5);
 }
 
 TEST(DecodeGrayAlone, InterpolatesBetweenTheBordersOfWideStripes) {
@@ -164,7 +185,7 @@ TEST(DecodeGrayAlone, LeavesOutBitsThatTheCameraDoesNotResolve) {
   const Scatter scatter = decoded(code_of(1.0), surface(3.4));
   EXPECT_GT(scatter.share, 0.95);
   EXPECT_LT(scatter.rms_px, 2.0);
-  EXPECT_GT(scatter.over_sigma, 0.6);
+  EXPECT_GT(scatter.over_sigma, 0.5);
   EXPECT_LT(scatter.over_sigma, 1.5);
 }
 

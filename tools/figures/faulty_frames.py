@@ -239,14 +239,16 @@ def record(frames, generator, level=1.0, ambient=0.04, flicker=0.0, ceiling=255,
     return images, np.array(clean)
 
 
-def fitted(frames, shifts_deg):
-    """Phase, and RMS of the residual over the noise, of the least squares fit of a fringe at each pixel."""
+def fringe_design(shifts_deg):
     shifts = np.radians(shifts_deg)
-    design = np.stack([np.ones(len(shifts)), np.cos(shifts), -np.sin(shifts)], axis=1)
+    return np.stack([np.ones(len(shifts)), np.cos(shifts), -np.sin(shifts)], axis=1)
+
+
+def fitted(frames, shifts_deg):
+    """Phase and residual of the least squares fit of a fringe at each pixel."""
+    design = fringe_design(shifts_deg)
     values = np.tensordot(np.linalg.pinv(design), frames, 1)
-    residual = frames - np.tensordot(design, values, 1)
-    over = residual / noise_of(frames.mean(axis=0))
-    return np.arctan2(values[2], values[1]), np.sqrt((over**2).sum(axis=0) / max(1, len(shifts) - 3))
+    return np.arctan2(values[2], values[1]), frames - np.tensordot(design, values, 1)
 
 
 def write(folder, patterns, images, white_level=255, states_noise=True):

@@ -9,6 +9,7 @@
 
 #include "frangia/core/angles.h"
 #include "frangia/decode/explain/internal/frame_design.h"
+#include "frangia/decode/explain/internal/frame_priors.h"
 #include "frangia/decode/explain/internal/frame_sample.h"
 #include "frangia/decode/explain/internal/likely_hypotheses.h"
 #include "frangia/decode/explain/internal/score_frames.h"
@@ -18,13 +19,9 @@ namespace frangia {
 namespace {
 
 constexpr std::size_t kMinFrames = 3;
-constexpr std::size_t kMaxFrames = 24;    ///< longer sequences hardly feel one frame
-constexpr Eigen::Index kMinPixels = 200;  ///< fewer explain nothing
-/// Witnesses in what a hypothesis leaves beyond the noise: it may be one smooth field.
-constexpr double kFieldWitnesses = 50.0;
-/// Odds of a structural fault, and of a broad density, before the data.
-constexpr double kPriorFault = 0.01;
-constexpr double kPriorUnexplained = 0.01;
+constexpr std::size_t kMaxFrames = 24;      ///< longer sequences hardly feel one frame
+constexpr Eigen::Index kMinPixels = 200;    ///< fewer explain nothing
+constexpr double kPriorUnexplained = 0.01;  ///< odds of a broad density before the data
 /// Standard deviation of what blur, texture and ambient light leave of sound frames, over the
 /// modulation.
 constexpr double kSoundRest = 0.03;
@@ -105,6 +102,8 @@ double log_prior(const FrameHypothesis& hypothesis, const FrameScore& score, dou
   } else {
     out = -0.5 * std::pow(score.unexplained / kSoundRest, 2);
     out += hypothesis.faults * std::log(kPriorFault);
+    // Gains of all frames that explain what flicker does not, without one that is at fault.
+    if (score.largest_gain > kStructuralGain) out += std::log(kPriorFault);
   }
   return out - price_of_choice(hypothesis.choices) -
          hypothesis.parameters * price_of_parameter(samples);

@@ -11,8 +11,14 @@
 namespace frangia {
 namespace {
 
-/// Frames from which a lamp that stays on, a movement and uneven steps differ from harmonics.
+/// Frames from which a lamp that stays on differs from harmonics.
 constexpr std::size_t kMinFramesOfLamp = 5;
+
+/// Frames from which a movement and uneven steps leave a residual, of which an angular projector,
+/// whose steps are estimated, needs one more.
+std::size_t min_frames_of_steps(const Pattern& pattern) {
+  return pattern.fringes_per_degree == 0.0 ? 4 : 5;
+}
 
 FrameHypothesis as_described(const Pattern& pattern) {
   const std::size_t frames = pattern.shifts_rad.size();
@@ -124,7 +130,7 @@ std::vector<FrameHypothesis> frame_hypotheses(const Pattern& pattern) {
     add(FrameCause::Late, k, 0, frames - 2);
     for (std::size_t l = k; l < frames; ++l)
       out.back().shifts_rad[l] = declared.shifts_rad[l - 1];
-    if (frames >= kMinFramesOfLamp) {
+    if (frames >= min_frames_of_steps(pattern)) {
       std::vector<double> path(frames, 0.0);
       std::fill(path.begin() + static_cast<std::ptrdiff_t>(k), path.end(), 1.0);
       for (const FrameCause cause : {FrameCause::Steps, FrameCause::Moved}) {
@@ -137,7 +143,7 @@ std::vector<FrameHypothesis> frame_hypotheses(const Pattern& pattern) {
     add(FrameCause::Lamp, k, 0, frames - 3);
     out.back().lamp_on = k;
   }
-  if (frames >= kMinFramesOfLamp) {
+  if (frames >= min_frames_of_steps(pattern)) {
     add(FrameCause::Steps, 0, 0, 1);
     out.back().has_free_steps = true;
     out.back().frames.clear();

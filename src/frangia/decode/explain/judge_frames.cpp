@@ -105,9 +105,10 @@ FrameVerdict judge_frames(const FrameStack& stack,
   if (!found.has_fault()) return out;
   out.finding = of_pattern(found);
   out.action = FrameAction::LeaveOutView;
+  constexpr std::size_t kFewSteps = 4;  // show some combinations of the errors of their steps alone
   if (found.explanation.best.size() == 1 &&
       (found.best.cause == FrameCause::Exchanged || found.best.cause == FrameCause::Late ||
-       found.best.cause == FrameCause::Steps) &&
+       (found.best.cause == FrameCause::Steps && stack.frames.size() > kFewSteps)) &&
       found.best.faults == 1) {
     FrameStack remedied = stack;
     remedied.pattern.shifts_rad = found.best.shifts_rad;

@@ -22,6 +22,7 @@
 #include "frangia/fringe_order/check_start_by_sheet.h"
 #include "frangia/phase/algorithm/fit_algorithm.h"
 #include "frangia/phase/gray/check_gray_inverses.h"
+#include "frangia/phase/gray/check_gray_neighbours.h"
 #include "frangia/phase/gray/decode_gray_alone.h"
 #include "frangia/phase/gray/decode_gray_code.h"
 #include "frangia/phase/temporal/check_indirect_light.h"
@@ -205,6 +206,7 @@ DecodedDirection decode_from(const FromGrayCodeAlone& /*source*/, const Directio
   if (gray.front().pattern.inverted == InvertedFrames::None)
     threshold = gray_threshold(gray.front(), find(PatternKind::White), find(PatternKind::Ambient));
   out.check = check_gray_inverses(gray.front());
+  if (out.check->consistent) out.check = check_gray_neighbours(gray.front());
   GrayAloneOptions limits;
   limits.max_wrong_stripe = input.options.temporal.max_wrong_order;
   out.phase = inside_field(input, decode_gray_alone(gray, threshold, out.noise, limits));
@@ -374,8 +376,17 @@ DecodedDirection decode_direction(const DirectionInput& all) {
                              std::move(judged.orders_rad)};
   DecodedDirection view = decode_as_planned(input);
   apply_remedy(input, view, judged.verdicts, all.run);
+  for (FrameVerdict& by_coarser : view.frames) {
+    const auto by_frames =
+        std::find_if(judged.verdicts.begin(), judged.verdicts.end(), [&](const FrameVerdict& one) {
+          return one.explanation.pattern == by_coarser.explanation.pattern;
+        });
+    if (by_frames != judged.verdicts.end()) *by_frames = std::move(by_coarser);
+  }
   view.frames = std::move(judged.verdicts);
   view.check = report_frames(view.frames, std::move(view.check), all.run);
+  if (!all.options.own.any())
+    view.check = report_uncertain_phase(view.phase, std::move(view.check));
   return view;
 }
 

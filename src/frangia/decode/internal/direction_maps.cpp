@@ -3,16 +3,19 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "frangia/core/error.h"
+#include "frangia/decode/explain/explain_predicted_frames.h"
 #include "frangia/decode/internal/wrap_pattern.h"
 #include "frangia/decode/select_stacks.h"
 #include "frangia/phase/blur/correct_blur.h"
 #include "frangia/phase/blur/estimate_blur.h"
 #include "frangia/phase/temporal/check_sequence.h"
+#include "frangia/phase/temporal/predict_frames.h"
 #include "frangia/phase/waveform/frame_samples.h"
 #include "frangia/phase/waveform/systematic_phase.h"
 #include "frangia/phase/wrap/decode_sequence.h"
@@ -51,6 +54,28 @@ std::vector<SequenceFrames> frames_of(const DirectionInput& input, const Directi
   return frames;
 }
 
+/// What the coarser patterns say is wrong with the frames of a pattern that leave no residual by
+/// themselves; nothing where no cause is decided.
+std::optional<FrameVerdict> judge_by_coarser(const DirectionInput& input,
+                                             const DirectionMaps& maps,
+                                             std::size_t map) {
+  const Pattern& pattern = maps.fringes[map]->pattern;
+  if (!maps.view.check->consistent || pattern.shifts_rad.size() > 3) return {};
+  const std::optional<PredictedFrames> predicted = predict_frames(frames_of(input, maps),
+                                                                  map,
+                                                                  maps.view.noise,
+                                                                  input.rig.projector,
+                                                                  input.options.wrap,
+                                                                  input.options.sequence_check);
+  if (!predicted) return {};
+  FrameVerdict out{explain_predicted_frames(*predicted, pattern, maps.view.noise)};
+  if (!out.explanation.has_fault()) return {};
+  out.action = FrameAction::LeaveOutView;
+  out.finding =
+      fmt::format("pattern \"{}\": {}", pattern.name, describe(out.explanation.explanation));
+  return out;
+}
+
 /// Compares the patterns with each other, and counts what contradicts in each as unexplained.
 void check_maps(const DirectionInput& input, DirectionMaps& maps) {
   maps.view.check = check_sequence(frames_of(input, maps),
@@ -61,14 +86,19 @@ void check_maps(const DirectionInput& input, DirectionMaps& maps) {
                                    input.options.sequence_check);
   const std::vector<double>& ripples_rad = maps.view.check->ripples_rad;
   for (std::size_t m = 0; m < ripples_rad.size(); ++m) {
+    constexpr double kWarned_rad = 0.1;
+    const bool is_large = ripples_rad[m] >= kWarned_rad;
+    std::optional<FrameVerdict> verdict;
+    if (is_large) verdict = judge_by_coarser(input, maps, m);
+    const bool is_explained = verdict.has_value();
+    if (is_explained) maps.view.frames.push_back(*std::move(verdict));
     FittedAlgorithm& fit = maps.fits[m];
     // Flicker repeats likewise and is counted.
     const double known_rad = std::hypot(fit.waveform.flicker_error_rad, fit.unexplained_rad);
     if (ripples_rad[m] <= known_rad) continue;
     fit.unexplained_rad =
         std::sqrt(std::pow(ripples_rad[m], 2) - std::pow(fit.waveform.flicker_error_rad, 2));
-    constexpr double kWarned_rad = 0.1;
-    if (ripples_rad[m] < kWarned_rad) continue;
+    if (!is_large || is_explained) continue;
     input.run.warn(fmt::format(
         "pattern \"{}\": its phase is off by {:.2f} rad RMS along each fringe, as the coarser "
         "patterns show, and its frames do not tell why; it is counted in sigma; take five steps or "

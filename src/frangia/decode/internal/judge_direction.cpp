@@ -1,6 +1,8 @@
 #include "frangia/decode/internal/judge_direction.h"
 
 #include <algorithm>
+#include <cmath>
+#include <cstddef>
 #include <optional>
 
 #include <fmt/format.h>
@@ -11,6 +13,7 @@
 #include "frangia/decode/select_stacks.h"
 #include "frangia/phase/wrap/estimate_noise.h"
 #include "frangia/rig/phase_range.h"
+#include "frangia/uncertainty/combined_sigma.h"
 
 namespace frangia {
 namespace {
@@ -135,6 +138,35 @@ std::optional<SequenceCheck> report_frames(const std::vector<FrameVerdict>& verd
                                     fmt::join(degrees_of(verdict.remedy_rad), ", "));
     return check;
   }
+  return check;
+}
+
+std::optional<SequenceCheck> report_uncertain_phase(const AbsolutePhase& phase,
+                                                    std::optional<SequenceCheck> check) {
+  constexpr float kMost_rad = 0.5F;
+  constexpr double kMostPixels = 0.5;
+  if (!check || !check->consistent) return check;
+  std::size_t measured = 0;
+  std::size_t uncertain = 0;
+  for (std::size_t i = 0; i < phase.sigma_rad.pixels().size(); ++i) {
+    const float noise = phase.sigma_rad.pixels()[i];
+    if (std::isnan(noise)) continue;
+    const float systematic = phase.systematic_rad.empty() ? 0.0F : phase.systematic_rad.pixels()[i];
+    ++measured;
+    if (combined_sigma(noise, systematic) > kMost_rad) ++uncertain;
+  }
+  const double share =
+      static_cast<double>(uncertain) / static_cast<double>(std::max<std::size_t>(1, measured));
+  if (share <= kMostPixels) return check;
+  check = SequenceCheck{.decided = true, .consistent = false};
+  check->patterns = {phase.pattern.name};
+  check->finding = fmt::format(
+      "pattern \"{}\": the phase of {:.0f} % of the pixels is uncertain by more than {:g} rad, "
+      "because the frames differ from fringes with its shifts and no known cause explains it; "
+      "check that they are the frames of this pattern, and that nothing moved",
+      phase.pattern.name,
+      100.0 * share,
+      kMost_rad);
   return check;
 }
 

@@ -9,6 +9,7 @@
 #include "frangia/decode/internal/direction_maps.h"
 #include "frangia/frames/frame_stack.h"
 #include "frangia/phase/temporal/sequence_check.h"
+#include "frangia/phase/wrap/phase_map.h"
 
 namespace frangia {
 
@@ -32,5 +33,10 @@ struct JudgedFrames {
 [[nodiscard]] std::optional<SequenceCheck> report_frames(const std::vector<FrameVerdict>& verdicts,
                                                          std::optional<SequenceCheck> check,
                                                          const Run& run);
+
+/// The direction's check, which a phase that is uncertain by more than 0.5 rad on half of the
+/// pixels makes inconsistent: what was not explained is in its sigma.
+[[nodiscard]] std::optional<SequenceCheck> report_uncertain_phase(
+    const AbsolutePhase& phase, std::optional<SequenceCheck> check);
 
 }  // namespace frangia

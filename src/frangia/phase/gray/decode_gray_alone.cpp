@@ -62,14 +62,43 @@ double point_like_share(GrayLineDecoder decoder, int lines, int count) {
   std::size_t all = 0;
   std::size_t sharp = 0;
   for (int line = 0; line < lines; line += std::max(1, lines / kLines)) {
-    for (const double sharpness : decoder.sharpness(line, count)) {
+    for (const StripeBorder& border : decoder.borders(line, count)) {
       ++all;
-      sharp += sharpness >= kSharp ? 1U : 0U;
+      sharp += border.sharpness >= kSharp ? 1U : 0U;
     }
   }
   if (all == 0) return 1.0;
   const double share = static_cast<double>(sharp) / static_cast<double>(all);
   return std::clamp((share - kOfIntegrating) / (1.0 - kOfIntegrating), 0.0, 1.0);
+}
+
+/// Standard deviation of the borders' places beyond noise, by how far each is from the middle of
+/// the same border on the lines before and after: pixels that are the mean of a few rays, or have
+/// gaps between them, place a border in steps.
+double scatter_px(GrayLineDecoder decoder, int lines, int count) {
+  constexpr int kTriples = 48;
+  constexpr double kSameBorder_px = 3.0;
+  constexpr double kMedianOfNormal = 0.6745;
+  std::vector<double> off;
+  std::vector<double> noise;
+  for (int line = 1; line + 1 < lines; line += std::max(1, lines / kTriples)) {
+    const std::vector<StripeBorder> before = decoder.borders(line - 1, count);
+    const std::vector<StripeBorder> after = decoder.borders(line + 1, count);
+    for (const StripeBorder& border : decoder.borders(line, count)) {
+      const auto same = [&](const StripeBorder& other) {
+        return other.column == border.column && std::abs(other.at - border.at) < kSameBorder_px;
+      };
+      const auto first = std::find_if(before.begin(), before.end(), same);
+      const auto last = std::find_if(after.begin(), after.end(), same);
+      if (first == before.end() || last == after.end()) continue;
+      off.push_back(std::abs(border.at - 0.5 * (first->at + last->at)));
+      noise.push_back(border.noise_px);
+    }
+  }
+  if (off.empty()) return 0.0;
+  const double all = median(std::move(off)) / kMedianOfNormal / std::sqrt(1.5);
+  const double known = median(std::move(noise));
+  return std::sqrt(std::max(0.0, all * all - known * known));
 }
 
 }  // namespace
@@ -95,6 +124,7 @@ AbsolutePhase decode_gray_alone(std::span<const FrameStack> gray,
   GrayLineDecoder decoder(gray, threshold_counts, noise, options);
   decoder.use_bits(resolved_bits(decoder, code.bits, lines, count));
   decoder.set_point_like(point_like_share(decoder, lines, count));
+  decoder.set_place_px(std::max(kPlace_px, scatter_px(decoder, lines, count)));
   parallel_rows(lines, [&](int line) { GrayLineDecoder(decoder).decode(line, out); });
   return out;
 }

@@ -252,6 +252,18 @@ void add_flicker_by_residual(const ResidualFit& residuals, WaveformFit& out) {
   out.is_flicker = residuals.gains_explain;
 }
 
+/// The effect of errors of the shifts on four frames whose contrast excludes gains: their residual
+/// shows some combinations of the errors, and the others are as large.
+void add_steps_by_residual(const ResidualFit& residuals, WaveformFit& out) {
+  if (residuals.gain_chi2 < std::pow(kMinFlickerSigmas, 2)) return;
+  const auto frames = static_cast<double>(residuals.gains.size());
+  double square = 0.0;
+  for (const double error_rad : residuals.gains)  // which leave what gains of the modulation leave
+    square += error_rad * error_rad / (frames - 3.0);
+  out.flicker_error_rad = std::sqrt(2.0 / frames * square);
+  out.is_flicker = false;
+}
+
 /// Whether the shifts divide a turn evenly, in any order.
 bool are_even(const std::vector<double>& shifts_rad) {
   constexpr double kSame_rad = 1e-3;
@@ -306,9 +318,12 @@ WaveformFit fit_waveform(const FrameStack& stack,
       out.waveform.harmonics[i] = residuals.harmonics[i];
   }
   const auto third = add_contrast_fit(bins, shifts_rad, residuals, options, with_gains, out);
-  if (with_gains && frames > 3 && out.flicker_error_rad == 0.0 &&
-      !(out.offset_sigma < kMaxOffsetSigma))
-    add_flicker_by_residual(residuals, out);
+  if (with_gains && frames > 3 && out.flicker_error_rad == 0.0) {
+    if (!(out.offset_sigma < kMaxOffsetSigma))
+      add_flicker_by_residual(residuals, out);
+    else if (frames < kMinGainFrames)
+      add_steps_by_residual(residuals, out);
+  }
   if (with_gains && are_even(shifts_rad)) add_hidden_harmonics(frames, third, out);
   if (!with_gains || frames < kMinGainFrames || !residuals.gains_explain) return out;
   if (std::any_of(residuals.gains.begin(), residuals.gains.end(), [](double gain) {

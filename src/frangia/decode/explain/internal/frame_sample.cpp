@@ -15,9 +15,10 @@ constexpr int kBlock = 3;              ///< px along each side of a block
 constexpr int kFewestBlocks = 14;      ///< along the longer side of the image
 constexpr int kMostBlocks = 112;       ///< the same where the part is small
 constexpr Eigen::Index kEnough = 900;  ///< pixels
-constexpr double kLit = 0.25;          ///< least change of a pixel over the large changes
-constexpr double kLitSigmas = 8.0;     ///< least change of a lit pixel over the noise
-constexpr double kMinCounts = 4.0;     ///< least scale: less light says nothing
+constexpr Eigen::Index kEnoughResiduals = 4500;
+constexpr double kLit = 0.25;       ///< least change of a pixel over the large changes
+constexpr double kLitSigmas = 8.0;  ///< least change of a lit pixel over the noise
+constexpr double kMinCounts = 4.0;  ///< least scale: less light says nothing
 
 struct Place {
   int x;
@@ -229,6 +230,27 @@ FrameSample sample_at(const FrameStack& stack,
 
 }  // namespace
 
+FrameSample every_nth_block(const FrameSample& sample, int n) {
+  std::vector<Eigen::Index> kept;
+  FrameSample out;
+  // By the order in which blocks occur: by their number, whole columns of blocks would be left out.
+  int rank = 0;
+  for (std::size_t i = 0; i < sample.blocks.size(); ++i) {
+    if (i > 0 && sample.blocks[i] != sample.blocks[i - 1]) ++rank;
+    if (rank % n != 0) continue;
+    kept.push_back(static_cast<Eigen::Index>(i));
+    out.blocks.push_back(sample.blocks[i]);
+  }
+  out.counts = sample.counts(kept, Eigen::all);
+  out.slope_x = sample.slope_x(kept, Eigen::all);
+  out.slope_y = sample.slope_y(kept, Eigen::all);
+  out.x = sample.x(kept);
+  out.y = sample.y(kept);
+  out.scale_counts = sample.scale_counts(kept);
+  out.variance = sample.variance(kept);
+  return out;
+}
+
 FrameSample sample_blocks(const FrameStack& stack, const NoiseModel& noise) {
   const int width = width_of(stack.frames.front());
   const int height = height_of(stack.frames.front());
@@ -237,7 +259,9 @@ FrameSample sample_blocks(const FrameStack& stack, const NoiseModel& noise) {
     out = sample_at(stack, noise, places_in(width, height, blocks));
     if (out.counts.rows() >= kEnough) break;
   }
-  return out;
+  const Eigen::Index freedom = std::max<Eigen::Index>(1, std::ssize(stack.frames) - 3);
+  const Eigen::Index every = out.counts.rows() / std::min(kEnough, kEnoughResiduals / freedom);
+  return every > 1 ? every_nth_block(out, static_cast<int>(every)) : out;
 }
 
 }  // namespace frangia

@@ -26,7 +26,11 @@ struct FrameSample {
 /// what the most changing pixels do. Saturated pixels are left out, unless nearly all pixels of a
 /// frame are.
 ///
-/// @shape    900 pixels or more where the image has them in its blocks, 1800 at most
+/// @shape    900 pixels or more where the image has them in its blocks, 1800 at most; with more
+///           than eight frames, of which each pixel says more, as many as have 4500 residuals
 [[nodiscard]] FrameSample sample_blocks(const FrameStack& stack, const NoiseModel& noise);
+
+/// Each n-th block of a sample.
+[[nodiscard]] FrameSample every_nth_block(const FrameSample& sample, int n);
 
 }  // namespace frangia

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "frangia/decode/explain/internal/frame_design.h"
+#include "frangia/decode/explain/internal/frame_priors.h"
 #include "frangia/decode/explain/internal/score_frames.h"
 #include "frangia/diagnose/score.h"
 
@@ -16,10 +17,9 @@ namespace frangia {
 namespace {
 
 constexpr std::size_t kThreeSteps = 3;
+constexpr std::size_t kFourSteps = 4;  ///< whose single residual any movement resembles
 constexpr std::size_t kScoredSingles = 8;
 constexpr std::size_t kPairedSingles = 5;
-/// Logarithm of the least gain that is a fault of a single frame; less is flicker.
-constexpr double kStructuralGain = 0.1;
 
 /// Moments of the frames, relative to the scale of each pixel.
 struct FrameMoments {
@@ -101,29 +101,6 @@ bool sees_both_sides(const FrameSample& sample, const FrameHypothesis& declared)
   return std::abs(doubled.mean()) < kOneSided;
 }
 
-/// A quarter of the blocks of a sample.
-FrameSample thinned(const FrameSample& sample) {
-  constexpr int kEvery = 4;
-  std::vector<Eigen::Index> kept;
-  FrameSample out;
-  // By the order in which blocks occur: by their number, whole columns of blocks would be left out.
-  int rank = 0;
-  for (std::size_t i = 0; i < sample.blocks.size(); ++i) {
-    if (i > 0 && sample.blocks[i] != sample.blocks[i - 1]) ++rank;
-    if (rank % kEvery != 0) continue;
-    kept.push_back(static_cast<Eigen::Index>(i));
-    out.blocks.push_back(sample.blocks[i]);
-  }
-  out.counts = sample.counts(kept, Eigen::all);
-  out.slope_x = sample.slope_x(kept, Eigen::all);
-  out.slope_y = sample.slope_y(kept, Eigen::all);
-  out.x = sample.x(kept);
-  out.y = sample.y(kept);
-  out.scale_counts = sample.scale_counts(kept);
-  out.variance = sample.variance(kept);
-  return out;
-}
-
 /// The frames before which a path makes nearly all of its way: one, or none for a part that moves
 /// all the time.
 std::vector<std::size_t> jump_of(const std::vector<double>& path) {
@@ -156,7 +133,8 @@ FrameHypothesis moved_freely(const FrameHypothesis& steps, const Eigen::VectorXd
 /// those that predict the same.
 std::vector<FrameHypothesis> likeliest_of_each(const FrameSample& sample,
                                                std::vector<FrameHypothesis> all) {
-  const FrameSample some = thinned(sample);
+  constexpr int kEvery = 4;
+  const FrameSample some = every_nth_block(sample, kEvery);
   std::map<FrameCause, std::pair<double, FrameHypothesis>> best;
   for (std::size_t i = 0; i < all.size(); ++i) {
     const FrameHypothesis one = all[i];
@@ -191,8 +169,9 @@ std::vector<FrameHypothesis> likely_singles(const FrameSample& sample,
   for (FrameHypothesis& one : all) {
     if (one.cause == FrameCause::Gain && !fit_gain(moments, one.frames.front(), one)) continue;
     if (!one.path.empty() || one.has_free_steps || one.lamp_on) {
+      const std::size_t steps = declared.shifts_rad.size();
       const bool like_harmonic =
-          one.lamp_on ? declared.shifts_rad.size() <= kFewSteps : one.cause == FrameCause::Steps;
+          one.lamp_on ? steps <= kFewSteps : one.cause == FrameCause::Steps || steps <= kFourSteps;
       if (both_sides || !like_harmonic) others.push_back(std::move(one));
       continue;
     }

@@ -10,25 +10,15 @@
 
 #include "frangia/core/angles.h"
 #include "frangia/decode/explain/internal/frame_design.h"
+#include "frangia/decode/explain/internal/frame_priors.h"
 
 namespace frangia {
 namespace {
 
-/// Prior standard deviation of the gain of a frame, of lamp and exposure.
-constexpr double kPriorGain = 0.03;
-/// Prior standard deviation of harmonic n over that of the fringes: 0.35 for the second one is
-/// that of gamma 2.6; binary fringes have 1/n.
-double prior_harmonic(int order) {
-  return order == 2 ? 0.35 : 1.0 / order;
-}
 constexpr int kHighestHarmonic = 12;
-/// Prior standard deviations of a movement of the part in the image and of the phase by it, and of
-/// the steps of a projector that does not show the shifts of scan.toml.
+/// Prior standard deviations of a movement of the part in the image and of the phase by it.
 constexpr double kPriorMovement_px = 1.0;
 constexpr double kPriorMovement_rad = 0.5;
-constexpr double kPriorStep_rad = 0.15;
-/// Prior standard deviation of the light of another lamp over the counts of the brightest frame.
-constexpr double kPriorLamp = 0.3;
 /// Share and size, over the scale of a pixel, of what no model predicts: depth edges, highlights.
 constexpr double kOutliers = 0.02;
 constexpr double kOutlierSize = 0.4;

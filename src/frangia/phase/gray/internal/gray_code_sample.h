@@ -8,7 +8,6 @@
 
 #include "frangia/core/angles.h"
 #include "frangia/core/missing.h"
-#include "frangia/pattern/gray_code.h"
 #include "frangia/phase/gray/check_gray_code.h"
 #include "frangia/phase/gray/internal/gray_trials.h"
 #include "frangia/phase/internal/best_frequency.h"
@@ -188,22 +187,11 @@ class GrayCodeSample {
     }
     return true;
   }
-  [[nodiscard]] static std::uint32_t stripe_of_frames(const GrayTrial& trial,
-                                                      std::uint64_t frames) {
-    std::uint32_t code = 0;
-    for (int bit = 0; bit < trial.code.bits; ++bit) {
-      const auto declared = static_cast<std::size_t>(frame_of_bit(trial.code, bit, false));
-      const std::size_t frame = trial.frame_of[declared];
-      const bool bright = ((frames >> frame & 1U) != 0) != trial.inverted[frame];
-      code = 2 * code + (bright ? 1U : 0U);
-    }
-    return stripe_of_code(trial.code, code);
-  }
   [[nodiscard]] static std::uint32_t stripe_of(const GrayTrial& trial, const CodedPixel& pixel) {
-    const std::uint32_t shown = stripe_of_frames(trial, pixel.bright);
+    const std::uint32_t shown = shown_stripe(trial, pixel.bright);
     if (!trial.missing) return shown;
     const std::uint32_t other =
-        stripe_of_frames(trial, pixel.bright ^ std::uint64_t{1} << *trial.missing);
+        shown_stripe(trial, pixel.bright ^ std::uint64_t{1} << *trial.missing);
     return distance_rad(trial, pixel, other) < distance_rad(trial, pixel, shown) ? other : shown;
   }
   /// The distance of the measured phase from that of the middle of a stripe.

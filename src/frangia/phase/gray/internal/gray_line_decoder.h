@@ -27,9 +27,10 @@ struct Margin {
 
 /// The border of two neighbouring stripes on a line of pixels.
 struct StripeBorder {
-  double at = 0.0;        ///< pixels along the line
-  double column = 0.0;    ///< of the projector
-  double noise_px = 0.0;  ///< standard deviation of `at` by the camera's noise
+  std::size_t at_pixel = 0;  ///< the last pixel before it
+  double at = 0.0;           ///< pixels along the line
+  double column = 0.0;       ///< of the projector
+  double noise_px = 0.0;     ///< standard deviation of `at` by the camera's noise
   /// Step of the light between the two pixels over that between the stripes.
   double sharpness = 0.0;
   double width_px = 0.0;  ///< standard deviation of `at` by the unknown place between two pixels
@@ -38,12 +39,16 @@ struct StripeBorder {
 /// A border of which the pixel on either side is fully bright or dark.
 inline constexpr double kSharp = 0.9;
 
+/// Least standard deviation of a border's place by the shape of the pixels, whose light is not
+/// quite that of their width; tests/phase/decode_gray_alone_test.cpp measures it.
+inline constexpr double kPlace_px = 0.025;
+
 /// A column of the projector and its uncertainty, in projector pixels.
 struct Located {
   double column = 0.0;
   double noise = 0.0;
   double shared = 0.0;     ///< error that neighbouring pixels share
-  double curvature = 0.0;  ///< correction by the curvature
+  double curvature = 0.0;  ///< what a steady curvature and an edge between faces leave open
 };
 
 /// Decodes one line of pixels across the stripes.
@@ -88,13 +93,16 @@ class GrayLineDecoder {
   /// Sets the share of the pixels that do not integrate light over their width.
   void set_point_like(double share) { point_like_ = share; }
 
-  /// The sharpness of the borders on a line.
-  [[nodiscard]] std::vector<double> sharpness(int line, int count) {
+  /// Sets the standard deviation of a border's place by the shape of the pixels.
+  void set_place_px(double place_px) { place_px_ = place_px; }
+
+  /// The borders on a line.
+  [[nodiscard]] std::vector<StripeBorder> borders(int line, int count) {
     read(line, count);
     find_borders();
-    std::vector<double> found;
+    std::vector<StripeBorder> found;
     for (const auto& border : borders_)
-      if (border) found.push_back(border->sharpness);
+      if (border) found.push_back(*border);
     return found;
   }
 
@@ -116,7 +124,7 @@ class GrayLineDecoder {
       phase.sigma_rad(x, y) =
           static_cast<float>(rad_per_px * std::sqrt(found.noise * found.noise + half));
       phase.systematic_rad(x, y) =
-          static_cast<float>(rad_per_px * std::hypot(std::sqrt(half), 0.5 * found.curvature));
+          static_cast<float>(rad_per_px * std::hypot(std::sqrt(half), found.curvature));
     }
   }
 
@@ -186,48 +194,90 @@ class GrayLineDecoder {
     for (std::size_t i = 0; i + 1 < stripes_.size(); ++i) {
       if (stripes_[i] < 0 || stripes_[i + 1] < 0 || std::abs(stripes_[i] - stripes_[i + 1]) != 1)
         continue;
-      const auto change = code_of_stripe(code_, static_cast<std::uint32_t>(stripes_[i])) ^
-                          code_of_stripe(code_, static_cast<std::uint32_t>(stripes_[i + 1]));
-      // Of a binary code several bits change, and always the last one.
-      const std::size_t bit = bits_ - 1 - static_cast<std::size_t>(std::countr_zero(change));
-      const auto at = [&](std::size_t pixel) -> const Margin& {
-        return margins_[pixel * bits_ + bit];
-      };
-      const double step = std::abs(at(i).counts - at(i + 1).counts);
-      const double share = std::abs(at(i).counts) / step;
-      // The light of the stripes themselves, a little farther from the border.
-      constexpr std::size_t kBeside = 2;
-      double before = 0.0;
-      double after = 0.0;
-      for (std::size_t k = 0; k <= kBeside; ++k) {
-        if (i >= k && stripes_[i - k] == stripes_[i])
-          before = std::max(before, std::abs(at(i - k).counts));
-        if (i + 1 + k < stripes_.size() && stripes_[i + 1 + k] == stripes_[i + 1])
-          after = std::max(after, std::abs(at(i + 1 + k).counts));
-      }
-      const double sharpness = std::min(step / (before + after), 1.0);
-      borders_[i] = StripeBorder{
-          static_cast<double>(i) + share,
-          static_cast<double>(std::max(stripes_[i], stripes_[i + 1])) * code_.stripe_px - 0.5 -
-              code_.offset_px,
-          std::hypot((1.0 - share) * at(i).sigma, share * at(i + 1).sigma) / step,
-          sharpness,
-          place_sigma_px(sharpness)};
+      borders_[i] = border_after(i);
     }
   }
 
-  /// Standard deviation of a border's place between two pixels.
+  /// The border between pixel `i` and the next one, whose stripes are neighbours.
+  [[nodiscard]] StripeBorder border_after(std::size_t i) const {
+    const auto change = code_of_stripe(code_, static_cast<std::uint32_t>(stripes_[i])) ^
+                        code_of_stripe(code_, static_cast<std::uint32_t>(stripes_[i + 1]));
+    // Of a binary code several bits change; the first of them has the widest stripes.
+    const std::size_t bit = bits_ - static_cast<std::size_t>(std::bit_width(change));
+    const auto at = [&](std::size_t pixel) -> const Margin& {
+      return margins_[pixel * bits_ + bit];
+    };
+    const double step = std::abs(at(i).counts - at(i + 1).counts);
+    // The light of the stripes themselves, a little farther from the border.
+    constexpr std::size_t kBeside = 2;
+    double before = 0.0;
+    double after = 0.0;
+    for (std::size_t k = 0; k <= kBeside; ++k) {
+      if (i >= k && stripes_[i - k] == stripes_[i])
+        before = std::max(before, std::abs(at(i - k).counts));
+      if (i + 1 + k < stripes_.size() && stripes_[i + 1 + k] == stripes_[i + 1])
+        after = std::max(after, std::abs(at(i + 1 + k).counts));
+    }
+    StripeBorder out;
+    out.at_pixel = i;
+    out.column = static_cast<double>(std::max(stripes_[i], stripes_[i + 1])) * code_.stripe_px -
+                 0.5 - code_.offset_px;
+    out.sharpness = std::min(step / (before + after), 1.0);
+    if (place_by_light(i, bit, out)) return out;
+    const double share = std::abs(at(i).counts) / step;
+    out.at = static_cast<double>(i) + share;
+    out.noise_px = std::hypot((1.0 - share) * at(i).sigma, share * at(i + 1).sigma) / step;
+    // Linear interpolation between the two pixels is wrong by up to 0.086 px.
+    out.width_px =
+        place_sigma_px(out.sharpness, std::hypot(place_px_, 0.13 * out.sharpness * out.sharpness));
+    return out;
+  }
+
+  /// Places a border by the light of the pixels around it: each integrates light over its width and
+  /// has a share of the stripe before the border, and the shares sum up to its place whatever the
+  /// blur. False where the blur is wider than these pixels.
   ///
-  /// Where pixels integrate over their width, the border's own pixel has partial light, and linear
-  /// interpolation is wrong by up to 0.086 px; with the borders' other errors, 0.13 px of a sharp
-  /// one is measured by tests/phase/decode_gray_alone_test.cpp. Where they do not, both pixels are
-  /// fully bright or dark, and the border lies anywhere between them.
-  [[nodiscard]] double place_sigma_px(double sharpness) const {
+  /// @source   Tabatabai and Mitchell 1984, edges that preserve moments
+  bool place_by_light(std::size_t i, std::size_t bit, StripeBorder& out) const {
+    constexpr std::ptrdiff_t kBeside = 1;  // pixels beyond the two at the border
+    constexpr double kFull = 0.85;         // of the contrast, where the blur ends
+    const double sign = margins_[i * bits_ + bit].counts > 0.0 ? 1.0 : -1.0;
+    double place = static_cast<double>(i) - kBeside - 0.5;
+    double variance = 0.0;
+    for (std::ptrdiff_t d = -kBeside; d <= 1 + kBeside; ++d) {
+      const bool is_before = d <= 0;
+      const std::ptrdiff_t k = static_cast<std::ptrdiff_t>(i) + d;
+      const auto stripe = stripes_[i + (is_before ? 0 : 1)];
+      const bool is_beside = k >= 0 && k < std::ssize(stripes_) &&
+                             stripes_[static_cast<std::size_t>(k)] >= 0 &&
+                             std::abs(stripes_[static_cast<std::size_t>(k)] - stripe) <= 1;
+      if (!is_beside) {  // another surface, or none
+        place += is_before ? 1.0 : 0.0;
+        continue;
+      }
+      const auto pixel = static_cast<std::size_t>(k) * bits_;
+      double contrast = 0.0;
+      for (std::size_t one = 0; one < bits_; ++one)
+        contrast = std::max(contrast, std::abs(margins_[pixel + one].counts));
+      const Margin& found = margins_[pixel + bit];
+      const double share = 0.5 * (1.0 + sign * found.counts / contrast);
+      if ((d == -kBeside || d == 1 + kBeside) && std::abs(found.counts) < kFull * contrast)
+        return false;
+      place += share;
+      variance += std::pow(0.5 * found.sigma / contrast, 2);
+    }
+    out.at = std::clamp(place, static_cast<double>(i), static_cast<double>(i + 1));
+    out.noise_px = std::sqrt(variance);
+    out.width_px = place_sigma_px(out.sharpness, place_px_);
+    return true;
+  }
+
+  /// Standard deviation of a border's place between two pixels, `exact_px` where these integrate
+  /// light over their width. Otherwise it lies anywhere between two that differ by the contrast.
+  [[nodiscard]] double place_sigma_px(double sharpness, double exact_px) const {
     constexpr double kUniform_px2 = 1.0 / 12.0;
-    const double interpolated_px = 0.13 * sharpness * sharpness;
-    if (sharpness < kSharp) return interpolated_px;
-    return std::sqrt(point_like_ * kUniform_px2 +
-                     (1.0 - point_like_) * interpolated_px * interpolated_px);
+    if (sharpness < kSharp) return exact_px;
+    return std::sqrt(point_like_ * kUniform_px2 + (1.0 - point_like_) * exact_px * exact_px);
   }
 
   /// The border before (-1) or after (+1) the stripe that holds pixel `i`; none at the end of the
@@ -244,27 +294,42 @@ class GrayLineDecoder {
     }
   }
 
-  /// Second derivative of the column through the borders of a stripe and the next ones.
-  [[nodiscard]] double second_derivative(const StripeBorder& left,
-                                         const StripeBorder& right) const {
-    const auto slope = [](const StripeBorder& a, const StripeBorder& b) {
-      return (b.column - a.column) / (b.at - a.at);
-    };
-    double sum = 0.0;
-    int count = 0;
-    const auto first = static_cast<std::size_t>(left.at);
-    const auto last = static_cast<std::size_t>(right.at) + 1;
-    if (const StripeBorder* before = border(first, -1);
-        before != nullptr && before->column != left.column) {
-      sum += 2.0 * (slope(left, right) - slope(*before, left)) / (right.at - before->at);
-      ++count;
+  /// The rate of columns over pixels from one border to another.
+  [[nodiscard]] static double rate_between(const StripeBorder& a, const StripeBorder& b) {
+    return (b.column - a.column) / (b.at - a.at);
+  }
+
+  /// How far the column within a stripe may be from the straight line between its borders.
+  struct Bend {
+    double smooth = 0.0;  ///< of a surface that curves steadily through the next borders
+    double crease = 0.0;  ///< where the rates of both next stripes continue to an edge between them
+  };
+
+  [[nodiscard]] Bend bend_at(const StripeBorder& left, const StripeBorder& right, double t) const {
+    const double rate = rate_between(left, right);
+    const double length = right.at - left.at;
+    std::optional<double> from_left;
+    std::optional<double> from_right;
+    double second = 0.0;
+    const StripeBorder* before = border(left.at_pixel, -1);
+    if (before != nullptr && before->column != left.column) {
+      const double change = rate - rate_between(*before, left);
+      second += 2.0 * change / (right.at - before->at);
+      from_left = -change * t * length;
     }
-    if (const StripeBorder* after = border(last, 1);
-        after != nullptr && after->column != right.column) {
-      sum += 2.0 * (slope(right, *after) - slope(left, right)) / (after->at - left.at);
-      ++count;
+    const StripeBorder* after = border(right.at_pixel + 1, 1);
+    if (after != nullptr && after->column != right.column) {
+      const double change = rate_between(right, *after) - rate;
+      second += 2.0 * change / (after->at - left.at);
+      from_right = -change * (1.0 - t) * length;
     }
-    return count == 0 ? 0.0 : sum / count;
+    if (from_left && from_right) second *= 0.5;
+    Bend out{-0.5 * second * t * (1.0 - t) * length * length, 0.0};
+    if (from_left && from_right)
+      out.crease = std::abs(*from_left) < std::abs(*from_right) ? *from_left : *from_right;
+    else if (from_left.has_value() != from_right.has_value())
+      out.crease = from_left ? (1.0 - t) * *from_left : t * *from_right;
+    return out;
   }
 
   /// The column in a stripe with one border, at the end of the measured pixels, with the rate of
@@ -274,7 +339,7 @@ class GrayLineDecoder {
                                                    const StripeBorder& near,
                                                    bool is_left) const {
     constexpr double kRateError = 0.2;  // of two neighbouring stripes, relative
-    const auto beyond = static_cast<std::size_t>(near.at) + (is_left ? 0U : 1U);
+    const auto beyond = near.at_pixel + (is_left ? 0U : 1U);
     const StripeBorder* far = border(beyond, is_left ? -1 : 1);
     if (far == nullptr || far->column == near.column) return std::nullopt;
     const double rate = (near.column - far->column) / (near.at - far->at);
@@ -306,13 +371,14 @@ class GrayLineDecoder {
     const auto mix = [&](double a, double b) {
       return std::abs(rate) * std::hypot((1.0 - t) * a, t * b);
     };
-    const double bend = -0.5 * second_derivative(*left, *right) * t * (1.0 - t) * length * length;
+    const Bend bend = bend_at(*left, *right, t);
     const double most = 0.25 * code_.stripe_px;  // a larger one is an error of the borders
-    const double correction = std::clamp(bend, -most, most);
+    const double correction = std::clamp(bend.smooth, -most, most);
+    const double otherwise = std::clamp(bend.crease, -2.0 * most, 2.0 * most);
     return {left->column + t * (right->column - left->column) + correction,
             mix(left->noise_px, right->noise_px),
             mix(left->width_px, right->width_px),
-            correction};
+            0.5 * std::hypot(correction, otherwise - correction)};
   }
 
   std::span<const FrameStack> gray_;
@@ -324,6 +390,7 @@ class GrayLineDecoder {
   std::size_t bits_;
   bool rows_;  ///< lines are image rows
   double point_like_ = 0.0;
+  double place_px_ = kPlace_px;
   std::vector<Margin> margins_;
   std::vector<std::int64_t> stripes_;
   std::vector<PixelStatus> status_;

@@ -8,15 +8,16 @@
 #include <fmt/format.h>
 
 #include "frangia/core/angles.h"
+#include "frangia/pattern/gray_code.h"
 
 namespace frangia {
 namespace {
 
-void add_code_trials(const Pattern& code, const Pattern& fringes, std::vector<GrayTrial>& out) {
+void add_code_trials(const Pattern& code, std::vector<GrayTrial>& out) {
   for (const bool other_order : {false, true}) {
     for (const bool other_code : {false, true}) {
       if (!other_order && !other_code) continue;
-      GrayTrial trial = declared_trial(code, fringes);
+      GrayTrial trial = declared_trial(code);
       std::vector<std::string> keys;
       if (other_order) {
         const bool msb = code.order == BitOrder::MostSignificantFirst;
@@ -35,7 +36,7 @@ void add_code_trials(const Pattern& code, const Pattern& fringes, std::vector<Gr
   }
   if (code.inverted == InvertedFrames::None) return;
   const bool after = code.inverted == InvertedFrames::After;
-  GrayTrial trial = declared_trial(code, fringes);
+  GrayTrial trial = declared_trial(code);
   trial.code.inverted = after ? InvertedFrames::Alternating : InvertedFrames::After;
   trial.fault.kind = SequenceFaultKind::Order;
   trial.fault.what = after ? "inverted frames that alternate" : "inverted frames after the others";
@@ -43,8 +44,8 @@ void add_code_trials(const Pattern& code, const Pattern& fringes, std::vector<Gr
   out.push_back(std::move(trial));
 }
 
-void add_frame_trials(const Pattern& code, const Pattern& fringes, std::vector<GrayTrial>& out) {
-  const GrayTrial declared = declared_trial(code, fringes);
+void add_frame_trials(const Pattern& code, std::vector<GrayTrial>& out) {
+  const GrayTrial declared = declared_trial(code);
   const std::size_t frames = declared.frame_of.size();
   for (std::size_t a = 0; a < frames; ++a) {
     for (std::size_t b = a + 1; b < frames; ++b) {
@@ -96,9 +97,8 @@ void add_fringe_trials(const Pattern& code, const Pattern& fringes, std::vector<
 
 }  // namespace
 
-GrayTrial declared_trial(const Pattern& code, const Pattern& fringes) {
+GrayTrial declared_trial(const Pattern& code) {
   GrayTrial trial;
-  trial.period_px = fringes.period_px;
   trial.fault.patterns = {code.name};
   trial.code = code;
   trial.frame_of.resize(static_cast<std::size_t>(code.frame_count()));
@@ -107,12 +107,36 @@ GrayTrial declared_trial(const Pattern& code, const Pattern& fringes) {
   return trial;
 }
 
-std::vector<GrayTrial> gray_trials(const Pattern& code, const Pattern& fringes) {
+GrayTrial declared_trial(const Pattern& code, const Pattern& fringes) {
+  GrayTrial trial = declared_trial(code);
+  trial.period_px = fringes.period_px;
+  return trial;
+}
+
+std::vector<GrayTrial> code_trials(const Pattern& code) {
   std::vector<GrayTrial> trials;
-  add_code_trials(code, fringes, trials);
-  add_frame_trials(code, fringes, trials);
+  add_code_trials(code, trials);
+  add_frame_trials(code, trials);
+  return trials;
+}
+
+std::vector<GrayTrial> gray_trials(const Pattern& code, const Pattern& fringes) {
+  std::vector<GrayTrial> trials = code_trials(code);
+  for (GrayTrial& trial : trials)
+    trial.period_px = fringes.period_px;
   add_fringe_trials(code, fringes, trials);
   return trials;
+}
+
+std::uint32_t shown_stripe(const GrayTrial& trial, std::uint64_t bright) {
+  std::uint32_t code = 0;
+  for (int bit = 0; bit < trial.code.bits; ++bit) {
+    const auto declared = static_cast<std::size_t>(frame_of_bit(trial.code, bit, false));
+    const std::size_t frame = trial.frame_of[declared];
+    const bool is_bright = ((bright >> frame & 1U) != 0) != trial.inverted[frame];
+    code = 2 * code + (is_bright ? 1U : 0U);
+  }
+  return stripe_of_code(trial.code, code);
 }
 
 }  // namespace frangia

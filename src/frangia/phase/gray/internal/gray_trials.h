@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -22,10 +23,16 @@ struct GrayTrial {
   double period_px = 0.0;  ///< of the fringes
 };
 
-/// The supposition that code and fringes are as declared.
+/// The supposition that the code is as declared, without fringes or beside them.
+[[nodiscard]] GrayTrial declared_trial(const Pattern& code);
 [[nodiscard]] GrayTrial declared_trial(const Pattern& code, const Pattern& fringes);
 
-/// Suppositions about the order of bits and frames, inversions, the code, and the fringes.
+/// Suppositions about the order of bits and frames, inversions and the code.
+[[nodiscard]] std::vector<GrayTrial> code_trials(const Pattern& code);
+/// The same beside fringes, and suppositions about these.
 [[nodiscard]] std::vector<GrayTrial> gray_trials(const Pattern& code, const Pattern& fringes);
+
+/// The stripe that a pixel is in, if the recorded frames with a bit in `bright` are bright there.
+[[nodiscard]] std::uint32_t shown_stripe(const GrayTrial& trial, std::uint64_t bright);
 
 }  // namespace frangia

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <complex>
 #include <limits>
+#include <numeric>
 #include <utility>
 
 #include "frangia/core/angles.h"
@@ -310,11 +311,37 @@ std::vector<double> SequenceSample::places_by(std::span<const std::size_t> maps)
   return places;
 }
 
+std::vector<double> SequenceSample::places_by_coarser(std::size_t map) const {
+  std::vector<std::size_t> coarser(map);
+  std::iota(coarser.begin(), coarser.end(), std::size_t{0});
+  return places_by(coarser);
+}
+
+std::optional<PredictedFrames> SequenceSample::predicted(std::size_t map) const {
+  const std::vector<double> places = places_by_coarser(map);
+  if (places.empty()) return {};
+  const double per_unit = patterns_[map].fringes_per_unit();
+  const std::vector<Frame>& frames = frames_[map];
+  const auto pixels = std::ssize(places);
+  PredictedFrames out{Eigen::ArrayXXd(pixels, std::ssize(frames)),
+                      Eigen::ArrayXd::Zero(pixels),
+                      Eigen::ArrayXd(pixels),
+                      Eigen::ArrayXd(pixels)};
+  for (Eigen::Index i = 0; i < pixels; ++i) {
+    const auto at = static_cast<std::size_t>(i);
+    for (std::size_t k = 0; k < frames.size(); ++k)
+      out.counts(i, static_cast<Eigen::Index>(k)) = counts_of(frames[k], compared_[at]);
+    for (std::size_t m = 0; m < map; ++m)
+      out.mean(i) += static_cast<double>(maps_[m].mean_counts.pixels()[compared_[at]]) /
+                     static_cast<double>(map);
+    out.modulation(i) = maps_[map - 1].modulation_counts.pixels()[compared_[at]];
+    out.phase_rad(i) = wrap_rad(kTwoPi * per_unit * places[at]);
+  }
+  return out;
+}
+
 double SequenceSample::ripple(std::size_t map) const {
-  std::vector<std::size_t> coarser;
-  for (std::size_t m = 0; m < map; ++m)
-    coarser.push_back(m);
-  const std::vector<double> places = places_by(coarser);
+  const std::vector<double> places = places_by_coarser(map);
   if (places.empty()) return 0.0;
   const double per_unit = patterns_[map].fringes_per_unit();
   std::vector<float> shown;

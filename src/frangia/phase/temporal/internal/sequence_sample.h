@@ -1,11 +1,13 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "frangia/phase/temporal/check_sequence.h"
 #include "frangia/phase/temporal/internal/sequence_trials.h"
+#include "frangia/phase/temporal/predict_frames.h"
 #include "frangia/phase/wrap/phase_map.h"
 
 namespace frangia {
@@ -47,6 +49,9 @@ class SequenceSample {
   /// The phase error of a map that repeats with its own phase, RMS, by the coarser maps; 0 where
   /// these do not determine the place in the field, or nothing repeats.
   [[nodiscard]] double ripple(std::size_t map) const;
+  /// The frames of a map beside what the coarser maps say of their pixels; nothing where these do
+  /// not determine the place in the field.
+  [[nodiscard]] std::optional<PredictedFrames> predicted(std::size_t map) const;
   /// The number of fringes per unit that the frames of a map show if the other maps are right; 0
   /// if no number fits. Where the other maps do not determine the place in the field, their slopes
   /// do.
@@ -71,6 +76,8 @@ class SequenceSample {
   [[nodiscard]] bool is_measured(std::size_t pixel) const;  ///< in all maps
   /// The places of all pixels in the field by some of the maps; empty if these do not determine it.
   [[nodiscard]] std::vector<double> places_by(std::span<const std::size_t> maps) const;
+  /// The places by the maps that are coarser than one.
+  [[nodiscard]] std::vector<double> places_by_coarser(std::size_t map) const;
   void choose_pixels(const SequenceCheckOptions& options);
 
   const Projector& projector_;
