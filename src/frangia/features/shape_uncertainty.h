@@ -13,6 +13,10 @@ namespace frangia {
 
 /// Expanded uncertainty of the size of a fitted shape: the diameter, or the offset of a plane.
 struct ShapeUncertainty {
+  /// Whether the points state a sigma. The residuals of a mesh without one, such as that of another
+  /// program, show its noise alone, and those of a model nothing: all other members are then
+  /// missing.
+  bool is_known = true;
   double u95_mm = kMissing;         ///< half the width of the 95 % interval
   double noise_mm = kMissing;       ///< standard uncertainty by noise, form and edges
   double systematic_mm = kMissing;  ///< standard uncertainty by the systematic part of sigma
