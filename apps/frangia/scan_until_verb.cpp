@@ -65,7 +65,7 @@ void print_rounds(const ScanUntil& done, const Scan& plan, double share, Termina
                                                  row.u95,
                                                  row.unit,
                                                  share * row.half_width)
-                                   : fmt::format("{}: was not found\n", row.name);
+                                   : fmt::format("{}: was not measured\n", row.name);
   }
   write_output(text + with_flags(text_of(done.stop)) + "\n");
   terminal.print_written(plan.folder.string());

@@ -47,4 +47,9 @@ struct ShapeUncertainty {
                                                  std::span<const std::uint32_t> chosen,
                                                  const ShapeFit& fit);
 
+/// The uncertainty of a fit where the points state their noise, and one that is not known where
+/// they do not: what their residuals show is not all of it.
+[[nodiscard]] ShapeUncertainty known_uncertainty(const FeaturePoints& points,
+                                                 ShapeUncertainty of_residuals);
+
 }  // namespace frangia

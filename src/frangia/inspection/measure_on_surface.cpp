@@ -108,7 +108,8 @@ class OnSurface {
       measure_profile(planned, row);
     }
     if (!std::isfinite(row.value))
-      run_.warn(fmt::format("{}: nothing was measured there; its value is missing", planned.name));
+      run_.warn(fmt::format("{}: nothing was measured well enough there; its value is missing",
+                            planned.name));
   }
 
  private:

@@ -14,7 +14,7 @@ namespace {
 
 VerdictClause clause_of_worst(const MeasuredCharacteristic& worst) {
   if (!std::isfinite(worst.value))
-    return {"not_found", {{"name", worst.name}}, fmt::format("{} was not found", worst.name)};
+    return {"not_found", {{"name", worst.name}}, fmt::format("{} was not measured", worst.name)};
   std::string text = fmt::format("the worst is {}: {:.4f} {}", worst.name, worst.value, worst.unit);
   if (std::isfinite(worst.u95)) text += fmt::format(", U95 {:.4f}", worst.u95);
   return {"worst",

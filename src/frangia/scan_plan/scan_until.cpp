@@ -30,9 +30,10 @@ void add_round(Scan& plan, const std::vector<ScanView>& first, std::size_t round
 std::optional<ScanStop> stop_after(const std::vector<ScanRound>& rounds, Conformity verdict) {
   const ScanReach& last = rounds.back().reach;
   if (verdict != Conformity::Undecided || last.need == ScanNeed::Nothing) return ScanStop::Decided;
+  // Also what is alike in all stations may shrink: more of them overlap, which determines the axis
+  // of the turntable.
+  if (rounds.size() < 2 || decides_more(last, rounds[rounds.size() - 2].reach)) return std::nullopt;
   if (last.need == ScanNeed::Calibration) return ScanStop::Rig;
-  if (rounds.size() < 2) return std::nullopt;
-  if (decides_more(last, rounds[rounds.size() - 2].reach)) return std::nullopt;
   return last.need == ScanNeed::Coverage ? ScanStop::NotSeen : ScanStop::NotHelped;
 }
 

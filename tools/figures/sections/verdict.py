@@ -114,7 +114,8 @@ def measure_reconstructed(study, part, seed):
     """The verdict of a part that was scanned in its setups, or with its base excluded, at each tolerance."""
     how = RECONSTRUCTED[part]
     scan = study.digital(part, study.half_rig, *how.options.split(), "--seed", seed)
-    mesh, plan = study.reconstructed(scan)[0], study.work / "inspection.toml"
+    mesh, plan = study.work / "mesh.ply", study.work / "inspection.toml"
+    study.run("reconstruct", scan, "-o", mesh, allowed=(0, 4))  # a setup that does not join is left out
     boxes = {}
     if how.base_mm:
         boxes["base"] = [-1000, -1000, -1], [1000, 1000, how.base_mm]
@@ -198,7 +199,8 @@ def report(text, results):
     text.add(
         "\nParts scanned with half the pixels of the digital rig (`simulate PART`), four rays a pixel, 8 views a setup, reconstructed and compared "
         f"with the true surface: {options}; the others in one setup. Excluded are the base of those that stand on it, the end that the shaft is "
-        "clamped by, the root of the blade, whose serrations have radii below the distance of the points, and the bore of the gear. Strips along "
+        "clamped by, the root of the blade, whose serrations have radii below the distance of the points, and the bore of the gear. Of the "
+        "ball bar the setup that lies is left out with a warning: nothing joins it. Strips along "
         "edges are not judged. T is that many times the median U95 of a vertex. In brackets the share of the area that is decided, at the first "
         "seed.\n"
     )

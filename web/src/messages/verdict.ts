@@ -102,5 +102,5 @@ export const VERDICT = {
     'am schlechtesten ist {name} mit {value} {unit}, U95 {u95} {unit}',
     'la peggiore è {name} con {value} {unit}, U95 {u95} {unit}',
   ],
-  'clause.not_found': ['{name} was not found', '{name} wurde nicht gefunden', '{name} non è stata trovata'],
+  'clause.not_found': ['{name} was not measured', '{name} wurde nicht gemessen', '{name} non è stata misurata'],
 } as const satisfies Rows;
