@@ -142,9 +142,6 @@ std::string deviation_text(const SurfaceInspection& surface) {
                       signed_text(limits.lower, 4),
                       signed_text(limits.upper, 4),
                       sentence_of(verdict));
-  if (surface.deviations.u_mm.empty()) {
-    text += "the mesh has no sigma: its uncertainty is not known, and the limits alone decide\n";
-  }
   const bool has_means = std::isfinite(verdict.lowest.deviation_mm);
   text +=
       fmt::format("means over patches of {:.3g} mm: {}; single vertices: {} at {} to {} at {}\n",
@@ -241,7 +238,13 @@ std::string inspection_text(const Inspection& part, bool features) {
   if (part.alignment) text += alignment_text(*part.alignment);
   text += datum_text(part.datums);
   text += points_text(part.points_mm);
-  if (features) text += feature_table(part.features, part.nominals);
+  if (features) {
+    text += feature_table(part.features, part.nominals);
+    const bool unknown = std::any_of(part.features.begin(),
+                                     part.features.end(),
+                                     [](const auto& one) { return !one.uncertainty.is_known; });
+    if (unknown) text += "the mesh states no sigma: the U95 of its features is not known\n";
+  }
   if (part.statistics) text += statistics_text(*part.statistics);
   if (part.surface) text += deviation_text(*part.surface);
   if (part.surface && part.tolerance_is_default) text += with_flags(kDefaultTolerance);

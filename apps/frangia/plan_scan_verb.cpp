@@ -163,9 +163,9 @@ void draw_map(const PlanScanArguments& arguments, const ScanPlan& plan, const Ru
   const double half_mm = 0.5 * (rule.limits.upper - rule.limits.lower);
   RenderOptions options;
   options.values = plan.map.u95_mm;
-  options.value_max = static_cast<float>(2.0 * rule.max_uncertainty_share * half_mm);
+  options.value_max = static_cast<float>(2.0 * rule.well_measured_share() * half_mm);
   options.value_label = "predicted U95, mm";
-  options.value_limits = {rule.max_uncertainty_share * half_mm};
+  options.value_limits = {rule.well_measured_share() * half_mm};
   options.azimuth_rad = rad_from_deg(arguments.from_deg[0]);
   options.elevation_rad = rad_from_deg(arguments.from_deg[1]);
   run.stage("picture");

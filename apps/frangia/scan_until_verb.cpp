@@ -1,5 +1,8 @@
 #include "scan_until_verb.h"
 
+#include <cmath>
+#include <vector>
+
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -16,8 +19,18 @@
 namespace frangia {
 namespace {
 
-void print_rounds(const ScanUntil& done, const Scan& plan, Terminal& terminal) {
+/// The characteristics that are not certain enough for their tolerance.
+std::vector<DecidableCharacteristic> uncertain_ones(const ScanUntil& done, double share) {
+  std::vector<DecidableCharacteristic> rows = decidable_characteristics(done.found, share);
+  std::erase_if(rows, [](const DecidableCharacteristic& row) { return row.is_decidable; });
+  return rows;
+}
+
+void print_rounds(const ScanUntil& done, const Scan& plan, double share, Terminal& terminal) {
   terminal.finish();
+  const std::vector<DecidableCharacteristic> uncertain =
+      done.stop == ScanStop::Decided ? std::vector<DecidableCharacteristic>{}
+                                     : uncertain_ones(done, share);
   if (terminal.json) {
     nlohmann::ordered_json rounds = nlohmann::ordered_json::array();
     for (const ScanRound& round : done.rounds) {
@@ -26,10 +39,14 @@ void print_rounds(const ScanUntil& done, const Scan& plan, Terminal& terminal) {
                         {"decidable_share", round.reach.decidable_share},
                         {"decidable", round.reach.decidable}});
     }
+    nlohmann::ordered_json names = nlohmann::ordered_json::array();
+    for (const DecidableCharacteristic& row : uncertain)
+      names.push_back(row.name);
     print_json({{"scan", plan.folder.string()},
                 {"verdict", name_of(done.found.verdict)},
                 {"stop", with_flags(text_of(done.stop))},
                 {"rounds", rounds},
+                {"uncertain", names},
                 {"warnings", terminal.warnings()}});
     return;
   }
@@ -42,6 +59,14 @@ void print_rounds(const ScanUntil& done, const Scan& plan, Terminal& terminal) {
   }
   for (const VerdictReason& reason : done.found.reasons)
     text += reason.text() + "\n";
+  for (const DecidableCharacteristic& row : uncertain) {
+    text += std::isfinite(row.u95) ? fmt::format("{}: U95 {:.4f} {}, wanted is {:.4f} at most\n",
+                                                 row.name,
+                                                 row.u95,
+                                                 row.unit,
+                                                 share * row.half_width)
+                                   : fmt::format("{}: was not measured\n", row.name);
+  }
   write_output(text + with_flags(text_of(done.stop)) + "\n");
   terminal.print_written(plan.folder.string());
 }
@@ -63,15 +88,16 @@ void scan_until_decided(const Scan& plan,
   }
   const InspectionReference reference =
       read_inspection_reference(inspection.reference, {.unit_mm = inspection.unit_mm}, run);
-  const auto capture = [&](const Scan& round, int setup) {
-    CaptureOptions own = options;
-    own.setup = setup;
+  const auto capture = [&](const Scan& round) {
     run.stage("scan");
-    const CaptureReport report = capture_scan(plan_setup(round, setup), devices, lock, own, run);
+    const CaptureReport report = capture_scan(plan_setup(round, 0), devices, lock, options, run);
     if (!report.skipped.empty()) terminal.exit_code = DeviceFault;
     return read_scan(plan.folder, run);
   };
-  print_rounds(scan_until(plan, capture, reference, inspection, 4, run), plan, terminal);
+  print_rounds(scan_until(plan, capture, reference, inspection, 4, run),
+               plan,
+               inspection.surface.well_measured_share(),
+               terminal);
 }
 
 }  // namespace frangia

@@ -1,5 +1,6 @@
 #include "frangia/acquisition/plan_setup.h"
 
+#include "frangia/core/angles.h"
 #include "frangia/reconstruct/reconstruct.h"
 
 #include "support/error_of.h"
@@ -51,6 +52,32 @@ TEST_F(PlanSetup, AppendsViewsToACompleteScanAndKeepsItsFrames) {
   views(2);
   EXPECT_EQ(capture_setup(0).captured, 0U);
   EXPECT_EQ(read_scan(plan_.folder).views.size(), 5U);
+}
+
+TEST_F(PlanSetup, AddsViewsToASetup) {
+  views(2);
+  static_cast<void>(capture_setup(0));
+  const auto before = images();
+  // Stations between those of the first session, in the same setup.
+  views(2);
+  plan_.views.push_back({kPi / 2, "views/002"});
+  plan_.views.push_back({3 * kPi / 2, "views/003"});
+  EXPECT_EQ(capture_setup(0).captured, 10U);
+  const Scan scan = read_scan(plan_.folder);
+  ASSERT_EQ(scan.views.size(), 4U);
+  for (const ScanView& view : scan.views)
+    EXPECT_EQ(view.setup, 0);
+  EXPECT_NEAR(scan.views[2].angle_rad, kPi / 2, 1e-9);
+  const auto after = images();
+  for (const auto& [name, bytes] : before)
+    EXPECT_TRUE(after.at(name) == bytes) << name;
+  // The plan of the first session still finds all of them, and a further setup follows.
+  views(2);
+  EXPECT_EQ(capture_setup(0).captured, 0U);
+  EXPECT_EQ(read_scan(plan_.folder).views.size(), 4U);
+  views(2);
+  EXPECT_EQ(capture_setup(1).captured, 10U);
+  EXPECT_EQ(read_scan(plan_.folder).views.back().folder, "views/005");
 }
 
 TEST_F(PlanSetup, InterruptedGoesOnToTheSameBytesAndLeavesTheFirstSetupUsable) {

@@ -35,7 +35,9 @@ class InspectProgram : public ::testing::Test {
 };
 
 TEST_F(InspectProgram, StatesTheFieldsOfEachFeature) {
-  write_mesh(at("ball.ply"), testing::sphere({1, 2, 3}, 20.0));
+  Mesh mesh = testing::sphere({1, 2, 3}, 20.0);
+  mesh.sigma_mm.assign(mesh.vertices_mm.size(), 0.001F);
+  write_mesh(at("ball.ply"), mesh);
   const Answer answer = run_program("--json inspect " + at("ball.ply") + " --features");
   ASSERT_EQ(answer.exit_code, 0) << answer.output;
   const auto features = nlohmann::json::parse(answer.output).at("features");
@@ -47,8 +49,18 @@ TEST_F(InspectProgram, StatesTheFieldsOfEachFeature) {
   EXPECT_NEAR(ball.at("center_mm")[2].get<double>(), 3.0, 0.01);
   EXPECT_TRUE(ball.at("axis").is_null());
   EXPECT_GT(ball.at("points").get<int>(), 1000);
-  EXPECT_GE(ball.at("u95_mm").get<double>(), 0.0);
+  EXPECT_GT(ball.at("u95_mm").get<double>(), 0.0);
   EXPECT_GE(ball.at("form_mm").get<double>(), 0.0);
+}
+
+/// The mesh of another program, or a model.
+TEST_F(InspectProgram, StatesNoUncertaintyOfAMeshWithoutSigma) {
+  write_mesh(at("ball.stl"), testing::sphere({1, 2, 3}, 20.0));
+  const std::string inspect = "inspect " + at("ball.stl") + " --features";
+  const auto json = nlohmann::json::parse(run_program("--json " + inspect).output);
+  EXPECT_TRUE(json.at("features")[0].at("u95_mm").is_null());
+  EXPECT_TRUE(json.at("features")[0].at("form_mm").is_number());
+  EXPECT_NE(run_program(inspect).output.find("states no sigma"), std::string::npos);
 }
 
 TEST_F(InspectProgram, StatesAnErrorAsJsonToo) {

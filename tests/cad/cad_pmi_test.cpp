@@ -131,7 +131,7 @@ TEST(PlanFromPmi, LeavesOutWhatItCannotMeasureAndSaysWhy) {
                       {Kind::Diameter, "", 10.0, kMissing, kMissing, {2}, {}, {}},
                       {Kind::Diameter, "", 10.0, -0.1, 0.1, {1}, {}, {}},
                       {Kind::Flatness, "", 0.1, kMissing, kMissing, {3}, {}, {}},
-                      {Kind::SurfaceProfile, "", 0.1, kMissing, kMissing, {1}, {}, {}},
+                      {Kind::SurfaceProfile, "", 0.1, kMissing, kMissing, {3}, {}, {}},
                       {Kind::Distance, "", 10.0, -0.1, 0.1, {1}, {}, {}}};
   const auto refused =
       testing::error_of([&] { static_cast<void>(plan_from_pmi(faces, pmi, "part.stp")); });
@@ -148,7 +148,21 @@ TEST(PlanFromPmi, LeavesOutWhatItCannotMeasureAndSaysWhy) {
   EXPECT_EQ(found.left_out[2], "diameter of face 2: it has no tolerance");
   EXPECT_EQ(found.left_out[3], "diameter of face 1: its face is no cylinder or sphere");
   EXPECT_EQ(found.left_out[4], "flatness of face 3: the file names no flat or round face for it");
+  EXPECT_EQ(found.left_out[5].find("surface profile"), 0U) << found.left_out[5];
+  EXPECT_NE(found.left_out[5].find("face 3 is no plane"), std::string::npos);
   EXPECT_EQ(found.left_out[6], "distance of face 1: the file names no second face for it");
+}
+
+TEST(PlanFromPmi, TakesTheProfileOfASingleFace) {
+  const std::vector<CadFace> faces{face_of(ShapeKind::Plane), face_of(ShapeKind::Cylinder, 5.0)};
+  CadPmi pmi;
+  pmi.requirements = {{Kind::SurfaceProfile, "", 0.1, kMissing, kMissing, {2}, {}, {}}};
+  const PmiPlan found = plan_from_pmi(faces, pmi, "part.stp");
+  ASSERT_EQ(found.plan.characteristics.size(), 1U);
+  EXPECT_EQ(found.plan.characteristics[0].kind, Characteristic::SurfaceProfile);
+  EXPECT_EQ(found.plan.characteristics[0].feature, "face 2");
+  EXPECT_EQ(found.plan.characteristics[0].limit, 0.1);
+  EXPECT_FALSE(found.plan.tolerance_mm);
 }
 
 TEST(PlanFromPmi, SaysThatToleranceIsOnlyDrawn) {

@@ -22,6 +22,7 @@ FeaturePoints patch_of(const Place& place) {
       const auto [on, normal] = place(i / 40.0, j / 40.0);
       points.points_mm.push_back(on + ripple * normal);
       points.normals.push_back(normal);
+      points.noise_mm.push_back(0.01);
     }
   }
   return points;
@@ -48,6 +49,15 @@ TEST(FitPoints, FindsACylinderOnAQuarterOfIt) {
   EXPECT_NEAR(std::abs(found.fit.shape.axis.dot(axis)), 1.0, 1e-6);
   EXPECT_NEAR(found.fit.rms_mm, 0.01, 0.001);
   EXPECT_LT(2.0 * std::abs(found.fit.shape.radius_mm - 12.0), found.uncertainty.u95_mm + 0.002);
+}
+
+TEST(FitPoints, HasNoUncertaintyWithoutNoise) {
+  FeaturePoints points = patch_of([](double a, double b) -> OnShape {
+    return {Eigen::Vector3d(30.0 * a, 20.0 * b, 0.0), Eigen::Vector3d::UnitZ()};
+  });
+  EXPECT_TRUE(fitted(points, ShapeKind::Plane).uncertainty.is_known);
+  points.noise_mm.clear();
+  EXPECT_FALSE(fitted(points, ShapeKind::Plane).uncertainty.is_known);
 }
 
 TEST(FitPoints, FindsASphereOnACap) {

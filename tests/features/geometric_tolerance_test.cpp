@@ -43,7 +43,33 @@ Mesh plate(double bow_mm, double tilt_rad, double height_mm = 0.0, std::uint64_t
     return Vector3d(Eigen::AngleAxisd(tilt_rad, Vector3d::UnitY()) * flat +
                     height_mm * Vector3d::UnitZ());
   });
+  mesh.sigma_mm.assign(mesh.vertices_mm.size(), static_cast<float>(kNoise));
   return mesh;
+}
+
+/// What another program wrote: the residuals show the noise of the points, and nothing else.
+TEST(GeometricTolerance, HasNoUncertaintyWithoutSigma) {
+  Mesh mesh = plate(0.0, 0.0);
+  const MeasuredFeature known = only(mesh, ShapeKind::Plane);
+  mesh.sigma_mm.clear();
+  const MeasuredFeature flat = only(mesh, ShapeKind::Plane);
+  EXPECT_FALSE(flat.feature.uncertainty.is_known);
+  EXPECT_TRUE(std::isnan(flat.feature.uncertainty.u95_mm));
+  const MeasuredValue flatness = measure(Characteristic::Flatness, flat);
+  EXPECT_NEAR(flatness.value, measure(Characteristic::Flatness, known).value, 1e-3);
+  EXPECT_TRUE(std::isnan(flatness.u95));
+  // One of two features is enough.
+  EXPECT_TRUE(std::isnan(measure(Characteristic::Parallelism, known, &flat).u95));
+  EXPECT_TRUE(std::isfinite(measure(Characteristic::Parallelism, known, &known).u95));
+}
+
+/// The corners of a decimated mesh are sampled between, and their sigma with them.
+TEST(GeometricTolerance, KeepsTheSigmaOfVerticesThatDoNotCoverTheSurface) {
+  Mesh box = testing::box({0, 0, 0}, {30, 20, 10});
+  box.sigma_mm.assign(box.vertices_mm.size(), 0.01F);
+  EXPECT_TRUE(only(box, ShapeKind::Plane).feature.uncertainty.is_known);
+  box.sigma_mm.clear();
+  EXPECT_FALSE(find_features(box).front().uncertainty.is_known);
 }
 
 TEST(GeometricTolerance, FlatnessIsTheBowWithoutTheNoise) {

@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "frangia/core/random.h"
-#include "frangia/features/internal/filtered_range.h"
+#include "frangia/features/filtered_range.h"
 
 namespace frangia {
 namespace {

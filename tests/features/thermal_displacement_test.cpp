@@ -19,6 +19,7 @@ TEST(ThermalDisplacement, ScalesDiametersAndDistancesAlike) {
       mesh.vertices_mm.end(), second.vertices_mm.begin(), second.vertices_mm.end());
   for (const Mesh::Triangle& t : second.triangles)
     mesh.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
+  mesh.sigma_mm.assign(mesh.vertices_mm.size(), 1e-4F);
   // 20e-6/K and 5 K: 1e-4.
   const Eigen::MatrixXf thermal = thermal_displacement(mesh, 20e-6, 5.0);
   const auto features = find_features(mesh, {.edges = false, .calibration_mm = &thermal});

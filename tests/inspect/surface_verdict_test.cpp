@@ -119,7 +119,7 @@ TEST(SurfaceVerdict, OfADentIsOutAtItsPlace) {
 
 TEST(SurfaceVerdict, ProvesOutButNeverInWhereTheUncertaintyIsLarge) {
   Plate noisy;
-  noisy.mesh().sigma_mm.assign(noisy.mesh().vertices_mm.size(), 0.04F);
+  noisy.mesh().sigma_mm.assign(noisy.mesh().vertices_mm.size(), 0.2F);
   const SurfaceVerdict open = noisy.verdict({.limits = {-0.1, 0.1}});
   EXPECT_EQ(open.conformity, Conformity::Undecided);
   EXPECT_EQ(open.reason, UndecidedReason::Noise);
@@ -127,18 +127,49 @@ TEST(SurfaceVerdict, ProvesOutButNeverInWhereTheUncertaintyIsLarge) {
   EXPECT_NE(sentence_of(open).find("mostly noise"), std::string::npos) << sentence_of(open);
   // The tolerance that it asks for is decided.
   ASSERT_GT(open.decidable_mm, 0.1);
-  EXPECT_EQ(noisy.verdict({.limits = {-open.decidable_mm, open.decidable_mm}}).conformity,
-            Conformity::In);
-  EXPECT_NE(
-      noisy.verdict({.limits = {-0.9 * open.decidable_mm, 0.9 * open.decidable_mm}}).conformity,
-      Conformity::In);
+  const auto with_half_width = [&](double mm) {
+    return noisy.verdict({.limits = {-mm, mm}}).conformity;
+  };
+  EXPECT_EQ(with_half_width(1.0001 * open.decidable_mm), Conformity::In);
+  EXPECT_NE(with_half_width(0.9 * open.decidable_mm), Conformity::In);
   Mesh& mesh = noisy.mesh();
   mesh.sigma_noise_mm.assign(mesh.vertices_mm.size(), 0.001F);
   const SurfaceVerdict biased = noisy.verdict({.limits = {-0.1, 0.1}});
   EXPECT_EQ(biased.reason, UndecidedReason::Systematic);
   EXPECT_NE(sentence_of(biased).find("this rig can decide"), std::string::npos);
-  noisy.raise([](const Vector3f&) { return 0.6; });
+  noisy.raise([](const Vector3f&) { return 1.6; });
   EXPECT_EQ(noisy.verdict({.limits = {-0.1, 0.1}}).conformity, Conformity::Out);
+}
+
+/// The guard band grows with the uncertainty, and is the proof; a plan may ask for more.
+TEST(SurfaceVerdict, ProvesInByTheGuardBandAlone) {
+  Plate noisy;
+  const double noise = 0.02;
+  noisy.mesh().sigma_mm.assign(noisy.mesh().vertices_mm.size(), static_cast<float>(noise));
+  noisy.add_noise(2, noise);
+  const double u95 = 1.96 * noisy.verdict({.limits = {-1, 1}}).median_u_mm;
+  SurfaceRule rule{.limits = {-2.5 * u95, 2.5 * u95}};  // 0.4 of the half-width
+  const SurfaceVerdict proven = noisy.verdict(rule);
+  EXPECT_EQ(proven.conformity, Conformity::In) << sentence_of(proven);
+  EXPECT_EQ(proven.share_of(PatchDecision::NearLimit), 0.0);
+  rule.max_uncertainty_share = 0.25;
+  const SurfaceVerdict open = noisy.verdict(rule);
+  EXPECT_EQ(open.conformity, Conformity::Undecided);
+  EXPECT_GT(open.share_of(PatchDecision::NotWellMeasured), 0.9);
+  // What lies at the limit is not proven, however large its uncertainty is.
+  noisy.raise(
+      [&](const Vector3f& at) { return distance_from(at, 30, 30) < 12.0 ? 2.5 * u95 : 0.0; });
+  rule.max_uncertainty_share = 1.0;
+  EXPECT_NE(noisy.verdict(rule).conformity, Conformity::In);
+}
+
+TEST(SurfaceVerdict, NamesWhatAMeshWithoutSigmaLacks) {
+  Plate plate;
+  plate.mesh().sigma_mm.clear();
+  const SurfaceVerdict verdict = plate.verdict({.limits = {-0.1, 0.1}});
+  EXPECT_EQ(verdict.conformity, Conformity::In);
+  EXPECT_FALSE(verdict.uncertainty_known);
+  EXPECT_NE(sentence_of(verdict).find("states no sigma"), std::string::npos);
 }
 
 TEST(SurfaceVerdict, CountsTheNominalAreaThatWasNotMeasured) {

@@ -45,7 +45,8 @@ TEST(VerdictClause, StatesTheValuesThatItsTextNames) {
 TEST(VerdictClause, NamesTheReasonAndWhatToDoOneByOne) {
   Plate noisy;
   noisy.mesh().sigma_mm.assign(noisy.mesh().vertices_mm.size(), 0.04F);
-  const auto clauses = clauses_of(noisy.verdict({.limits = {-0.1, 0.1}}));
+  const auto clauses =
+      clauses_of(noisy.verdict({.limits = {-0.1, 0.1}, .max_uncertainty_share = 0.25}));
   ASSERT_GE(clauses.size(), 3U);
   EXPECT_EQ(clauses[0].id, "too_noisy");
   EXPECT_NEAR(number_of(clauses[0], "u95_mm"), 0.025, 1e-9);

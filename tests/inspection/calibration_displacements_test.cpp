@@ -144,7 +144,8 @@ TEST(CalibrationDisplacements, StateWhatManyDrawnRigsDoToSizesAndDistances) {
   scan.patterns = default_patterns(scan.rig);
   for (int i = 0; i < 6; ++i)
     scan.views.push_back({kTwoPi * i / 6, {}});
-  const Mesh part = two_balls();
+  Mesh part = two_balls();
+  part.sigma_mm.assign(part.vertices_mm.size(), 1e-4F);
 
   const Eigen::MatrixXf displacements = calibration_displacements(part, scan);
   ASSERT_GT(displacements.rows(), 0);

@@ -44,7 +44,9 @@ InspectionPlan best_fit_plan(std::size_t start) {
 
 /// A ball of 40 mm, measured 0.02 mm too large.
 Mesh large_ball() {
-  return testing::sphere({5, 0, 0}, 20.01, 40);
+  Mesh ball = testing::sphere({5, 0, 0}, 20.01, 40);
+  ball.sigma_mm.assign(ball.vertices_mm.size(), 1e-4F);
+  return ball;
 }
 
 InspectionPlan ball_plan(double tolerance_mm) {

@@ -212,6 +212,8 @@ TEST(InspectionPlan, RefusesAnUnknownKeyAndNamesTheNearest) {
           "nominl = 5\ntolerance = [-1, 1]\n",
       "nominl is unknown here; perhaps nominal was meant");
   expect(ball + "colour = \"red\"\n", "features[0].colour is unknown here; leave it out. The keys");
+  expect("[[characteristics]]\nname = \"c\"\nkind = \"line-profile\"\nsection = \"z=60\"\n",
+         "\"c\" refers to \"z=60\", which is no name of [[sections]]");
   // A key that is stated is not what another one was meant to be.
   expect("part = \"shaft\"\nparts = \"shaft\"\n", "parts is unknown here; leave it out");
 }
@@ -260,6 +262,18 @@ feature = "A"
 datum = "B"
 nominal = 70
 tolerance = [-0.01, 0.01]
+
+[[characteristics]]
+name = "line"
+kind = "line-profile"
+section = "middle"
+limit = 0.1
+
+[[characteristics]]
+name = "walls"
+kind = "thickness"
+nominal = 2
+tolerance = [-0.1, 0.1]
 
 [[excluded]]
 name = "base"

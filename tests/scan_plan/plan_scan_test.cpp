@@ -3,6 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <set>
+#include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -98,37 +102,74 @@ TEST(CoarserRig, KeepsTheFieldAndTheUncertaintyOfItsParameters) {
   EXPECT_NEAR(covariance(2, 2), 9.0, 1e-12);
 }
 
-/// Simulated rounds, each a folder of its own with all views so far.
-TEST(ScanUntil, AddsStationsBetweenTheOthersUntilAllIsDecided) {
-  const testing::TemporaryFolder folder;
-  const Mesh plate = make_part("plate");
-  const InspectionReference reference = reference_of_mesh(plate);
-  Scan first;
-  first.name = "plate";
-  first.rig = testing::small_rig("digital", 4);
-  first.patterns = default_patterns(first.rig);
-  for (int i = 0; i < 4; ++i)
-    first.views.push_back({kTwoPi * i / 4, "views/" + std::to_string(i)});
-  std::vector<std::size_t> stations;
-  Scan all = first;
-  all.views.clear();
-  const CaptureSetup capture = [&](const Scan& plan, int setup) {
-    for (const ScanView& view : plan.views) {
-      EXPECT_EQ(view.setup, setup);
-      all.views.push_back(
-          {view.angle_rad, "views/" + std::to_string(all.views.size()), view.setup});
-    }
-    stations.push_back(all.views.size());
-    all.folder = folder.path() / std::to_string(setup);
-    return simulate_scan(plate, all, {.samples_per_px = 4});
-  };
-  InspectionPlan plan = tolerance_of_surface(1.0);
-  plan.align = "none";
-  const ScanUntil decided = scan_until(first, capture, reference, plan, 3);
-  EXPECT_EQ(decided.stop, ScanStop::Decided) << sentence_of(decided.found.surface->verdict);
-  EXPECT_EQ(decided.rounds.size(), stations.size());
-  for (std::size_t round = 0; round < stations.size(); ++round)
-    EXPECT_EQ(stations[round], 4 * (round + 1));
+/// Scans of a plate by four stations and those between them, each in a folder of its own.
+class ScanUntilDecided : public ::testing::Test {
+ protected:
+  ScanUntilDecided() {
+    first_.name = "plate";
+    first_.rig = testing::small_rig("digital", 4);
+    first_.patterns = default_patterns(first_.rig);
+    for (int i = 0; i < 4; ++i)
+      first_.views.push_back({kTwoPi * i / 4, "views/" + std::to_string(i)});
+  }
+
+  ScanUntil scan(double tolerance_mm, std::size_t most_rounds = 3) {
+    const CaptureViews capture = [&](const Scan& plan) {
+      Scan all = plan;
+      if (all.views.size() < captured_.size()) all.views = captured_;  // of an earlier session
+      captured_ = all.views;
+      all.folder = folder_.path() / std::to_string(scans_++);
+      stations_.push_back(all.views.size());
+      return simulate_scan(plate_, all, {.samples_per_px = 4});
+    };
+    InspectionPlan plan = tolerance_of_surface(tolerance_mm);
+    plan.align = "none";
+    return scan_until(first_, capture, reference_of_mesh(plate_), plan, most_rounds);
+  }
+
+  testing::TemporaryFolder folder_;
+  Mesh plate_ = make_part("plate");
+  Scan first_;
+  int scans_ = 0;
+  std::vector<std::size_t> stations_;  ///< of the scans of a session
+  std::vector<ScanView> captured_;
+};
+
+TEST_F(ScanUntilDecided, AddsStationsBetweenTheOthersInTheSameSetup) {
+  const ScanUntil done = scan(0.05);
+  ASSERT_GE(done.rounds.size(), 2U);
+  for (std::size_t round = 0; round < stations_.size(); ++round)
+    EXPECT_EQ(stations_[round], 4 * (round + 1));
+  std::set<double> angles;
+  std::set<std::filesystem::path> folders;
+  for (const ScanView& view : captured_) {
+    EXPECT_EQ(view.setup, 0);
+    angles.insert(view.angle_rad);
+    folders.insert(view.folder);
+  }
+  EXPECT_EQ(angles.size(), captured_.size());
+  EXPECT_EQ(folders.size(), captured_.size());
+  // More stations decide more, or the answer says why they do not.
+  EXPECT_GE(done.rounds[1].reach.decidable_share, done.rounds[0].reach.decidable_share - 0.01);
+  EXPECT_FALSE(text_of(done.stop).empty());
+}
+
+TEST_F(ScanUntilDecided, StopsWhereAllIsDecided) {
+  const ScanUntil done = scan(1.0);
+  EXPECT_EQ(done.stop, ScanStop::Decided) << sentence_of(done.found.surface->verdict);
+  EXPECT_EQ(done.found.verdict, Conformity::In);
+  EXPECT_EQ(done.rounds.size(), stations_.size());
+}
+
+/// What an earlier session captured is not taken for a round that did not help.
+TEST_F(ScanUntilDecided, GoesOnBehindTheRoundsOfAnEarlierSession) {
+  static_cast<void>(scan(0.05, 2));
+  ASSERT_EQ(stations_.size(), 2U);
+  stations_.clear();
+  const ScanUntil done = scan(0.05, 2);
+  ASSERT_FALSE(done.rounds.empty());
+  EXPECT_EQ(done.rounds.front().stations, 8U);
+  EXPECT_NE(done.stop, ScanStop::NotHelped);
 }
 
 }  // namespace

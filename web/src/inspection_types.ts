@@ -110,7 +110,10 @@ export type CharacteristicKind =
   | 'parallelism'
   | 'perpendicularity'
   | 'run-out'
-  | 'total-run-out';
+  | 'total-run-out'
+  | 'surface-profile'
+  | 'line-profile'
+  | 'thickness';
 export interface PlannedFeature {
   name: string;
   kind?: FoundFeature['kind'];
@@ -122,7 +125,10 @@ export interface PlannedFeature {
 export interface PlannedCharacteristic {
   name: string;
   kind: CharacteristicKind;
-  feature: string;
+  /** None: a line profile, and a surface profile or a thickness of the whole part. */
+  feature?: string;
+  /** Of a line profile. */
+  section?: string;
   datum?: string;
   position_mm?: [number, number, number] | null;
   nominal?: number;

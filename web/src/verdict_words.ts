@@ -11,12 +11,13 @@ function percent(share: number): string {
 }
 
 const SIGNED = new Set(['deviation_mm']);
+const SHARES = new Set(['share', 'poor_share', 'wanted_share', 'of_half_width']);
 
 function valueText(name: string, value: Value): string {
   if (value === null) return '·';
   if (Array.isArray(value)) return `(${value.map((one) => number(one, 2)).join(', ')})`;
   if (typeof value === 'string') return name === 'unit' && value === 'degrees' ? '°' : value;
-  if (name === 'share' || name === 'wanted_share' || name === 'of_half_width') return percent(value);
+  if (SHARES.has(name)) return percent(value);
   if (SIGNED.has(name)) return `${value < 0 ? '−' : '+'}${number(Math.abs(value), 4)}`;
   if (name === 'u95' || name === 'u95_mm' || name === 'value') return number(value, 4);
   return number(value, Number.isInteger(value) ? 0 : Math.abs(value) < 1 ? 3 : 1);

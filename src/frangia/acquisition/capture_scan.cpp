@@ -142,7 +142,7 @@ CaptureReport capture_scan(const Scan& plan,
   check_devices(devices, plan, options);
   Scan real = with_gain(plan, options.camera.gain_db);
   count_compression(devices.reference()->info(), real, run);
-  claim_folder(real, {describe(options), describe_devices(devices.settings)}, options.setup, run);
+  claim_folder(real, {describe(options), describe_devices(devices.settings)}, run);
   return CaptureSession(std::move(real), devices, options, run).capture();
 }
 

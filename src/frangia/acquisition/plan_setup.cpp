@@ -1,6 +1,7 @@
 #include "frangia/acquisition/plan_setup.h"
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <iterator>
 #include <vector>
@@ -24,6 +25,14 @@ Views views_in(const std::filesystem::path& folder) {
 bool has_setup(const Views& views, int setup) {
   return std::any_of(
       views.begin(), views.end(), [&](const ScanView& view) { return view.setup == setup; });
+}
+
+/// Whether the first views of a stored setup are those of a plan.
+bool begins_with(const Views& stored, const Views& plan) {
+  return stored.size() >= plan.size() &&
+         std::equal(plan.begin(), plan.end(), stored.begin(), [](const auto& a, const auto& b) {
+           return std::abs(a.angle_rad - b.angle_rad) < 1e-6;  // they are stored as text
+         });
 }
 
 }  // namespace
@@ -54,6 +63,12 @@ Scan plan_setup(const Scan& plan, int setup) {
   for (std::size_t i = 0; i < all.views.size(); ++i) {
     all.views[i].setup = setup;
     if (begin > 0) all.views[i].folder = fmt::format("views/{:03}", begin + i);
+  }
+  Views captured;
+  std::copy_if(stored.begin(), stored.end(), std::back_inserter(captured), own);
+  if (begins_with(captured, all.views)) {
+    const auto added = captured.begin() + static_cast<std::ptrdiff_t>(all.views.size());
+    all.views.insert(all.views.end(), added, captured.end());
   }
   Views others = stored;
   std::erase_if(others, own);

@@ -6,7 +6,8 @@ namespace frangia {
 
 /// Plans a further setup of a scan, in which the part is turned over or moved. The views of `plan`
 /// become those of `setup`; those of the other setups are read from the capture in `plan.folder`.
-/// The folders of new views continue the numbers of the stored ones.
+/// The folders of new views continue the numbers of the stored ones. Views that were added to this
+/// setup behind those of `plan`, at other angles of the turntable, stay.
 ///
 /// The plan of setup 0 of a new folder is `plan` itself. A setup that was begun is continued by the
 /// same plan. `CaptureOptions::setup` names the setup to capture.

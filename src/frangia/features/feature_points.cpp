@@ -43,15 +43,6 @@ Extent extent_of(const Mesh& mesh) {
   return extent;
 }
 
-FeaturePoints sampled(const Mesh& mesh) {
-  FeaturePoints points;
-  for (const SurfaceSample& sample : sample_surface(mesh, kSamples)) {
-    points.points_mm.push_back(sample.point_mm);
-    points.normals.push_back(sample.normal);
-  }
-  return points;
-}
-
 /// The values of some vertices; those that are not finite and positive become the median.
 std::vector<double> chosen_values(const std::vector<float>& values,
                                   const std::vector<std::uint32_t>& vertices) {
@@ -68,6 +59,34 @@ std::vector<double> chosen_values(const std::vector<float>& values,
   for (double& value : chosen)
     if (!(std::isfinite(value) && value > 0.0)) value = usual;
   return chosen;
+}
+
+/// The mean of the values of the corners of a triangle, which its points have between them.
+std::vector<double> corner_means(const std::vector<float>& values,
+                                 const Mesh& mesh,
+                                 const std::vector<SurfaceSample>& samples) {
+  std::vector<float> means;
+  std::vector<std::uint32_t> all;
+  for (const SurfaceSample& sample : samples) {
+    const auto& [a, b, c] = mesh.triangles[sample.triangle];
+    all.push_back(static_cast<std::uint32_t>(means.size()));
+    means.push_back((values[a] + values[b] + values[c]) / 3.0F);
+  }
+  return chosen_values(means, all);
+}
+
+/// Points between the vertices of `measured`, with the sigma that `mesh` states for those.
+FeaturePoints sampled(const Mesh& measured, const Mesh& mesh) {
+  FeaturePoints points;
+  const std::vector<SurfaceSample> samples = sample_surface(measured, kSamples);
+  for (const SurfaceSample& sample : samples) {
+    points.points_mm.push_back(sample.point_mm);
+    points.normals.push_back(sample.normal);
+  }
+  if (!mesh.sigma_mm.empty()) points.noise_mm = corner_means(noise_mm_of(mesh), measured, samples);
+  if (!mesh.sigma_systematic_mm.empty())
+    points.systematic_mm = corner_means(mesh.sigma_systematic_mm, measured, samples);
+  return points;
 }
 
 /// Takes over the displacements of the points and takes them out of their systematic parts.
@@ -109,7 +128,7 @@ FeaturePoints feature_points_of(const Mesh& mesh,
   const bool uneven =
       extent.edge_mm * extent.edge_mm * static_cast<double>(count) > kEvenness * extent.area_mm2;
   if (uneven || count < kFewVertices) {
-    points = sampled(measured);
+    points = sampled(measured, mesh);
     points.area_mm2 = extent.area_mm2;
     return points;
   }

@@ -19,7 +19,8 @@ namespace frangia {
 /// A geometrical element of a mesh.
 struct Feature {
   ShapeFit fit;                  ///< for a line or a circle: of the two surfaces that meet there
-  ShapeUncertainty uncertainty;  ///< of its size; NaN where nothing determines it
+  ShapeUncertainty uncertainty;  ///< of its size; NaN where nothing determines it, or no sigma is
+                                 ///< stated
   bool hole = false;             ///< the material is outside: a bore, a groove
   /// Vertices that it was fitted to, ascending; samples for a mesh whose vertices do not cover its
   /// surface. Empty for lines and circles.

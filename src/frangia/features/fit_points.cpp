@@ -121,7 +121,7 @@ Feature fit_points(const FeaturePoints& points,
           fmt::format("the selected points do not determine a {}; select more of its surface",
                       name_of(kind))
               .c_str());
-  feature.uncertainty = shape_uncertainty(points, chosen, feature.fit);
+  feature.uncertainty = known_uncertainty(points, shape_uncertainty(points, chosen, feature.fit));
   feature.vertices.assign(chosen.begin(), chosen.end());
   return feature;
 }

@@ -14,7 +14,7 @@
 #include "frangia/core/error.h"
 #include "frangia/core/student_95.h"
 #include "frangia/features/feature_points.h"
-#include "frangia/features/internal/filtered_range.h"
+#include "frangia/features/filtered_range.h"
 #include "frangia/features/internal/minimum_zone.h"
 #include "frangia/features/internal/shape_distance_between.h"
 
@@ -210,43 +210,11 @@ MeasuredValue run_out_of(Characteristic characteristic,
   return result;
 }
 
-}  // namespace
-
-bool needs_datum(Characteristic characteristic) {
-  return characteristic != Characteristic::Flatness &&
-         characteristic != Characteristic::Roundness &&
-         characteristic != Characteristic::Cylindricity &&
-         characteristic != Characteristic::Position;
-}
-
-std::vector<MeasuredFeature> with_points(const Mesh& mesh,
-                                         const std::vector<Feature>& features,
-                                         const Run& run) {
-  const FeaturePoints points = feature_points_of(mesh, run);
-  std::vector<MeasuredFeature> measured;
-  for (const Feature& feature : features) {
-    MeasuredFeature one;
-    one.feature = feature;
-    for (const std::uint32_t vertex : feature.vertices) {
-      one.points_mm.push_back(points.vertices.empty() ? points.points_mm.at(vertex)
-                                                      : mesh.vertices_mm.at(vertex).cast<double>());
-    }
-    const Shape& shape = feature.fit.shape;
-    for (const Vector3d& point : one.points_mm) {
-      const double along = (point - shape.center_mm).dot(shape.axis);
-      one.low_mm = std::min(one.low_mm, along);
-      one.high_mm = std::max(one.high_mm, along);
-    }
-    measured.push_back(std::move(one));
-  }
-  return measured;
-}
-
-MeasuredValue measure(Characteristic characteristic,
-                      const MeasuredFeature& feature,
-                      const MeasuredFeature* datum,
-                      const Vector3d& nominal_mm,
-                      FormReference reference) {
+MeasuredValue measured(Characteristic characteristic,
+                       const MeasuredFeature& feature,
+                       const MeasuredFeature* datum,
+                       const Vector3d& nominal_mm,
+                       FormReference reference) {
   if (characteristic == Characteristic::Position) {
     const double distance = distance_between(shape_of(feature), nominal_mm);
     return {2.0 * distance, 2.0 * feature.feature.uncertainty.center_u95_mm};
@@ -284,6 +252,66 @@ MeasuredValue measure(Characteristic characteristic,
       characteristic == Characteristic::RunOut || characteristic == Characteristic::TotalRunOut;
   return turns ? run_out_of(characteristic, feature, *datum)
                : orientation_of(characteristic, feature, *datum);
+}
+
+}  // namespace
+
+bool needs_datum(Characteristic characteristic) {
+  return !is_form(characteristic) && !is_of_surface(characteristic) &&
+         characteristic != Characteristic::Position;
+}
+
+bool is_form(Characteristic characteristic) {
+  return characteristic == Characteristic::Flatness ||
+         characteristic == Characteristic::Roundness ||
+         characteristic == Characteristic::Cylindricity;
+}
+
+bool is_of_surface(Characteristic characteristic) {
+  return characteristic == Characteristic::SurfaceProfile ||
+         characteristic == Characteristic::LineProfile ||
+         characteristic == Characteristic::Thickness;
+}
+
+bool has_nominal(Characteristic characteristic) {
+  return characteristic == Characteristic::Distance || characteristic == Characteristic::Angle ||
+         characteristic == Characteristic::Thickness;
+}
+
+std::vector<MeasuredFeature> with_points(const Mesh& mesh,
+                                         const std::vector<Feature>& features,
+                                         const Run& run) {
+  const FeaturePoints points = feature_points_of(mesh, run);
+  std::vector<MeasuredFeature> measured;
+  for (const Feature& feature : features) {
+    MeasuredFeature one;
+    one.feature = feature;
+    one.sampled = points.vertices.empty();
+    for (const std::uint32_t vertex : feature.vertices) {
+      one.points_mm.push_back(points.vertices.empty() ? points.points_mm.at(vertex)
+                                                      : mesh.vertices_mm.at(vertex).cast<double>());
+    }
+    const Shape& shape = feature.fit.shape;
+    for (const Vector3d& point : one.points_mm) {
+      const double along = (point - shape.center_mm).dot(shape.axis);
+      one.low_mm = std::min(one.low_mm, along);
+      one.high_mm = std::max(one.high_mm, along);
+    }
+    measured.push_back(std::move(one));
+  }
+  return measured;
+}
+
+MeasuredValue measure(Characteristic characteristic,
+                      const MeasuredFeature& feature,
+                      const MeasuredFeature* datum,
+                      const Vector3d& nominal_mm,
+                      FormReference reference) {
+  MeasuredValue found = measured(characteristic, feature, datum, nominal_mm, reference);
+  const bool is_known = feature.feature.uncertainty.is_known &&
+                        (datum == nullptr || datum->feature.uncertainty.is_known);
+  if (!is_known) found.u95 = kMissing;
+  return found;
 }
 
 }  // namespace frangia

@@ -19,12 +19,15 @@ enum class Characteristic {
   RunOut,            ///< circular, the largest of the sections normal to the datum axis
   TotalRunOut,       ///< of the whole surface about the datum axis
   Distance,          ///< from a datum, between centers, axes or planes
-  Angle              ///< between the axes or normals of feature and datum, 0 to 90 degrees
+  Angle,             ///< between the axes or normals of feature and datum, 0 to 90 degrees
+  SurfaceProfile,    ///< twice the largest deviation from the nominal surface
+  LineProfile,       ///< the same along a section
+  Thickness          ///< of the walls
 };
 
 /// What users call them.
 [[nodiscard]] constexpr auto names_of(Characteristic /*any*/) {
-  return EnumNames<Characteristic, 10>{{{Characteristic::Flatness, "flatness"},
+  return EnumNames<Characteristic, 13>{{{Characteristic::Flatness, "flatness"},
                                         {Characteristic::Roundness, "roundness"},
                                         {Characteristic::Cylindricity, "cylindricity"},
                                         {Characteristic::Parallelism, "parallelism"},
@@ -33,7 +36,10 @@ enum class Characteristic {
                                         {Characteristic::RunOut, "run-out"},
                                         {Characteristic::TotalRunOut, "total-run-out"},
                                         {Characteristic::Distance, "distance"},
-                                        {Characteristic::Angle, "angle"}}};
+                                        {Characteristic::Angle, "angle"},
+                                        {Characteristic::SurfaceProfile, "surface-profile"},
+                                        {Characteristic::LineProfile, "line-profile"},
+                                        {Characteristic::Thickness, "thickness"}}};
 }
 
 /// The shape that a form is measured from.
@@ -51,6 +57,16 @@ enum class FormReference {
 /// Whether a characteristic is relative to a datum.
 [[nodiscard]] bool needs_datum(Characteristic characteristic);
 
+/// Whether a characteristic is the form of a feature by itself, measured from a `FormReference`.
+[[nodiscard]] bool is_form(Characteristic characteristic);
+
+/// Whether a characteristic is of the surface or its walls, and not of the shape of a feature:
+/// `measure` does not know it.
+[[nodiscard]] bool is_of_surface(Characteristic characteristic);
+
+/// Whether a characteristic has a nominal value with a tolerance, and not an upper limit.
+[[nodiscard]] bool has_nominal(Characteristic characteristic);
+
 /// A feature, and the points that it was fitted to.
 struct MeasuredFeature {
   Feature feature;                         ///< shape and uncertainty
@@ -58,6 +74,7 @@ struct MeasuredFeature {
   /// Ends of the points along the axis, from the center, mm; 0 without points.
   double low_mm = 0.0;
   double high_mm = 0.0;  ///< see `low_mm`
+  bool sampled = false;  ///< the vertices of the feature are samples, not those of the mesh
 };
 
 /// Adds the points of the mesh to its features.
@@ -82,7 +99,7 @@ struct ShapeEnds {
 /// A measured characteristic.
 struct MeasuredValue {
   double value = 0.0;  ///< mm; degrees for an angle
-  double u95 = 0.0;    ///< half the width of its 95 % interval
+  double u95 = 0.0;    ///< half the width of its 95 % interval; NaN where no sigma is stated
 };
 
 /// Measures a characteristic. Forms are ranges of the distances from the least-squares shape; noise

@@ -205,4 +205,9 @@ ShapeUncertainty shape_uncertainty(const FeaturePoints& points,
   return result;
 }
 
+ShapeUncertainty known_uncertainty(const FeaturePoints& points, ShapeUncertainty of_residuals) {
+  if (points.noise_mm.empty()) return {.is_known = false};
+  return of_residuals;
+}
+
 }  // namespace frangia

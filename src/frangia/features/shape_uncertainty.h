@@ -13,6 +13,10 @@ namespace frangia {
 
 /// Expanded uncertainty of the size of a fitted shape: the diameter, or the offset of a plane.
 struct ShapeUncertainty {
+  /// Whether the points state a sigma. The residuals of a mesh without one, such as that of another
+  /// program, show its noise alone, and those of a model nothing: all other members are then
+  /// missing.
+  bool is_known = true;
   double u95_mm = kMissing;         ///< half the width of the 95 % interval
   double noise_mm = kMissing;       ///< standard uncertainty by noise, form and edges
   double systematic_mm = kMissing;  ///< standard uncertainty by the systematic part of sigma
@@ -42,5 +46,10 @@ struct ShapeUncertainty {
 [[nodiscard]] ShapeUncertainty shape_uncertainty(const FeaturePoints& points,
                                                  std::span<const std::uint32_t> chosen,
                                                  const ShapeFit& fit);
+
+/// The uncertainty of a fit where the points state their noise, and one that is not known where
+/// they do not: what their residuals show is not all of it.
+[[nodiscard]] ShapeUncertainty known_uncertainty(const FeaturePoints& points,
+                                                 ShapeUncertainty of_residuals);
 
 }  // namespace frangia

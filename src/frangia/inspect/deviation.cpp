@@ -225,8 +225,8 @@ Deviations deviations_of(const Mesh& mesh,
     const Vector3d point = mesh.vertices_mm[i].cast<double>();
     const Vector3d normal = finder.normal(i);
     if (options.pose) {
-      found.largest_pose_u_mm =
-          std::max(found.largest_pose_u_mm, options.pose->along(point, normal));
+      const double pose_mm = options.pose->along(point, normal);  // NaN: nothing states it
+      if (!(pose_mm <= found.largest_pose_u_mm)) found.largest_pose_u_mm = pose_mm;
     }
     found.largest_temperature_u_mm =
         std::max(found.largest_temperature_u_mm, finder.temperature_u_mm(point, normal));

@@ -4,83 +4,29 @@
 #include <cmath>
 #include <functional>
 #include <limits>
-#include <numbers>
 #include <queue>
-#include <set>
 #include <span>
-#include <tuple>
 
 #include <fmt/format.h>
 
 #include "frangia/core/error.h"
 #include "frangia/core/median.h"
 #include "frangia/core/student_95.h"
+#include "frangia/inspect/internal/out_guard.h"
 
 namespace frangia {
 namespace {
 
 using Eigen::Vector3d;
+using inspect::OutGuard;
 
 constexpr std::size_t kMostPlaces = 24;
 
-/// Guard bands of "out" for noise, which is independent from patch to patch, and for the
-/// systematic part, which changes slowly over the part.
-struct OutGuard {
-  std::size_t independent = 1;
-  double together = kGuardBand;  ///< times the combined uncertainty
-  double noise = kGuardBand;     ///< times the noise, with half of the error probability
-  double systematic = kGuardBand;
-  bool split = false;  ///< the two parts are counted one by one
-
-  [[nodiscard]] double guard_mm(double noise_mm, double systematic_mm) const {
-    if (split) return noise * noise_mm + systematic * systematic_mm;
-    return together * std::hypot(noise_mm, systematic_mm);
-  }
-};
-
-/// Number of cells of 3 x 3 x 3 over the part that hold patches: regions over which a systematic
-/// error is taken to be alike.
-std::size_t regions_of(const SurfacePatches& patches) {
-  Eigen::AlignedBox3f box;
-  for (const auto& center : patches.center_mm)
-    box.extend(center);
-  const Eigen::Vector3f side = box.sizes().cwiseMax(1e-6F * box.sizes().maxCoeff());
-  std::set<std::tuple<int, int, int>> cells;
-  for (const auto& center : patches.center_mm) {
-    const Eigen::Vector3f cell = (3.0F * (center - box.min()).cwiseQuotient(side)).cwiseMin(2.5F);
-    cells.emplace(
-        static_cast<int>(cell.x()), static_cast<int>(cell.y()), static_cast<int>(cell.z()));
-  }
-  return cells.size();
-}
-
-/// Patches overlap: as many are independent as fit beside each other on the measured area.
-OutGuard out_guard_of(const SurfacePatches& patches) {
-  OutGuard guard;
-  double area = 0.0;
-  std::size_t measured = 0;
-  std::vector<double> noises;
-  std::vector<double> systematics;
-  for (std::size_t i = 0; i < patches.size(); ++i) {
-    if (!patches.is_measured(i) || patches.at_edge[i] != 0) continue;
-    area += patches.area_mm2[i];
-    ++measured;
-    if (!std::isfinite(patches.u_mm(i))) continue;
-    noises.push_back(static_cast<double>(patches.noise_mm[i]));
-    systematics.push_back(static_cast<double>(patches.systematic_mm[i]));
-  }
-  if (measured == 0) return guard;
-  const double disk = 0.25 * std::numbers::pi * patches.diameter_mm * patches.diameter_mm;
-  guard.independent =
-      std::clamp<std::size_t>(static_cast<std::size_t>(std::ceil(area / disk)), 1, measured);
-  guard.together = guard_band_of_many(guard.independent);
-  guard.noise = guard_band_of_many(2 * guard.independent);
-  guard.systematic = guard_band_of_many(2 * regions_of(patches));
-  const double noise = median_in_place(std::span<double>(noises));
-  const double systematic = median_in_place(std::span<double>(systematics));
-  guard.split = guard.noise * noise + guard.systematic * systematic <
-                guard.together * std::hypot(noise, systematic);
-  return guard;
+/// Largest U95, of the half-width, of a patch whose lack of a proof is due to its value. A value
+/// beyond a limit counts up to twice as large a U95: on a good part it would lie at four standard
+/// uncertainties.
+double near_share(const SurfaceRule& rule, bool is_beyond) {
+  return (is_beyond ? 2.0 : 1.0) * rule.well_measured_share();
 }
 
 PatchDecision decide(const SurfacePatches& patches,
@@ -97,10 +43,12 @@ PatchDecision decide(const SurfacePatches& patches,
                                        static_cast<double>(patches.systematic_mm[i]));
   if (value < rule.limits.lower - beyond || value > rule.limits.upper + beyond)
     return PatchDecision::Out;
-  const double half = 0.5 * (rule.limits.upper - rule.limits.lower);
-  if (kNormal95 * u > rule.max_uncertainty_share * half) return PatchDecision::NotWellMeasured;
-  return conformity_of(value, u, rule.limits) == Conformity::In ? PatchDecision::In
-                                                                : PatchDecision::NearLimit;
+  const double share = 2.0 * kNormal95 * u / (rule.limits.upper - rule.limits.lower);
+  if (share <= rule.max_uncertainty_share && conformity_of(value, u, rule.limits) == Conformity::In)
+    return PatchDecision::In;
+  const bool is_beyond = value < rule.limits.lower || value > rule.limits.upper;
+  return share > near_share(rule, is_beyond) ? PatchDecision::NotWellMeasured
+                                             : PatchDecision::NearLimit;
 }
 
 bool is_gap(PatchDecision decision) {
@@ -235,21 +183,45 @@ Extreme extreme_of(const SurfacePatches& patches, std::size_t i) {
   return extreme;
 }
 
+/// The half-width that proves a patch in, and what it has to do with the patch.
+struct PatchNeed {
+  double half_mm = 0.0;
+  double off_mm = 0.0;  ///< its distance from the middle of the tolerance
+  double u95_mm = 0.0;
+  double area_mm2 = 0.0;
+
+  /// Whether it lies near a limit of a half-width that does not prove it in.
+  [[nodiscard]] bool is_near(double of_mm, const SurfaceRule& rule) const {
+    return u95_mm <= near_share(rule, off_mm > of_mm) * of_mm;
+  }
+};
+
 double decidable_of(const SurfacePatches& patches, const SurfaceRule& rule) {
   if (!patches.uncertainty_known) return kMissing;
-  std::vector<std::pair<double, double>> needs;  // half-widths, and the areas that need them
+  const double middle_mm = 0.5 * (rule.limits.lower + rule.limits.upper);
+  std::vector<PatchNeed> needs;
   for (std::size_t i = 0; i < patches.size(); ++i) {
-    if (patches.is_measured(i) && std::isfinite(patches.u_mm(i)))
-      needs.emplace_back(kNormal95 * patches.u_mm(i) / rule.max_uncertainty_share,
-                         patches.area_mm2[i]);
+    if (!patches.is_measured(i) || !std::isfinite(patches.u_mm(i))) continue;
+    const double u = patches.u_mm(i);
+    const double off_mm = std::abs(static_cast<double>(patches.deviation_mm[i]) - middle_mm);
+    needs.push_back({std::max(off_mm + kGuardBand * u, kNormal95 * u / rule.max_uncertainty_share),
+                     off_mm,
+                     kNormal95 * u,
+                     patches.area_mm2[i]});
   }
-  std::sort(needs.begin(), needs.end());
+  std::sort(needs.begin(), needs.end(), [](const PatchNeed& a, const PatchNeed& b) {
+    return a.half_mm < b.half_mm;
+  });
   double area_mm2 = 0.0;
-  for (const auto& [half_mm, more_mm2] : needs) {
-    area_mm2 += more_mm2;
-    if (area_mm2 >= rule.min_coverage * patches.total_area_mm2) return half_mm;
+  double half_mm = kMissing;
+  for (const PatchNeed& need : needs) {
+    const bool enough = area_mm2 >= rule.min_coverage * patches.total_area_mm2;
+    area_mm2 += need.area_mm2;
+    // Beyond the coverage, those count that would lie near a limit of this half-width.
+    if (!enough || need.is_near(half_mm, rule)) half_mm = need.half_mm;
   }
-  return kMissing;
+  return area_mm2 >= rule.min_coverage * patches.total_area_mm2 ? half_mm
+                                                                : static_cast<double>(kMissing);
 }
 
 void conclude(SurfaceVerdict& verdict, double noise_share) {
@@ -291,6 +263,11 @@ void SurfaceRule::check() const {
   require(std::isfinite(max_gap_mm) && max_gap_mm >= 0.0, "max_gap_mm must be 0 or more");
 }
 
+double SurfaceRule::well_measured_share() const {
+  constexpr double kWell = 0.25;
+  return std::min(kWell, max_uncertainty_share);
+}
+
 double SurfaceVerdict::share_of(PatchDecision decision) const {
   return std::min(1.0, share.at(static_cast<std::size_t>(decision)));  // a sum that is rounded
 }
@@ -305,8 +282,9 @@ SurfaceVerdict judge_surface(const SurfacePatches& patches, const SurfaceRule& r
   verdict.area_mm2 = patches.total_area_mm2;
   verdict.edge_share =
       patches.edge_area_mm2 / std::max(patches.edge_area_mm2 + patches.total_area_mm2, 1e-300);
+  verdict.uncertainty_known = patches.uncertainty_known;
   verdict.noise_factor = patches.noise_factor;
-  const OutGuard guard = out_guard_of(patches);
+  const OutGuard guard = inspect::out_guard_of(patches);
   verdict.independent = guard.independent;
   std::vector<PatchDecision> decided;
   std::vector<double> known_u;

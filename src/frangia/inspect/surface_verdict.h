@@ -25,10 +25,17 @@ struct SurfaceRule {
   /// Width of the strips along edges of the reference that are not judged; 0: none. Nothing:
   /// `default_edge_mm`.
   std::optional<double> edge_mm;
-  double max_uncertainty_share = 0.25;  ///< largest U95 that proves "in", of the half-width
-  double min_coverage = 0.9;            ///< least share of the nominal area that is decided
-  double max_gap_mm = 0.0;              ///< widest gap; 0: a tenth of the reference's diagonal
-  std::vector<ExcludedBox> excluded;    ///< parts of the reference that are not judged
+  /// Largest U95 that proves "in", of the half-width: the guard band is the proof, but an interval
+  /// wider than the tolerance proves nothing.
+  double max_uncertainty_share = 1.0;
+  double min_coverage = 0.9;          ///< least share of the nominal area that is decided
+  double max_gap_mm = 0.0;            ///< widest gap; 0: a tenth of the reference's diagonal
+  std::vector<ExcludedBox> excluded;  ///< parts of the reference that are not judged
+
+  /// Largest U95 of what is measured well, of the half-width: a quarter, and
+  /// `max_uncertainty_share` at most. What is undecided in spite of it lies near a limit; else the
+  /// measurement lacks. Scans are planned for it.
+  [[nodiscard]] double well_measured_share() const;
 
   /// @errors   Error(Input) that names the value which is out of its range
   void check() const;
@@ -39,7 +46,7 @@ enum class PatchDecision : std::uint8_t {
   In,               ///< proven to be within the limits
   Out,              ///< proven to be beyond a limit, or its material is missing
   NearLimit,        ///< within the guard band of a limit
-  NotWellMeasured,  ///< its U95 is too large to prove "in"
+  NotWellMeasured,  ///< its U95 is too large to decide
   NotMeasured,      ///< nothing was compared
   AtEdge            ///< not judged: in a strip along an edge
 };
@@ -97,10 +104,12 @@ struct SurfaceVerdict {
   Eigen::Vector3d gap_at_mm = Eigen::Vector3d::Zero();  ///< its middle
   std::size_t patches = 0;                              ///< that were decided
   std::size_t independent = 0;                          ///< effective number of those
+  bool uncertainty_known = true;                        ///< as in `SurfacePatches`
   double noise_factor = 1.0;                            ///< as in `SurfacePatches`
   double median_u_mm = kMissing;                        ///< of a patch; NaN when none is known
-  /// Least half-width of a tolerance for which `min_coverage` of the nominal area is measured well
-  /// enough, gaps aside; NaN when too little was measured for any, or no uncertainty is known.
+  /// Least half-width of a tolerance, about the middle of this one, for which `min_coverage` of the
+  /// nominal area is proven in and no value is near a limit, gaps aside; NaN when too little was
+  /// measured for any, or no uncertainty is known.
   double decidable_mm = kMissing;
   Extreme lowest;                    ///< of the patches
   Extreme highest;                   ///< of the patches
@@ -111,9 +120,10 @@ struct SurfaceVerdict {
 
 /// Decides about a surface by ISO 14253-1:2017, patch by patch.
 ///
-/// In: each patch lies inside of both limits by 1.645 u, at least `min_coverage` of the nominal
-/// area is decided, and no gap is wider than `max_gap_mm`. Out: a patch lies beyond a limit by the
-/// guard band for the effective number of independent patches, or its material is missing.
+/// Where no uncertainty is known, the limits alone decide. In: each patch that is measured well
+/// lies inside of both limits by 1.645 u, at least `min_coverage` of the nominal area is decided,
+/// and no gap is wider than `max_gap_mm`. Out: a patch lies beyond a limit by the guard band for
+/// the effective number of independent patches, or its material is missing.
 /// @errors   Error(Input) as SurfaceRule::check
 /// @source   ISO 14253-1:2017, 5.2 and 5.3; Bonferroni's inequality
 [[nodiscard]] SurfaceVerdict judge_surface(const SurfacePatches& patches, const SurfaceRule& rule);

@@ -84,15 +84,15 @@ void add_too_uncertain(Clauses& clauses, const SurfaceVerdict& verdict) {
   const bool noise = verdict.reason == UndecidedReason::Noise;
   const double share = verdict.share_of(PatchDecision::NotWellMeasured);
   const double limit_mm =
-      0.5 * rule.max_uncertainty_share * (rule.limits.upper - rule.limits.lower);
+      0.5 * rule.well_measured_share() * (rule.limits.upper - rule.limits.lower);
   clauses.push_back(
       {noise ? "too_noisy" : "too_systematic",
-       {{"share", share}, {"u95_mm", limit_mm}, {"of_half_width", rule.max_uncertainty_share}},
+       {{"share", share}, {"u95_mm", limit_mm}, {"of_half_width", rule.well_measured_share()}},
        fmt::format("undecided: {} of the nominal area has a U95 above {:.4g} mm, {} of the "
                    "tolerance's half-width, {}",
                    share_text(share),
                    limit_mm,
-                   share_text(rule.max_uncertainty_share),
+                   share_text(rule.well_measured_share()),
                    noise ? "mostly noise" : "mostly calibration and alignment")});
   clauses.push_back(
       noise ? VerdictClause{"reduce_noise",
@@ -128,17 +128,20 @@ void add_near_limit(Clauses& clauses, const SurfaceVerdict& verdict) {
 
 void add_not_measured(Clauses& clauses, const SurfaceVerdict& verdict) {
   const double share = verdict.share_of(PatchDecision::NotMeasured);
+  const double poor = verdict.share_of(PatchDecision::NotWellMeasured);
   const double wanted = 1.0 - verdict.rule.min_coverage;
   clauses.push_back(
       {"not_measured",
        {{"share", share},
+        {"poor_share", poor},
         {"wanted_share", wanted},
         {"gap_mm", verdict.gap_mm},
         {"at_mm", verdict.gap_at_mm},
         {"wanted_mm", verdict.rule.max_gap_mm}},
-       fmt::format("undecided: {} of the nominal area was not measured, wanted is {} at most, and "
-                   "{}, wanted is {:.3g} mm at most",
+       fmt::format("undecided: {} of the nominal area was not measured and {} not well enough, "
+                   "wanted is {} together at most; {}, wanted is {:.3g} mm at most",
                    share_text(share),
+                   share_text(poor),
                    share_text(wanted),
                    gap_text(verdict),
                    verdict.rule.max_gap_mm)});
@@ -176,10 +179,18 @@ void add_edges(Clauses& clauses, const SurfaceVerdict& verdict) {
 
 }  // namespace
 
+VerdictClause no_uncertainty_clause() {
+  return {"no_sigma",
+          {},
+          "the mesh states no sigma, so that no uncertainty is known and the limits alone decide; "
+          "inspect the .ply of a reconstruction, which states it"};
+}
+
 std::vector<VerdictClause> clauses_of(const SurfaceVerdict& verdict) {
   Clauses clauses;
   add_decision(clauses, verdict);
   add_edges(clauses, verdict);
+  if (!verdict.uncertainty_known) clauses.push_back(no_uncertainty_clause());
   return clauses;
 }
 

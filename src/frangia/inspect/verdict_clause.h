@@ -28,6 +28,9 @@ struct VerdictClause {
 /// what is not judged.
 [[nodiscard]] std::vector<VerdictClause> clauses_of(const SurfaceVerdict& verdict);
 
+/// What a verdict about a mesh without sigma lacks.
+[[nodiscard]] VerdictClause no_uncertainty_clause();
+
 /// The clauses as one sentence.
 [[nodiscard]] std::string sentence_of(const std::vector<VerdictClause>& clauses);
 

@@ -12,6 +12,7 @@
 #include "frangia/inspection/align_part.h"
 #include "frangia/inspection/calibration_displacements.h"
 #include "frangia/inspection/internal/view_poses.h"
+#include "frangia/inspection/measure_on_surface.h"
 
 namespace frangia {
 namespace {
@@ -47,7 +48,10 @@ void measure_features(Inspection& found,
                       const Run& run) {
   InspectionPlan stated = plan;
   stated.features = stated_features(plan, reference);
-  if (!options.features && stated.features.empty()) return;
+  if (!options.features && stated.features.empty()) {
+    found.characteristics = measure_characteristics(stated, {}, run);  // those of the surface
+    return;
+  }
   run.stage("features");
   found.searched = true;
   found.features = find_features(found.mesh, {.calibration_mm = &shared_mm}, run);
@@ -60,7 +64,6 @@ void measure_features(Inspection& found,
       found.nominals.push_back(nominal_face(*reference->cad, reference->scene, feature));
     }
   }
-  if (stated.features.empty()) return;
   found.characteristics = measure_characteristics(stated, measured, run);
   found.named_features = named_features(stated, measured);
 }
@@ -178,13 +181,21 @@ Inspection inspect_part(Mesh mesh,
       found.statistics = statistics_of(found.mesh, mesh_from_reference, *reference, options, run);
     }
   }
-  if (plan.thickness) found.walls = measure_walls(found.mesh, run);
+  if (needs_walls(plan)) found.walls = measure_walls(found.mesh, run);
   found.sections =
       cut_sections(plan.sections,
                    found.mesh,
                    reference == nullptr ? nullptr : &reference->scene.mesh(),
                    found.surface ? found.surface->deviations.deviation_mm : std::vector<float>{},
                    run);
+  measure_on_surface(plan,
+                     {.mesh = &found.mesh,
+                      .reference = reference == nullptr ? nullptr : &reference->scene,
+                      .deviations = found.surface ? &*found.surface : nullptr,
+                      .walls = found.walls ? &found.walls->thickness : nullptr,
+                      .features = &found.named_features},
+                     found.characteristics,
+                     run);
   const SurfaceVerdict* surface = found.surface ? &found.surface->verdict : nullptr;
   found.verdict = verdict_of(surface, found.characteristics);
   found.reasons = verdict_reasons(surface, found.characteristics);

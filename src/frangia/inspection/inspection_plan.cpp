@@ -56,13 +56,14 @@ PlannedCharacteristic characteristic_from(TomlReader& reader) {
   PlannedCharacteristic planned;
   planned.name = reader.text("name");
   planned.kind = reader.named<Characteristic>("kind");
-  planned.feature = reader.text("feature");
+  const bool is_line = planned.kind == Characteristic::LineProfile;
+  if (is_line) planned.section = reader.text("section");
+  const bool may_be_all = is_of_surface(planned.kind);
+  if (!is_line && (!may_be_all || reader.has("feature"))) planned.feature = reader.text("feature");
   if (needs_datum(planned.kind)) planned.datum = reader.text("datum");
   if (planned.kind == Characteristic::Position)
     planned.position_mm = vector_of(reader, "position_mm");
-  const bool two_sided =
-      planned.kind == Characteristic::Distance || planned.kind == Characteristic::Angle;
-  if (two_sided) {
+  if (has_nominal(planned.kind)) {
     if (reader.has("nominal")) planned.nominal = reader.number("nominal");
     planned.tolerance = limits_of(reader, "tolerance");
     if (planned.tolerance && !planned.nominal) {
@@ -228,6 +229,17 @@ InspectionPlan parse_inspection_plan(const std::string& text, const std::filesys
       top.fail("datums", fmt::format("names \"{}\", which is no name of [[features]]", name));
   }
   for (const PlannedCharacteristic& planned : plan.characteristics) {
+    const bool has_section =
+        planned.section.empty() ||
+        std::any_of(plan.sections.begin(), plan.sections.end(), [&](const PlannedSection& section) {
+          return section.name == planned.section;
+        });
+    if (!has_section) {
+      top.fail("characteristics",
+               fmt::format("\"{}\" refers to \"{}\", which is no name of [[sections]]",
+                           planned.name,
+                           planned.section));
+    }
     for (const std::string& name : {planned.feature, planned.datum}) {
       if (name.empty() || is_named(name)) continue;
       top.fail(

@@ -35,12 +35,15 @@ struct PlannedFeature {
 
 /// A characteristic that a plan asks for, such as a distance or a run-out.
 struct PlannedCharacteristic {
-  std::string name;                                       ///< unique in the plan
-  Characteristic kind = Characteristic::Distance;         ///< what is measured
-  std::string feature;                                    ///< name of the feature
+  std::string name;                                ///< unique in the plan
+  Characteristic kind = Characteristic::Distance;  ///< what is measured
+  /// Name of the feature; empty for a line profile, and for a surface profile or a thickness of the
+  /// whole part.
+  std::string feature;
+  std::string section;                                    ///< name of the section of a line profile
   std::string datum;                                      ///< name of the datum; may be empty
   Eigen::Vector3d position_mm = Eigen::Vector3d::Zero();  ///< true position, of `Position`
-  std::optional<double> nominal;                          ///< of a distance or an angle
+  std::optional<double> nominal;                          ///< of a distance, angle or thickness
   std::optional<ToleranceLimits> tolerance;               ///< of the difference from the nominal
   std::optional<double> limit;                            ///< upper limit of the other kinds
 };

@@ -54,10 +54,6 @@ double farthest_mm(const std::vector<MeasuredFeature>& features) {
   return box.isEmpty() ? 0.0 : kFarthestFeature * box.diagonal().norm();
 }
 
-void decide_row(MeasuredCharacteristic& row) {
-  if (row.limits) row.conformity = conformity_of(row.value, row.u95 / kNormal95, *row.limits);
-}
-
 ToleranceLimits at_most(double limit) {
   return {-std::numeric_limits<double>::infinity(), limit};
 }
@@ -78,8 +74,9 @@ void add_feature_rows(const PlannedFeature& planned,
     if (feature != nullptr) {
       row.value = 2.0 * feature->feature.fit.shape.radius_mm;
       row.u95 = feature->feature.uncertainty.u95_mm;
+      row.uncertainty_known = feature->feature.uncertainty.is_known;
     }
-    decide_row(row);
+    decide(row);
     rows.push_back(row);
   }
   for (const auto& [form, limit] : planned.forms_mm) {
@@ -95,8 +92,9 @@ void add_feature_rows(const PlannedFeature& planned,
           measure(form, *feature, nullptr, Eigen::Vector3d::Zero(), planned.form);
       row.value = value.value;
       row.u95 = value.u95;
+      row.uncertainty_known = feature->feature.uncertainty.is_known;
     }
-    decide_row(row);
+    decide(row);
     rows.push_back(row);
   }
 }
@@ -107,8 +105,6 @@ MeasuredCharacteristic row_of(const PlannedCharacteristic& planned, const Featur
   row.kind = planned.kind;
   row.feature = planned.feature;
   row.datum = planned.datum;
-  const auto& [feature, of] = found.at(planned.feature);
-  row.shape = of->kind;
   row.unit = planned.kind == Characteristic::Angle ? "degrees" : "mm";
   row.nominal = planned.nominal;
   if (planned.nominal && planned.tolerance) {
@@ -116,7 +112,11 @@ MeasuredCharacteristic row_of(const PlannedCharacteristic& planned, const Featur
                                  *planned.nominal + planned.tolerance->upper};
   }
   if (planned.limit) row.limits = at_most(*planned.limit);
-  if (!needs_datum(planned.kind) && planned.kind != Characteristic::Position) row.fit = of->form;
+  if (!planned.section.empty()) row.feature = planned.section;
+  if (!planned.feature.empty()) row.shape = found.at(planned.feature).planned->kind;
+  if (is_of_surface(planned.kind)) return row;
+  const auto& [feature, of] = found.at(planned.feature);
+  if (is_form(planned.kind)) row.fit = of->form;
   const MeasuredFeature* datum = planned.datum.empty() ? nullptr : found.at(planned.datum).measured;
   const bool is_measured = feature != nullptr && (planned.datum.empty() || datum != nullptr);
   if (is_measured) {
@@ -124,12 +124,20 @@ MeasuredCharacteristic row_of(const PlannedCharacteristic& planned, const Featur
         measure(planned.kind, *feature, datum, planned.position_mm, of->form);
     row.value = value.value;
     row.u95 = value.u95;
+    row.uncertainty_known = feature->feature.uncertainty.is_known &&
+                            (datum == nullptr || datum->feature.uncertainty.is_known);
   }
-  decide_row(row);
+  decide(row);
   return row;
 }
 
 }  // namespace
+
+void decide(MeasuredCharacteristic& row) {
+  if (!row.limits || !std::isfinite(row.value)) return;
+  const double u = row.uncertainty_known ? row.u95 / kNormal95 : 0.0;
+  row.conformity = conformity_of(row.value, u, *row.limits);
+}
 
 const Feature* nearest_feature(const PlannedFeature& planned,
                                const std::vector<Feature>& features,
@@ -170,7 +178,8 @@ std::vector<NamedFeature> named_features(const InspectionPlan& plan,
                      found->feature.fit.shape,
                      found->feature.uncertainty,
                      found->low_mm,
-                     found->high_mm});
+                     found->high_mm,
+                     found->sampled ? std::vector<std::uint32_t>{} : found->feature.vertices});
   }
   return named;
 }

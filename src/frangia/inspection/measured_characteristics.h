@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -14,7 +15,7 @@ namespace frangia {
 struct MeasuredCharacteristic {
   std::string name;                       ///< of the plan, with the quantity
   std::optional<Characteristic> kind;     ///< none: a diameter
-  std::string feature;                    ///< name of the feature in the plan
+  std::string feature;                    ///< of the plan, or section; empty: the whole part
   std::string datum;                      ///< name of its datum; may be empty
   ShapeKind shape = ShapeKind::Plane;     ///< of the feature
   std::optional<FormReference> fit;       ///< of a form: what it is measured from
@@ -22,9 +23,10 @@ struct MeasuredCharacteristic {
   std::optional<double> nominal;          ///< none: not stated
   double value = kMissing;                ///< NaN: the feature was not found
   double u95 = kMissing;                  ///< half the width of the 95 % interval
+  bool uncertainty_known = true;          ///< false: the mesh states no sigma
   std::optional<ToleranceLimits> limits;  ///< of the value; an absent limit is infinite
-  /// By ISO 14253-1; undecided where the value or its uncertainty is not known or no limit is
-  /// stated.
+  /// By ISO 14253-1; by the limits alone where the mesh states no sigma; undecided where the value
+  /// is not known, its uncertainty cannot be determined or no limit is stated.
   Conformity conformity = Conformity::Undecided;
 };
 
@@ -38,11 +40,15 @@ struct MeasuredCharacteristic {
 /// part.
 inline constexpr double kFarthestFeature = 0.1;
 
+/// Decides about a row by its value, its uncertainty and its limits.
+void decide(MeasuredCharacteristic& row);
+
 /// Measures what a plan asks for on a mesh in the frame of its reference. A planned feature is the
 /// one of its kind whose center, or axis, and diameter come nearest, within `kFarthestFeature` of
 /// the diagonal of all points.
 ///
-/// `run` is warned of planned features that are not found.
+/// Those that are `is_of_surface` have no value yet: `measure_on_surface` measures them. `run` is
+/// warned of planned features that are not found.
 /// @units    mm, degrees
 /// @missing  values of features that are not found are NaN
 /// @errors   Error(Input) for a characteristic that the kind of its feature does not have
@@ -56,6 +62,9 @@ struct NamedFeature {
   ShapeUncertainty uncertainty;  ///< of `shape`
   double low_mm = 0.0;           ///< ends of its points along its axis, from the center
   double high_mm = 0.0;          ///< see `low_mm`
+  /// Vertices that it was fitted to, ascending; empty for lines and circles, and for a mesh whose
+  /// vertices do not cover its surface.
+  std::vector<std::uint32_t> vertices;
 };
 
 /// The features of a plan that were found, in the order of the plan.

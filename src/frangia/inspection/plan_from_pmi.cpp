@@ -39,9 +39,10 @@ std::optional<Characteristic> characteristic_of_kind(Kind kind) {
       return Characteristic::RunOut;
     case Kind::TotalRunOut:
       return Characteristic::TotalRunOut;
+    case Kind::SurfaceProfile:
+      return Characteristic::SurfaceProfile;
     case Kind::Datum:
     case Kind::Diameter:
-    case Kind::SurfaceProfile:
     case Kind::Other:
       break;
   }
@@ -196,10 +197,22 @@ class PlanBuilder {
 
   void add_profile(const CadRequirement& one) {
     const std::set<std::size_t> faces(one.faces.begin(), one.faces.end());
-    if (!faces.empty() && faces.size() < faces_.size())
-      return leave_out(one, "a plan has one profile for the whole surface");
     if (!(one.value > 0.0)) return leave_out(one, "it states no value");
+    if (!faces.empty() && faces.size() < faces_.size()) return add_profiles(one, faces);
     plan_.plan.tolerance_mm = ToleranceLimits{-0.5 * one.value, 0.5 * one.value};
+  }
+
+  /// Profiles of single faces.
+  void add_profiles(const CadRequirement& one, const std::set<std::size_t>& faces) {
+    for (const std::size_t face : faces) {
+      if (!faces_[face - 1].shape) {
+        leave_out(one, fmt::format("face {} is no plane, cylinder, sphere, cone or torus", face));
+        continue;
+      }
+      PlannedCharacteristic planned = characteristic(one, face);
+      planned.limit = one.value;
+      plan_.plan.characteristics.push_back(std::move(planned));
+    }
   }
 
   /// A characteristic of a face with a name of its own.

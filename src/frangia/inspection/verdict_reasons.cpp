@@ -12,6 +12,16 @@
 namespace frangia {
 namespace {
 
+VerdictClause clause_of_worst(const MeasuredCharacteristic& worst) {
+  if (!std::isfinite(worst.value))
+    return {"not_found", {{"name", worst.name}}, fmt::format("{} was not measured", worst.name)};
+  std::string text = fmt::format("the worst is {}: {:.4f} {}", worst.name, worst.value, worst.unit);
+  if (std::isfinite(worst.u95)) text += fmt::format(", U95 {:.4f}", worst.u95);
+  return {"worst",
+          {{"name", worst.name}, {"value", worst.value}, {"unit", worst.unit}, {"u95", worst.u95}},
+          std::move(text)};
+}
+
 /// How many of the rows with limits are in, out and undecided, and the worst of them.
 std::optional<VerdictReason> reason_of_rows(const std::vector<MeasuredCharacteristic>& rows) {
   std::array<std::size_t, 3> count{};
@@ -37,20 +47,10 @@ std::optional<VerdictReason> reason_of_rows(const std::vector<MeasuredCharacteri
                           {"undecided", static_cast<double>(of(Conformity::Undecided))}},
                          std::move(text)}}};
   const MeasuredCharacteristic worst = worst_first(rows).front();
-  if (worst.conformity == Conformity::In) return reason;
-  if (std::isfinite(worst.value)) {
-    reason.clauses.push_back(
-        {"worst",
-         {{"name", worst.name}, {"value", worst.value}, {"unit", worst.unit}, {"u95", worst.u95}},
-         fmt::format("the worst is {}: {:.4f} {}, U95 {:.4f}",
-                     worst.name,
-                     worst.value,
-                     worst.unit,
-                     worst.u95)});
-  } else {
-    reason.clauses.push_back(
-        {"not_found", {{"name", worst.name}}, fmt::format("{} was not found", worst.name)});
-  }
+  if (worst.conformity != Conformity::In) reason.clauses.push_back(clause_of_worst(worst));
+  const bool is_known =
+      std::all_of(rows.begin(), rows.end(), [](const auto& row) { return row.uncertainty_known; });
+  if (!is_known) reason.clauses.push_back(no_uncertainty_clause());
   return reason;
 }
 

@@ -80,6 +80,7 @@ void add_characteristic(TomlLines& lines, const PlannedCharacteristic& planned) 
   lines.text("name", planned.name);
   lines.text("kind", std::string(name_of(planned.kind)));
   lines.text("feature", planned.feature);
+  lines.text("section", planned.section);
   lines.text("datum", planned.datum);
   if (planned.kind == Characteristic::Position) lines.vector("position_mm", planned.position_mm);
   lines.number("nominal", planned.nominal);

@@ -23,7 +23,8 @@ td,th{padding:.22em .6em;border-bottom:.5pt solid #d8dce2;text-align:right;verti
 td:first-child,th:first-child{text-align:left;overflow-wrap:anywhere}
 th{background:#eef0f4;font-weight:600;vertical-align:bottom}
 table.facts{width:100%;table-layout:fixed}table.facts td{text-align:left;overflow-wrap:anywhere}
-table.facts td:first-child{width:32%;color:#5a6470}
+table.facts td:first-child{width:27%;color:#5a6470}
+table.short{break-inside:avoid}
 .in{color:#0a6b2d;font-weight:600}.out{color:#b00020;font-weight:600}.undecided{color:#8a5a00;font-weight:600}
 .verdict{padding:.45em .8em;border-left:4pt solid #888;background:#f4f4f6;break-inside:avoid}
 .good{border-color:#0a8a3d;background:#eaf6ee}.bad{border-color:#b00020;background:#fbeaec}
@@ -116,7 +117,10 @@ void HtmlPage::table(const std::vector<std::string>& columns,
   // Without names a table lists facts.
   const bool named = std::any_of(
       columns.begin(), columns.end(), [](const auto& column) { return !column.empty(); });
-  body_ += named ? "<table><thead><tr>" : "<table class=\"facts\">";
+  constexpr std::size_t kShort = 12;  // rows: such a table stays on one page
+  const char* const classes = rows.size() <= kShort ? " short" : "";
+  body_ += fmt::format(
+      "<table class=\"{}{}\">{}", named ? "list" : "facts", classes, named ? "<thead><tr>" : "");
   if (named) {
     for (const std::string& column : columns)
       body_ += fmt::format("<th>{}</th>", html_escaped(column));

@@ -69,6 +69,12 @@ std::string qif_kind(const MeasuredCharacteristic& row) {
       return "DistanceBetweenCharacteristic";
     case Characteristic::Angle:
       return "AngleBetweenCharacteristic";
+    case Characteristic::SurfaceProfile:
+      return "SurfaceProfileCharacteristic";
+    case Characteristic::LineProfile:
+      return "LineProfileCharacteristic";
+    case Characteristic::Thickness:
+      return "ThicknessCharacteristic";
   }
   return {};
 }

@@ -55,8 +55,8 @@ void add_deviation(HtmlPage& page, const InspectionReport& report) {
        number_text(d.median_u_mm, 4) + ", " + number_text(v.median_u_mm, 4)},
       {"patches, and effective number of independent ones",
        fmt::format("{}, {}", v.patches, v.independent)},
-      {"largest U95 that proves \"in\", of the half-width",
-       share_text(v.rule.max_uncertainty_share)},
+      {"largest U95 that proves \"in\", and that is measured well, of the half-width",
+       share_text(v.rule.max_uncertainty_share) + ", " + share_text(v.rule.well_measured_share())},
       {"least half-width of a tolerance that the measurement is good enough for, mm",
        std::isfinite(v.decidable_mm) ? number_text(v.decidable_mm, 4)
                                      : "none: too little was measured"}};

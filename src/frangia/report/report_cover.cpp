@@ -100,8 +100,10 @@ void add_head(HtmlPage& page, const InspectionReport& report) {
 void add_verdict(HtmlPage& page, const InspectionReport& report) {
   if (!has_verdict(report)) return;
   const Conformity verdict = verdict_of(report);
-  // Sizes of features have an uncertainty by their points, deviations only by the mesh's sigma.
-  const bool unknown = report.deviation && !std::isfinite(report.deviation->median_u_mm);
+  const bool unknown = (report.surface && !report.surface->uncertainty_known) ||
+                       std::any_of(report.characteristics.begin(),
+                                   report.characteristics.end(),
+                                   [](const auto& row) { return !row.uncertainty_known; });
   const char* const counted =
       unknown ? "but without an uncertainty: the mesh holds no sigma" : "the uncertainty counted";
   std::string text = word_of(verdict);

@@ -56,7 +56,7 @@ void add_places(HtmlPage& page, const InspectionReport& report) {
   page.table({"place", "at", "deviation, mm", "U95, mm", "area, mm²"}, rows);
   if (report.surface->places.size() > rows.size())
     page.paragraph(fmt::format(
-        "The first {} of {} places or more.", rows.size(), report.surface->places.size()));
+        "These {} places matter most; the JSON beside this report lists more.", rows.size()));
 }
 
 void add_walls(HtmlPage& page, const InspectionReport& report) {

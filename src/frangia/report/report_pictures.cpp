@@ -44,12 +44,14 @@ std::vector<LabelledPlace> labelled_places(const Inspection& part) {
       labelled.label.detail = out ? "out" : "undecided";
       if (place.decision == PatchDecision::NotWellMeasured) labelled.label.detail = "U95 too large";
       if (place.decision == PatchDecision::NotMeasured) labelled.label.detail = "not measured";
+      // The mean of a place whose U95 is too large tells nothing; how large it is does.
+      const bool lacks = place.decision == PatchDecision::NotWellMeasured ||
+                         place.decision == PatchDecision::NotMeasured;
       labelled.label.text = place.missing ? "missing"
-                            : std::isfinite(place.deviation_mm)
-                                ? value_text(place.deviation_mm, place.u95_mm)
-                                : fmt::format("{:.0f} mm²", place.area_mm2);
-      constexpr double kLeastArea = 1e-3;  // of the part: smaller ones are in the table alone
-      if (out || place.area_mm2 > kLeastArea * verdict.area_mm2) places.push_back(labelled);
+                            : lacks       ? fmt::format("{:.0f} mm²", place.area_mm2)
+                                          : value_text(place.deviation_mm, place.u95_mm);
+      constexpr double kLeastArea = 5e-3;  // of the part: smaller ones are in the table alone
+      if (!lacks || place.area_mm2 > kLeastArea * verdict.area_mm2) places.push_back(labelled);
     }
     for (const auto& [extreme, detail] :
          {std::pair(verdict.highest, "largest"), std::pair(verdict.lowest, "smallest")}) {

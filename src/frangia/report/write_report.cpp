@@ -61,7 +61,8 @@ std::vector<std::pair<std::string, double>> uncertainty_terms_of(const Inspectio
   if (part.surface) {
     if (part.alignment)
       add("pose on the reference, largest", part.surface->deviations.largest_pose_u_mm);
-    add("temperature, largest", part.surface->deviations.largest_temperature_u_mm);
+    if (part.surface->deviations.largest_temperature_u_mm > 0.0)
+      add("temperature, largest", part.surface->deviations.largest_temperature_u_mm);
     add("deviation, combined, median", part.surface->summary.median_u_mm);
   }
   return terms;

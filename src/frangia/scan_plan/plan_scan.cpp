@@ -177,7 +177,7 @@ class Predictor {
                                     plan,
                                     {.statistics = false, .mesh_name = "the plan"},
                                     run_);
-    tried.reach = reach_of(prediction.found, plan.surface.max_uncertainty_share);
+    tried.reach = reach_of(prediction.found, plan.surface.well_measured_share());
   }
 
   const InspectionReference& reference_;
@@ -233,7 +233,7 @@ ScanPlan plan_scan(const InspectionReference& reference,
   found.predicted = std::move(best.found);
   const SurfaceInspection& surface = found.predicted.surface.value();
   const SurfaceRule& rule = surface.verdict.rule;
-  found.characteristics = decidable_characteristics(found.predicted, rule.max_uncertainty_share);
+  found.characteristics = decidable_characteristics(found.predicted, rule.well_measured_share());
   found.map = uncertainty_map(surface_patches(found.predicted.mesh,
                                               surface.deviations,
                                               reference.scene,

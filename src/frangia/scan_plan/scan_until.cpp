@@ -16,33 +16,31 @@ namespace {
 /// Where the stations of a round lie between those of the first, of their distance.
 constexpr std::array<double, 8> kBetween{0.0, 0.5, 0.25, 0.75, 0.125, 0.625, 0.375, 0.875};
 
-/// The plan of a round: the views of the first one, turned by a part of their distance.
-Scan plan_of_round(const Scan& first, std::size_t round) {
-  Scan plan = first;
-  const double step_rad = kTwoPi / static_cast<double>(first.views.size());
-  for (ScanView& view : plan.views) {
+/// Adds the stations of a round: those of the first one, turned by a part of their distance.
+void add_round(Scan& plan, const std::vector<ScanView>& first, std::size_t round) {
+  const double step_rad = kTwoPi / static_cast<double>(first.size());
+  for (ScanView view : first) {
     view.angle_rad += kBetween.at(round) * step_rad;
-    view.setup = static_cast<int>(round);
+    view.folder = fmt::format("views/{:03}", plan.views.size());
+    plan.views.push_back(std::move(view));
   }
-  for (std::size_t setup = 1; setup <= round; ++setup)  // the part was not moved
-    plan.part_poses[static_cast<int>(setup)] = Eigen::Isometry3d::Identity();
-  return plan;
 }
 
 /// Why no further round is worth its time; nothing: it is.
-std::optional<ScanStop> stop_after(const std::vector<ScanRound>& rounds) {
+std::optional<ScanStop> stop_after(const std::vector<ScanRound>& rounds, Conformity verdict) {
   const ScanReach& last = rounds.back().reach;
-  if (last.need == ScanNeed::Nothing) return ScanStop::Decided;
+  if (verdict != Conformity::Undecided || last.need == ScanNeed::Nothing) return ScanStop::Decided;
+  // Also what is alike in all stations may shrink: more of them overlap, which determines the axis
+  // of the turntable.
+  if (rounds.size() < 2 || decides_more(last, rounds[rounds.size() - 2].reach)) return std::nullopt;
   if (last.need == ScanNeed::Calibration) return ScanStop::Rig;
-  if (rounds.size() < 2) return std::nullopt;
-  if (decides_more(last, rounds[rounds.size() - 2].reach)) return std::nullopt;
   return last.need == ScanNeed::Coverage ? ScanStop::NotSeen : ScanStop::NotHelped;
 }
 
 }  // namespace
 
 ScanUntil scan_until(const Scan& plan,
-                     const CaptureSetup& capture,
+                     const CaptureViews& capture,
                      const InspectionReference& reference,
                      const InspectionPlan& inspection,
                      std::size_t most_rounds,
@@ -52,15 +50,16 @@ ScanUntil scan_until(const Scan& plan,
   InspectionPlan wanted = inspection;
   if (wanted.align.empty()) wanted.align = "best-fit";
   ScanUntil done;
+  Scan planned = plan;
   for (std::size_t round = 0; round < most_rounds; ++round) {
-    const Scan planned = plan_of_round(plan, round);
-    Scan scan = capture(planned, static_cast<int>(round));
-    scan.part_poses = planned.part_poses;
+    if (round > 0) add_round(planned, plan.views, round);
+    const Scan scan = capture(planned);
+    if (!done.rounds.empty() && scan.views.size() == done.rounds.back().stations) continue;
     const InspectOptions options{.statistics = false, .scan = &scan, .mesh_name = scan.folder};
     done.found = inspect_part(reconstruct(scan, {}, run).mesh, &reference, wanted, options, run);
     done.rounds.push_back(
-        {scan.views.size(), reach_of(done.found, wanted.surface.max_uncertainty_share)});
-    if (const auto stop = stop_after(done.rounds)) {
+        {scan.views.size(), reach_of(done.found, wanted.surface.well_measured_share())});
+    if (const auto stop = stop_after(done.rounds, done.found.verdict)) {
       done.stop = *stop;
       return done;
     }

@@ -37,17 +37,17 @@ struct ScanUntil {
   Inspection found;                  ///< of the last round
 };
 
-/// Captures the views of `plan` that belong to `setup`, and returns the scan with all that were
-/// captured before.
-using CaptureSetup = std::function<Scan(const Scan& plan, int setup)>;
+/// Captures those views of a plan that were not captured before, and returns the scan with all of
+/// them.
+using CaptureViews = std::function<Scan(const Scan& plan)>;
 
 /// Scans a part until a plan of inspection is decided, or says why it cannot: after each round all
-/// views are reconstructed and inspected, and stations between the others are added as a further
-/// setup in which the part was not moved.
+/// views are reconstructed and inspected, and stations between the others are added to the same
+/// setup. Rounds that an earlier session captured are not repeated.
 ///
 /// @errors   Error(Input) as inspect_part and reconstruct; those of `capture`; Error(Cancelled)
 [[nodiscard]] ScanUntil scan_until(const Scan& plan,
-                                   const CaptureSetup& capture,
+                                   const CaptureViews& capture,
                                    const InspectionReference& reference,
                                    const InspectionPlan& inspection,
                                    std::size_t most_rounds = 4,

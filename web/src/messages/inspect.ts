@@ -201,4 +201,7 @@ export const INSPECT = {
   'inspect.what.perpendicularity': ['Perpendicularity', 'Rechtwinkligkeit', 'Perpendicolarità'],
   'inspect.what.run-out': ['Run-out', 'Rundlauf', 'Oscillazione'],
   'inspect.what.total-run-out': ['Total run-out', 'Gesamtlauf', 'Oscillazione totale'],
+  'inspect.what.surface-profile': ['Surface profile', 'Flächenprofil', 'Profilo di superficie'],
+  'inspect.what.line-profile': ['Line profile', 'Linienprofil', 'Profilo di linea'],
+  'inspect.what.thickness': ['Wall thickness', 'Wanddicke', 'Spessore di parete'],
 } as const satisfies Rows;

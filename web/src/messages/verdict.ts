@@ -48,9 +48,9 @@ export const VERDICT = {
     "Indeciso: il {share} dell'area nominale ha un U95 oltre {u95_mm} mm, {of_half_width} della semitolleranza, soprattutto calibrazione e allineamento",
   ],
   'clause.not_measured': [
-    'Undecided: {share} of the nominal area was not measured, wanted is {wanted_share} at most, and the widest gap is {gap_mm} mm at {at_mm}, wanted is {wanted_mm} mm at most',
-    'Unentschieden: {share} der Sollfläche wurden nicht gemessen, höchstens {wanted_share} dürfen fehlen, und die größte Lücke misst {gap_mm} mm bei {at_mm}, höchstens {wanted_mm} mm',
-    "Indeciso: il {share} dell'area nominale non è stato misurato, al massimo {wanted_share}, e la lacuna più larga è di {gap_mm} mm a {at_mm}, al massimo {wanted_mm} mm",
+    'Undecided: {share} of the nominal area was not measured and {poor_share} not well enough, wanted is {wanted_share} together at most; the widest gap is {gap_mm} mm at {at_mm}, wanted is {wanted_mm} mm at most',
+    'Unentschieden: {share} der Sollfläche wurden nicht gemessen und {poor_share} nicht gut genug, höchstens {wanted_share} zusammen dürfen fehlen; die größte Lücke misst {gap_mm} mm bei {at_mm}, höchstens {wanted_mm} mm dürfen es sein',
+    "Indeciso: il {share} dell'area nominale non è stato misurato e il {poor_share} non abbastanza bene, al massimo {wanted_share} insieme; la lacuna più larga è di {gap_mm} mm a {at_mm}, al massimo {wanted_mm} mm",
   ],
   'clause.gap_too_wide': [
     'the widest gap is {gap_mm} mm at {at_mm}, wanted is {wanted_mm} mm at most',
@@ -87,6 +87,11 @@ export const VERDICT = {
     'nicht beurteilt sind Streifen von {edge_mm} mm entlang der Kanten, {share} der Fläche',
     "non si giudicano strisce di {edge_mm} mm lungo gli spigoli, il {share} dell'area",
   ],
+  'clause.no_sigma': [
+    'the mesh states no sigma, so that no uncertainty is known and the limits alone decide',
+    'das Netz nennt kein Sigma: Die Unsicherheit ist unbekannt, und allein die Grenzen entscheiden',
+    "la maglia non indica sigma: l'incertezza non è nota e decidono solo i limiti",
+  ],
   'clause.counts': [
     'Characteristics: {of}, of which {in} in, {out} out, {undecided} undecided',
     'Merkmale: {of}, davon {in} innerhalb, {out} außerhalb, {undecided} unentschieden',
@@ -97,5 +102,5 @@ export const VERDICT = {
     'am schlechtesten ist {name} mit {value} {unit}, U95 {u95} {unit}',
     'la peggiore è {name} con {value} {unit}, U95 {u95} {unit}',
   ],
-  'clause.not_found': ['{name} was not found', '{name} wurde nicht gefunden', '{name} non è stata trovata'],
+  'clause.not_found': ['{name} was not measured', '{name} wurde nicht gemessen', '{name} non è stata misurata'],
 } as const satisfies Rows;

@@ -12,7 +12,14 @@ import type {
 } from '../inspection_types';
 
 /** What can be measured of which kinds of features; the last ones are relative to a datum. */
-const OF_ONE: readonly CharacteristicKind[] = ['flatness', 'roundness', 'cylindricity', 'position'];
+const OF_ONE: readonly CharacteristicKind[] = [
+  'flatness',
+  'roundness',
+  'cylindricity',
+  'position',
+  'surface-profile',
+  'thickness',
+];
 const KINDS: readonly CharacteristicKind[] = [
   'distance',
   'angle',
@@ -22,7 +29,7 @@ const KINDS: readonly CharacteristicKind[] = [
   'run-out',
   'total-run-out',
 ];
-const TWO_SIDED: readonly CharacteristicKind[] = ['distance', 'angle'];
+const TWO_SIDED: readonly CharacteristicKind[] = ['distance', 'angle', 'thickness'];
 
 const size = ({ diameter_mm, u95_mm }: FoundFeature): string =>
   diameter_mm === null
@@ -149,7 +156,8 @@ function characteristic(app: App, one: PlannedCharacteristic): TemplateResult {
   return html`<div class="planned row" data-planned=${one.name}>
     <span class="grow"
       ><b>${one.name}</b><br /><span class="quiet"
-        >${t(`inspect.what.${one.kind}`)}: ${one.feature}${one.datum ? ` – ${one.datum}` : ''}</span
+        >${t(`inspect.what.${one.kind}`)}:
+        ${one.feature ?? one.section ?? ''}${one.datum ? ` – ${one.datum}` : ''}</span
       ></span
     >${remove(app, one.name, () => app.inspecting.removeCharacteristic(one.name))}
   </div>`;

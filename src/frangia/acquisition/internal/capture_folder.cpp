@@ -4,6 +4,7 @@
 #include <array>
 #include <filesystem>
 #include <map>
+#include <set>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -20,6 +21,7 @@
 #include "frangia/core/read_text_file.h"
 #include "frangia/core/sync_to_disk.h"
 #include "frangia/core/write_text_file.h"
+#include "frangia/dataset/scan_folder.h"
 #include "frangia/dataset/write_scan.h"
 #include "frangia/rig/write_rig.h"
 
@@ -120,15 +122,33 @@ void store_plan(const std::filesystem::path& folder, const PlanFiles& files) {
   sync_to_disk(folder);
 }
 
-/// Replaces the stored plan where the new one differs by the views of one more setup only. The
-/// manifest comes first: a stored plan that is not the one it names is replaced later.
-void extend_plan(const Scan& plan, int setup, const std::string& text) {
+/// Folders of the views of the stored plan; none where it cannot be read.
+std::set<std::filesystem::path> stored_views(const std::filesystem::path& folder) {
+  std::set<std::filesystem::path> folders;
+  try {
+    for (const ScanView& view : read_scan(folder / "capture", {}, RigContent::PhaseOnly).views)
+      folders.insert(view.folder);
+  } catch (const Error&) {
+    return {};
+  }
+  return folders;
+}
+
+/// Replaces the stored plan where the new one has further views, of the same setup or of another,
+/// and differs by nothing else. The manifest comes first: a stored plan that is not the one it
+/// names is replaced later.
+void extend_plan(const Scan& plan, const std::string& text) {
+  const std::set<std::filesystem::path> stored = stored_views(plan.folder);
   Scan before = plan;
-  std::erase_if(before.views, [&](const ScanView& view) { return view.setup == setup; });
-  before.part_poses.erase(setup);
+  std::erase_if(before.views, [&](const ScanView& view) { return !stored.contains(view.folder); });
+  if (before.views.empty() || before.views.size() == plan.views.size()) return;
+  std::erase_if(before.part_poses, [&](const auto& pose) {
+    return std::none_of(before.views.begin(), before.views.end(), [&](const ScanView& view) {
+      return view.setup == pose.first;
+    });
+  });
   const std::filesystem::path path = path_below(plan.folder, "capture/scan.toml");
-  if (before.views.empty() || identity_of(stored_text(path)) != identity_of(scan_text(before)))
-    return;
+  if (identity_of(stored_text(path)) != identity_of(scan_text(before))) return;
   CaptureManifest(plan.folder).change_plan("scan.toml", crc32(identity_of(text)));
   write_text_file(path, text, Durability::Synced);
 }
@@ -161,12 +181,12 @@ void compare_plan(const std::filesystem::path& folder, const PlanFiles& files, c
 
 }  // namespace
 
-void claim_folder(const Scan& plan, const SessionSettings& settings, int setup, const Run& run) {
+void claim_folder(const Scan& plan, const SessionSettings& settings, const Run& run) {
   const PlanFiles files = files_of(plan, settings);
   if (!std::filesystem::exists(plan.folder / "capture")) {
     store_plan(plan.folder, files);
   } else {
-    if (setup > 0) extend_plan(plan, setup, files.front().text);
+    extend_plan(plan, files.front().text);
     compare_plan(plan.folder, files, run);
   }
   remove_temporary_files(plan.folder);

@@ -14,16 +14,13 @@ struct SessionSettings {
 };
 
 /// Stores a plan in `capture/` of its folder, or checks that it equals the plan stored there. The
-/// names of the scan and of its folder may differ. A plan that has the views of `setup` in addition
-/// replaces the stored one. Removes the temporary files of a killed session. The caller holds the
-/// lock of the folder.
+/// names of the scan and of its folder may differ. A plan that has further views replaces the
+/// stored one. Removes the temporary files of a killed session. The caller holds the lock of the
+/// folder.
 ///
 /// @errors   Error(Input) when the folder holds anything else, naming the first difference;
 ///          Error(File)
-void claim_folder(const Scan& plan,
-                  const SessionSettings& settings,
-                  int setup = 0,
-                  const Run& run = {});
+void claim_folder(const Scan& plan, const SessionSettings& settings, const Run& run = {});
 
 /// Writes rig.toml and scan.toml of the scan and syncs them to the disk.
 void finish_folder(const Scan& scan);

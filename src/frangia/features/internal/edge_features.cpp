@@ -33,6 +33,7 @@ Feature edge_feature(const Shape& shape, std::size_t points, double u95_mm) {
   feature.fit.shape = shape;
   feature.fit.converged = true;
   feature.fit.points = points;
+  feature.uncertainty.is_known = std::isfinite(u95_mm);
   feature.uncertainty.u95_mm = u95_mm;
   return feature;
 }

@@ -130,6 +130,7 @@ std::optional<Feature> refine_feature(const FeaturePoints& points,
   feature.fit = *best;
   feature.uncertainty = shape_uncertainty(points, chosen, *best);
   if (!is_determined(*best, feature.uncertainty)) return std::nullopt;
+  feature.uncertainty = known_uncertainty(points, std::move(feature.uncertainty));
   double side = 0.0;
   for (const std::uint32_t point : chosen) {
     const double cosine =

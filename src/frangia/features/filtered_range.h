@@ -1,6 +1,5 @@
 #pragma once
 
-#include <span>
 #include <vector>
 
 #include <Eigen/Core>
@@ -9,17 +8,17 @@ namespace frangia {
 
 /// A value at a point of a surface.
 struct SurfaceValue {
-  Eigen::Vector3d point_mm;
-  double value = 0.0;
+  Eigen::Vector3d point_mm = Eigen::Vector3d::Zero();  ///< on the surface
+  double value = 0.0;                                  ///< there, in any unit
 };
 
 /// The range of values without their noise.
 struct FilteredRange {
-  double low = 0.0;
-  double high = 0.0;
-  /// Of `high - low`: of both ends, and of how far the noise that remains draws the extremes of
-  /// many blocks apart. Errors that are alike in neighbouring points are seen in parts of the
-  /// blocks.
+  double low = 0.0;   ///< the least, in the unit of the values
+  double high = 0.0;  ///< the largest
+  /// Half the width of the 95 % interval of `high - low`: of both ends, and of how far the noise
+  /// that remains draws the extremes of many blocks apart. Errors that are alike in neighbouring
+  /// points are seen in parts of the blocks.
   double u95 = 0.0;
   std::vector<SurfaceValue> values;  ///< without their noise, in the order of the blocks
 };

@@ -1,4 +1,4 @@
-#include "frangia/features/internal/filtered_range.h"
+#include "frangia/features/filtered_range.h"
 
 #include <algorithm>
 #include <array>
