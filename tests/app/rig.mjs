@@ -60,8 +60,18 @@ await tell(home, async () => {
   coarsenCamera(path.join(home, 'projects', 'Uploaded'));
   await reopen(page, 'Uploaded');
   await page.click('#choose-devices');
+  // A setting with few values is chosen; what fails is said in the reader's language.
+  await page.selectOption('select[data-table=camera]', { label: 'webcams through Video4Linux2' });
+  await page.selectOption('select[data-setting=pixel_format]', 'mjpeg');
+  await page.selectOption('#language', 'de');
+  await page.click('#set-devices');
+  await page.waitForSelector('.notice');
+  expect(/^camera \/dev\/video0|video0/.test(await notice(page)) && (await notice(page)).includes('kann nicht geöffnet werden'), `a failure in German: ${await notice(page)}`);
+  await look(page, shots, 'fault-german');
+  await page.selectOption('#language', 'en');
   await page.locator('.chooser details summary').first().click();
   await page.waitForSelector('textarea.lines');
+  expect((await page.inputValue('textarea.lines >> nth=0')).includes('pixel_format = "mjpeg"'), 'the chosen setting is not among the lines');
   await page.locator('textarea.lines').first().fill('driver = "simulated"\npart = "plate"\nsamples = 1\n');
   await page.keyboard.press('Tab');
   await page.click('#set-devices');

@@ -1,10 +1,12 @@
 #include "frangia/devices/internal/v4l2_camera.h"
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstring>
 #include <deque>
 #include <map>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -101,12 +103,35 @@ class FakeWebcam final : public V4l2System {
         return 0;
       case VIDIOC_REQBUFS:
         return 0;
+      case VIDIOC_ENUM_FRAMESIZES: {
+        auto* entry = static_cast<v4l2_frmsizeenum*>(argument);
+        const bool can =
+            std::find(formats.begin(), formats.end(), entry->pixel_format) != formats.end();
+        if (!can || entry->index >= sizes.size()) return refuse(EINVAL);
+        entry->type = V4L2_FRMSIZE_TYPE_DISCRETE;
+        std::tie(entry->discrete.width, entry->discrete.height) = sizes[entry->index];
+        return 0;
+      }
+      case VIDIOC_ENUM_FRAMEINTERVALS: {
+        auto* entry = static_cast<v4l2_frmivalenum*>(argument);
+        if (entry->index >= rates.size()) return refuse(EINVAL);
+        entry->type = V4L2_FRMIVAL_TYPE_DISCRETE;
+        entry->discrete = {1, rates[entry->index]};
+        return 0;
+      }
+      case VIDIOC_S_PARM:
+        rate = static_cast<v4l2_streamparm*>(argument)->parm.capture.timeperframe;
+        return 0;
       default:
         return refuse(ENOTTY);
     }
   }
 
   std::vector<unsigned> formats = {V4L2_PIX_FMT_YUYV};
+  std::vector<std::pair<unsigned, unsigned>> sizes;  ///< that it lists
+  std::vector<unsigned> rates;                       ///< that it lists, images per second
+  v4l2_fract rate{};                                 ///< seconds per image that it was set to
+  std::pair<unsigned, unsigned> asked;               ///< size of the last format that was set
   std::map<unsigned, int> controls = {
       ///< as many a webcam has when it is plugged in
       {V4L2_CID_EXPOSURE_AUTO, V4L2_EXPOSURE_APERTURE_PRIORITY},
@@ -139,6 +164,7 @@ class FakeWebcam final : public V4l2System {
     if (!can)
       wanted.pixelformat = formats.front();  // drivers substitute a format that they support
     format_ = wanted.pixelformat;
+    asked = {wanted.width, wanted.height};
     wanted.width = kWidth;
     wanted.height = kHeight;
     wanted.bytesperline = row_bytes();
@@ -335,6 +361,44 @@ TEST(V4l2Camera, IsFoundWithItsSettings) {
   ASSERT_EQ(found.size(), 1U);
   EXPECT_EQ(found.front().name, "Fake webcam at /dev/video0");
   EXPECT_EQ(found.front().settings, "driver = \"v4l2\"\npath = \"/dev/video0\"\n");
+}
+
+TEST(V4l2Camera, ListsItsModesTheLeastCompressedAndLargestFirst) {
+  FakeWebcam webcam;
+  webcam.formats = {V4L2_PIX_FMT_MJPEG, V4L2_PIX_FMT_YUYV};
+  webcam.sizes = {{320, 240}, {1280, 720}};
+  webcam.rates = {10, 30};
+  const std::vector<DeviceMode> modes = find_v4l2_cameras(webcam).at(0).modes;
+  ASSERT_EQ(modes.size(), 8U);
+  EXPECT_EQ(modes[0].name, "1280 x 720 pixels, YUYV, 30 /s");
+  EXPECT_EQ(modes[0].settings,
+            "size_px = [1280, 720]\npixel_format = \"yuyv\"\nframes_per_s = 30\n");
+  EXPECT_EQ(modes[3].name, "320 x 240 pixels, YUYV, 10 /s");
+  EXPECT_EQ(modes[4].name, "1280 x 720 pixels, Motion JPEG, 30 /s");
+}
+
+TEST(V4l2Camera, TakesTheLargestImageWhereTheRigStatesNoSize) {
+  const auto webcam = std::make_shared<FakeWebcam>();
+  webcam->sizes = {{320, 240}, {1280, 720}, {640, 480}};
+  const auto camera = open_v4l2_camera({.path = "/dev/video0"}, webcam);
+  EXPECT_EQ(webcam->asked, std::pair(1280U, 720U));
+}
+
+TEST(V4l2Camera, TakesThePixelFormatAndTheRateThatAreAskedFor) {
+  const auto webcam = std::make_shared<FakeWebcam>();
+  webcam->formats = {V4L2_PIX_FMT_YUYV, V4L2_PIX_FMT_GREY};
+  V4l2Settings settings{
+      .path = "/dev/video0", .width_px = FakeWebcam::kWidth, .height_px = FakeWebcam::kHeight};
+  settings.format = V4L2_PIX_FMT_YUYV;
+  settings.fps = 15.0;
+  const auto camera = open_v4l2_camera(settings, webcam);
+  EXPECT_NE(camera->test(Deadline::in(1.0)).find("YUYV"), std::string::npos);
+  EXPECT_DOUBLE_EQ(static_cast<double>(webcam->rate.denominator) / webcam->rate.numerator, 15.0);
+  webcam->formats = {V4L2_PIX_FMT_GREY};
+  EXPECT_NE(error_of([&] {
+              static_cast<void>(open_v4l2_camera(settings, webcam));
+            }).find("in this pixel_format"),
+            std::string::npos);
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 import type { App } from './app';
 import { arranged, type RigDraft } from './arrange';
+import type { BoardKind } from './steps/rig_board';
 import type { DeviceDraft } from './steps/rig_devices';
 import type { StageName } from './steps/rig_stages';
 import type { Residuals, RigGeometry } from './types';
@@ -7,6 +8,7 @@ import type { Residuals, RigGeometry } from './types';
 /** What the step Rig changes: the geometry, the devices, and which residuals are on the stage. */
 export class Arranging {
   deviceDraft: DeviceDraft | null = null;
+  boardKind: BoardKind = 'printed';
   residuals: Residuals | null = null;
   /** Index of the map on the stage; -1 shows the rig. */
   residualMap = -1;
@@ -45,6 +47,10 @@ export class Arranging {
   async moveRig(draft: RigDraft): Promise<void> {
     if (!(await this.app.command('set-rig', draft))) this.app.viewer.setRig(this.app.project.rig);
     this.draft = {};
+    this.app.requestUpdate();
+  }
+  setBoardKind(kind: BoardKind): void {
+    this.boardKind = kind;
     this.app.requestUpdate();
   }
   draftDevices(draft: DeviceDraft | null): void {

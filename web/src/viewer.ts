@@ -132,6 +132,14 @@ export class Viewer {
     this.clouds.set(station, positions);
     this.draw();
   }
+  /** The coarse surface of some stations while a scan grows. */
+  setGrown(arrays: MeshArrays | null, stations: readonly number[]): void {
+    this.clouds.setGrown(arrays, stations);
+    this.draw();
+  }
+  get grownTriangles(): number {
+    return this.clouds.triangles;
+  }
   clearClouds(): void {
     this.clouds.clear();
     this.draw();

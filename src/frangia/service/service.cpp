@@ -68,6 +68,7 @@ std::string Service::Implementation::command(const std::string& name, const std:
       {"open-version", &Implementation::start_open_version},
       {"replay-edits", &Implementation::start_replay},
       {"find-devices", &Implementation::start_find_devices},
+      {"identify-displays", &Implementation::start_identify},
       {"set-devices", &Implementation::start_set_devices},
       {"test-devices", &Implementation::start_test_devices},
       {"find-exposure", &Implementation::start_find_exposure},
@@ -111,6 +112,7 @@ std::string Service::Implementation::command(const std::string& name, const std:
                                                        "take-back-project",
                                                        "set-notes",
                                                        "find-devices",
+                                                       "identify-displays",
                                                        "discard-rig",
                                                        "stop-job"};
   CommandArguments arguments(text, name);
@@ -191,6 +193,10 @@ std::string Service::Implementation::cloud(std::size_t station) const {
   }
   constexpr std::uint64_t kMostBytes = 16'000'000;
   return read_text_file(project.cloud(station), kMostBytes);
+}
+std::string Service::Implementation::grown_surface() const {
+  const std::lock_guard lock(mutex_);
+  return project_ && project_->grown ? *project_->grown->packed : std::string();
 }
 std::string Service::Implementation::setup_cloud(std::size_t joined) const {
   const OpenProject project = opened();
@@ -372,6 +378,10 @@ std::string Service::section(const std::string& plane_json) const {
 
 std::string Service::cloud(std::size_t station) const {
   return implementation_->cloud(station);
+}
+
+std::string Service::grown_surface() const {
+  return implementation_->grown_surface();
 }
 
 std::string Service::setup_cloud(std::size_t joined) const {

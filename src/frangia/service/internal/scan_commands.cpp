@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <filesystem>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -73,12 +74,20 @@ nlohmann::ordered_json Service::Implementation::start_scan(CommandArguments& arg
   change([&](OpenProject& opened) {
     opened.scan_begun = true;
     opened.stations = stations;
+    opened.grown.reset();
     opened.unknown_angle.reset();
   });
   return started("scan", [this, project, stations, settings, setup](const Run& run) {
     CaptureReport report;
     const auto decoded = views_to_keep(project, stations, settings, opened().decoded, run);
     change([&](OpenProject& opened) { opened.decoded = decoded; });
+    // Each setup stands in its own pose on the table: the surface is that of the present one.
+    std::optional<GrowingSurface> growing;
+    if (const std::optional<Rig> rig = opened().rig) {
+      growing.emplace(*rig, [this](const GrownSurface& grown) {
+        change([&](OpenProject& opened) { opened.grown = grown; });
+      });
+    }
     try {
       report = capture_project(
           project,
@@ -89,6 +98,7 @@ nlohmann::ordered_json Service::Implementation::start_scan(CommandArguments& arg
           [this](const std::vector<ProjectStation>& all) {
             change([&](OpenProject& opened) { opened.stations = all; });
           },
+          growing ? &*growing : nullptr,
           run);
     } catch (const UnknownTableAngle& error) {
       change([&](OpenProject& opened) { opened.unknown_angle = error; });
