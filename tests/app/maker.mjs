@@ -71,7 +71,7 @@ await tell(home, async () => {
   await page.click('#scan');
   // A coarse surface of the stations so far, while the part still stands there.
   await page.waitForFunction(() => (document.querySelector('frangia-app').session.state.project.grown?.views.length ?? 0) > 1);
-  await page.waitForFunction(() => document.querySelector('frangia-app').viewer.grownTriangles > 1000);
+  await page.waitForFunction(() => document.querySelector('frangia-app').viewer.clouds.triangles > 1000);
   await look('growing');
   await page.waitForSelector('#build:not([disabled])');
   await idle(page);

@@ -1,4 +1,4 @@
-import { meshOf, unpack } from './arrays';
+import { type MeshArrays, meshOf, unpack } from './arrays';
 import type { StepName } from './app_steps';
 import { Refusal, type Session } from './session';
 import type { Viewer } from './viewer';
@@ -33,17 +33,21 @@ export class StationClouds {
     );
   }
 
+  private showGrown(arrays: MeshArrays | null, stations: readonly number[]): void {
+    this.viewer.clouds.setGrown(arrays, stations);
+    this.viewer.draw();
+  }
   /** Brings the coarse surface that the state names. */
   private async followGrown(): Promise<void> {
     const grown = this.session.state?.project?.grown ?? null;
     const revision = grown?.revision ?? 0;
     if (revision === this.grown) return;
     this.grown = revision;
-    if (!grown) return this.viewer.setGrown(null, []);
+    if (!grown) return this.showGrown(null, []);
     try {
       const arrays = meshOf(await this.session.bytes('/api/grown-surface'));
       if (this.grown !== revision) return;
-      this.viewer.setGrown(arrays, grown.views);
+      this.showGrown(arrays, grown.views);
       this.added();
     } catch (error) {
       if (!(error instanceof Refusal) || error.status !== 404) this.failed(error);

@@ -45,7 +45,7 @@ export class Viewer {
   private readonly marks = new ViewMarks();
   private readonly scene = new THREE.Scene();
   private readonly lights = new THREE.Group();
-  private readonly clouds = new CloudsView();
+  readonly clouds = new CloudsView();
   private readonly table = new THREE.Group();
   private readonly surface = new SurfaceView();
   private readonly ruler = new Ruler();
@@ -131,14 +131,6 @@ export class Viewer {
   setCloud(station: number, positions: Float32Array | null): void {
     this.clouds.set(station, positions);
     this.draw();
-  }
-  /** The coarse surface of some stations while a scan grows. */
-  setGrown(arrays: MeshArrays | null, stations: readonly number[]): void {
-    this.clouds.setGrown(arrays, stations);
-    this.draw();
-  }
-  get grownTriangles(): number {
-    return this.clouds.triangles;
   }
   clearClouds(): void {
     this.clouds.clear();

@@ -183,21 +183,6 @@ OpenProject Service::Implementation::opened() const {
   return *project_;
 }
 
-std::string Service::Implementation::cloud(std::size_t station) const {
-  ProjectFolder project;
-  {
-    const std::lock_guard lock(mutex_);
-    if (!project_ || station >= project_->stations.size() || !project_->stations[station].has_cloud)
-      return {};
-    project = project_->folder;
-  }
-  constexpr std::uint64_t kMostBytes = 16'000'000;
-  return read_text_file(project.cloud(station), kMostBytes);
-}
-std::string Service::Implementation::grown_surface() const {
-  const std::lock_guard lock(mutex_);
-  return project_ && project_->grown ? *project_->grown->packed : std::string();
-}
 std::string Service::Implementation::setup_cloud(std::size_t joined) const {
   const OpenProject project = opened();
   if (!project.surface || !project.versions) return {};

@@ -6,6 +6,7 @@
 
 #include "frangia/core/angles.h"
 #include "frangia/core/error.h"
+#include "frangia/core/read_text_file.h"
 #include "frangia/service/internal/implementation.h"
 
 namespace frangia {
@@ -133,6 +134,22 @@ nlohmann::ordered_json Service::Implementation::rescan_station(CommandArguments&
       project.in_scan(std::filesystem::path("views") / fmt::format("{:03}", station)));
   CommandArguments none("{}");
   return start_scan(none);
+}
+
+std::string Service::Implementation::cloud(std::size_t station) const {
+  ProjectFolder project;
+  {
+    const std::lock_guard lock(mutex_);
+    if (!project_ || station >= project_->stations.size() || !project_->stations[station].has_cloud)
+      return {};
+    project = project_->folder;
+  }
+  constexpr std::uint64_t kMostBytes = 16'000'000;
+  return read_text_file(project.cloud(station), kMostBytes);
+}
+std::string Service::Implementation::grown_surface() const {
+  const std::lock_guard lock(mutex_);
+  return project_ && project_->grown ? *project_->grown->packed : std::string();
 }
 
 }  // namespace frangia
