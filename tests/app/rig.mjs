@@ -142,6 +142,10 @@ await tell(home, async () => {
   await page.click('#live-start:not([disabled])');
   await page.waitForFunction(() => Number(document.querySelector('#live-points')?.textContent.replaceAll(',', '')) > 5000);
   passed('the preview returns after the camera');
+  await page.click('[data-jog="15"]:not([disabled])');
+  await waitForState(page, (state) => state.project.live?.table_deg === 15);
+  await page.click('[data-jog="0"]:not([disabled])');
+  await waitForState(page, (state) => state.project.live?.table_deg === 0);
   // Focus: the bar has its mark, and a click shows single pixels about it.
   const scaleOf = () => page.locator('.live-picture').evaluate((canvas) => new DOMMatrix(getComputedStyle(canvas).transform).a);
   await page.waitForFunction(() => Number(document.querySelector('#contrast')?.textContent) > 0.3);
