@@ -17,7 +17,8 @@ export const draftOf = (app: App): DeviceDraft =>
     TABLES.map((table) => [table, app.project.devices.find((one) => one.table === table)?.settings ?? '']),
   ) as DeviceDraft;
 
-const driverOf = (lines: string): string => /^\s*driver\s*=\s*"([^"]*)"/m.exec(lines)?.[1] ?? '';
+/** The driver that the lines of a table name; empty without one. */
+export const driverOf = (lines: string): string => /^\s*driver\s*=\s*"([^"]*)"/m.exec(lines)?.[1] ?? '';
 
 /** Whether a device exists in software alone. */
 const isSimulated = (one?: { driver: string }): boolean => one?.driver.startsWith('simulated') ?? false;
