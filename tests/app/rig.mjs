@@ -105,6 +105,8 @@ await tell(home, async () => {
   await page.click('#to-axis');
   await page.waitForSelector('#find-axis:not([disabled])');
   await look(page, shots, 'axis-unknown');
+  // The board was not captured here: it is counted and measured.
+  for (const [name, value] of [['columns', 10], ['rows', 7], ['square_mm', 14]]) await page.fill(`#axis input[name=${name}]`, String(value));
   await page.click('#find-axis');
   const found = await waitForState(page, (state) => state.project.axis !== null);
   expect(found.project.rig.turntable !== null, 'the axis is not in the rig');
