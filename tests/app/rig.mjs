@@ -145,7 +145,7 @@ await tell(home, async () => {
   await page.waitForFunction(() => Number(document.querySelector('#live-points')?.textContent.replaceAll(',', '')) > 5000);
   passed('the preview returns after the camera');
   await page.click('[data-jog="15"]:not([disabled])');
-  await waitForState(page, (state) => state.project.live?.table_deg === 15);
+  await waitForState(page, (state) => Math.abs((state.project.live?.table_deg ?? 0) - 15) < 1e-6);
   await page.click('[data-jog="0"]:not([disabled])');
   await waitForState(page, (state) => state.project.live?.table_deg === 0);
   // Focus: the bar has its mark, and a click shows single pixels about it.
