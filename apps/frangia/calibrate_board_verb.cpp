@@ -85,8 +85,8 @@ void add_calibrate_board_verb(CLI::App& calibrate, Terminal& terminal) {
   verb->add_option("-o,--output", arguments->output, "PDF to write")->required();
   verb->add_option("--kind", arguments->kind, "checkerboard (default), charuco or circles")
       ->transform(named<BoardKind>());
-  verb->add_option("--paper", arguments->paper, "a4, a3 or letter")
-      ->check(one_of({"a4", "a3", "letter"}))
+  verb->add_option("--paper", arguments->paper, "a5, a4, a3 or letter")
+      ->check(one_of({"a5", "a4", "a3", "letter"}))
       ->capture_default_str();
   verb->add_option("--corners", arguments->corners, "inner corners, or circles, along x and y")
       ->delimiter(',')

@@ -80,8 +80,8 @@ void add_calibrate_targets_verb(CLI::App& calibrate, Terminal& terminal) {
       "targets", "write round stickers to print, which tie the views of parts without shape");
   verb->footer("Example:\n  frangia calibrate targets --diameter 4mm --coded 12 -o targets.pdf");
   verb->add_option("-o,--output", arguments->output, "PDF to write")->required();
-  verb->add_option("--paper", arguments->paper, "a4, a3 or letter")
-      ->check(one_of({"a4", "a3", "letter"}))
+  verb->add_option("--paper", arguments->paper, "a5, a4, a3 or letter")
+      ->check(one_of({"a5", "a4", "a3", "letter"}))
       ->capture_default_str();
   verb->add_option("--discs", arguments->discs, "number of uncoded targets")
       ->check(from_to(0, 10000))

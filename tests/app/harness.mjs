@@ -221,10 +221,37 @@ export const settled = (page) =>
     return app.viewer.atRest;
   });
 
-/** Takes a screenshot and runs axe on the page. */
+/** In the page: what is cut off, has no room, or is one primary button too many. */
+function faultsOfLayout() {
+  const faults = [];
+  const shown = (element) => {
+    const { width, height } = element.getBoundingClientRect();
+    return width > 0 && height > 0 && element.checkVisibility({ checkVisibilityCSS: true });
+  };
+  const words = (element) => `${element.tagName.toLowerCase()} "${element.textContent.trim().replace(/\s+/g, ' ').slice(0, 40)}"`;
+  if (document.documentElement.scrollWidth > innerWidth + 1) faults.push('the page scrolls sideways');
+  for (const main of document.querySelectorAll('main')) {
+    if (main.getBoundingClientRect().height < 0.3 * innerHeight) faults.push('the page has no room');
+  }
+  // What scrolls sideways by itself may end beyond the edge.
+  for (const element of document.querySelectorAll('button, label, h1, h2, h3, p, dt, dd, summary, th, td')) {
+    if (!shown(element) || element.closest('.sr, nav, .layers, .command')) continue;
+    const { left, right } = element.getBoundingClientRect();
+    if (left < -2 || right > innerWidth + 2) faults.push(`${words(element)} is beyond the edge`);
+    if (element.children.length === 0 && element.scrollWidth > element.clientWidth + 2 && element.clientWidth > 0 && getComputedStyle(element).textOverflow !== 'ellipsis')
+      faults.push(`${words(element)} is cut off`);
+  }
+  const primary = [...document.querySelectorAll('.btn.primary')].filter(shown);
+  const modal = document.querySelector('dialog[open]');
+  if (!modal && primary.length > 1) faults.push(`more than one primary button: ${primary.map(words).join(', ')}`);
+  return faults;
+}
+
+/** Takes a screenshot, looks for what is cut off, and runs axe on the page. */
 export async function look(page, folder, name) {
   await settled(page);
   await page.screenshot({ path: path.join(folder, `${name}.png`) });
+  for (const fault of await page.evaluate(faultsOfLayout)) fail(`${name}: ${fault}`);
   await axe(page, name);
   passed(name);
 }

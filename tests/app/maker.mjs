@@ -46,10 +46,13 @@ await tell(home, async () => {
   const rig = fs.readFileSync(path.join(home, 'projects', 'Maker', 'rig.toml'), 'utf8');
   expect(rig.includes(`delay_s = ${display.delay_s}`) && rig.includes('[projector.response]'), 'the rig does not keep what was measured');
 
+  // A board that was printed here: its markers tell what it is, and the ruler on it how far it was scaled.
+  expect((await page.locator('input[name=square_mm]').count()) === 0, 'the side of a square is asked for');
   await page.fill('input[name=poses]', String(POSES));
   await page.click('#calibrate.primary:not([disabled])');
   for (let pose = 0; pose < POSES; pose++) {
-    await waitForProject(page, `pose ${pose}`, ({ calibration }) => calibration?.waiting && calibration.found === 70 && calibration.poses.length === pose);
+    await waitForProject(page, `pose ${pose}`, ({ calibration }) => calibration?.waiting && calibration.found > 30 && calibration.poses.length === pose);
+    if (pose === 0) expect((await page.locator('#named').innerText()).includes('14.00 mm'), 'the board does not say what it is');
     if (pose === 1) await look('pose');
     await page.keyboard.press('Enter');
   }
@@ -66,6 +69,10 @@ await tell(home, async () => {
   await page.waitForSelector('#scan:not([disabled])');
   await look('scan-before');
   await page.click('#scan');
+  // A coarse surface of the stations so far, while the part still stands there.
+  await page.waitForFunction(() => (document.querySelector('frangia-app').session.state.project.grown?.views.length ?? 0) > 1);
+  await page.waitForFunction(() => document.querySelector('frangia-app').viewer.clouds.triangles > 1000);
+  await look('growing');
   await page.waitForSelector('#build:not([disabled])');
   await idle(page);
   await look('scanned');

@@ -60,8 +60,18 @@ await tell(home, async () => {
   coarsenCamera(path.join(home, 'projects', 'Uploaded'));
   await reopen(page, 'Uploaded');
   await page.click('#choose-devices');
+  // A setting with few values is chosen; what fails is said in the reader's language.
+  await page.selectOption('select[data-table=camera]', { label: 'webcams through Video4Linux2' });
+  await page.selectOption('select[data-setting=pixel_format]', 'mjpeg');
+  await page.selectOption('#language', 'de');
+  await page.click('#set-devices');
+  await page.waitForSelector('.notice');
+  expect(/^camera \/dev\/video0|video0/.test(await notice(page)) && (await notice(page)).includes('kann nicht geöffnet werden'), `a failure in German: ${await notice(page)}`);
+  await look(page, shots, 'fault-german');
+  await page.selectOption('#language', 'en');
   await page.locator('.chooser details summary').first().click();
   await page.waitForSelector('textarea.lines');
+  expect((await page.inputValue('textarea.lines >> nth=0')).includes('pixel_format = "mjpeg"'), 'the chosen setting is not among the lines');
   await page.locator('textarea.lines').first().fill('driver = "simulated"\npart = "plate"\nsamples = 1\n');
   await page.keyboard.press('Tab');
   await page.click('#set-devices');
@@ -95,6 +105,8 @@ await tell(home, async () => {
   await page.click('#to-axis');
   await page.waitForSelector('#find-axis:not([disabled])');
   await look(page, shots, 'axis-unknown');
+  // The board was not captured here: it is counted and measured.
+  for (const [name, value] of [['columns', 10], ['rows', 7], ['square_mm', 14]]) await page.fill(`#axis input[name=${name}]`, String(value));
   await page.click('#find-axis');
   const found = await waitForState(page, (state) => state.project.axis !== null);
   expect(found.project.rig.turntable !== null, 'the axis is not in the rig');
@@ -132,6 +144,10 @@ await tell(home, async () => {
   await page.click('#live-start:not([disabled])');
   await page.waitForFunction(() => Number(document.querySelector('#live-points')?.textContent.replaceAll(',', '')) > 5000);
   passed('the preview returns after the camera');
+  await page.click('[data-jog="15"]:not([disabled])');
+  await waitForState(page, (state) => Math.abs((state.project.live?.table_deg ?? 0) - 15) < 1e-6);
+  await page.click('[data-jog="0"]:not([disabled])');
+  await waitForState(page, (state) => state.project.live?.table_deg === 0);
   // Focus: the bar has its mark, and a click shows single pixels about it.
   const scaleOf = () => page.locator('.live-picture').evaluate((canvas) => new DOMMatrix(getComputedStyle(canvas).transform).a);
   await page.waitForFunction(() => Number(document.querySelector('#contrast')?.textContent) > 0.3);

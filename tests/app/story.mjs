@@ -37,7 +37,9 @@ await tell(home, async () => {
   await look('rig');
   const poses = 3;
   await page.click('[data-stage=calibration]');
-  await page.fill('input[name=poses]', String(poses));
+  await page.getByText('Another one', { exact: true }).click();
+  expect((await page.inputValue('input[name=square_mm]')) === '', 'the side of a square is not measured yet');
+  for (const [name, value] of [['columns', 10], ['rows', 7], ['square_mm', 14], ['poses', poses]]) await page.fill(`input[name=${name}]`, String(value));
   await page.click('#calibrate');
   for (let pose = 0; pose < poses; pose++) {
     await waitForProject(page, `pose ${pose}`, ({ calibration }) => calibration?.waiting && calibration.found === 70 && calibration.poses.length === pose);

@@ -60,6 +60,36 @@ TEST_F(LiveServiceTest, CalibratesTheRigFromPosesThatItAsksFor) {
   EXPECT_GT(std::filesystem::file_size(service_.exported("calibration.html").path), 10'000U);
 }
 
+/// Its markers tell size and number of the squares, its ruler how far the printer scaled them.
+TEST_F(LiveServiceTest, CalibratesWithAPrintedBoardThatNamesItself) {
+  EXPECT_NE(error_of([&] { command("start-calibration", {{"ruler_mm", 10.0}}); }), "");
+  EXPECT_NE(error_of([&] { command("start-calibration"); }), "");
+  command("start-calibration", {{"ruler_mm", 99.0}, {"poses", 3}});
+  const auto calibration = [&] { return project().at("calibration"); };
+  ASSERT_TRUE(wait([&] { return calibration().at("waiting").get<bool>() || !busy(); }));
+  ASSERT_TRUE(busy()) << service_.state();
+  EXPECT_FALSE(calibration().at("naming").get<bool>());
+  const Json board = calibration().at("board");
+  EXPECT_NEAR(board.at("square_mm").get<double>(), 14.0 * 0.99, 1e-9);
+  EXPECT_EQ(board.at("columns"), 10);
+  EXPECT_EQ(board.at("rows"), 7);
+  for (std::size_t pose = 0; pose < 3; ++pose) {
+    ASSERT_TRUE(wait([&] {
+      return (calibration().at("waiting").get<bool>() && calibration().at("found") > 30 &&
+              calibration().at("poses").size() == pose) ||
+             !busy();
+    }));
+    ASSERT_TRUE(busy()) << service_.state();
+    command("capture-pose");
+  }
+  ASSERT_TRUE(wait([&] { return !busy(); }));
+  ASSERT_FALSE(calibration().at("verdict").is_null()) << service_.state();
+  const Rig known = read_rig(folder_.path() / "live" / "rig.toml");
+  const double baseline =
+      read_rig(folder_.path() / "live" / "true-rig.toml").projector.position_mm.norm();
+  EXPECT_NEAR(known.projector.position_mm.norm(), baseline, 0.01 * baseline);
+}
+
 /// After the calibration of a new rig nothing says where its turntable is.
 TEST_F(LiveServiceTest, FindsTheAxisOfItsTurntableAndScansNoStationsBefore) {
   const std::filesystem::path file = folder_.path() / "live" / "rig.toml";

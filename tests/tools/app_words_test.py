@@ -7,6 +7,9 @@ from pathlib import Path
 
 WEB = Path(sys.argv.pop()) / "web" / "src"
 LANGUAGES = 3
+# Rows of sentences of the library, which tools/check_faults.py compares with the sources: the first column is the sentence
+# as it is, the others may leave values out.
+FAULT = "fault."
 ROW = re.compile(r"^  (?:'([^']+)'|(\w+)): \[(.*?)\],$", re.M | re.S)
 TEXT = re.compile(r"'((?:[^'\\]|\\.)*)'|\"((?:[^\"\\]|\\.)*)\"")
 PATH = re.compile(r"(?<![\w ])/\w|\bdocs/|\w/\w+\.\w+")
@@ -33,11 +36,14 @@ class AppWords(unittest.TestCase):
         for name, (texts,) in rows().items():
             values = [sorted(re.findall(r"\{(\w+)\}", text)) for text in texts]
             for other in values[1:]:
-                self.assertEqual(other, values[0], name)
+                if name.startswith(FAULT):
+                    self.assertLessEqual(set(other), set(values[0]), name)
+                else:
+                    self.assertEqual(other, values[0], name)
 
     def test_no_text_has_a_backtick_or_a_path(self):
         for name, (texts,) in rows().items():
-            for text in texts:
+            for text in texts[1:] if name.startswith(FAULT) else texts:
                 self.assertNotIn("`", text, name)
                 self.assertNotRegex(text, PATH, name)
 
@@ -47,7 +53,9 @@ class AppWords(unittest.TestCase):
         unused = [
             name
             for name in rows()
-            if f"'{name.removesuffix('One')}'" not in code and not any(name.startswith(one) for one in made)
+            if not name.startswith(FAULT)
+            and f"'{name.removesuffix('One')}'" not in code
+            and not any(name.startswith(one) for one in made)
         ]
         self.assertEqual(unused, [])
 

@@ -156,5 +156,24 @@ class Promises(Tree):
         self.assertIn("there is no test 'RunOfNothing'", text)
 
 
+class Faults(Tree):
+    def rows(self, source, *rows):
+        self.write("src/frangia/scan/scan.cpp", source)
+        self.write("web/src/messages/faults_scan.ts", "export const ROWS = {\n%s};\n" % "".join(rows))
+        return self.answer("check_faults.py", self.root)
+
+    def test_find_a_sentence_that_a_source_breaks_over_lines(self):
+        source = 'run.warn(fmt::format("view {} of \\"{}\\" is "\n    "dark by {:.2g} %", a, b, c));\n'
+        row = "  'fault.dark': [\n    'view {0} of \"{1}\" is dark by {2} %',\n    'dunkel',\n    'scuro',\n  ],\n"
+        self.assertEqual(self.rows(source, row), (0, ""))
+
+    def test_refuse_a_row_whose_sentence_no_source_has(self):
+        code, text = self.rows(
+            'run.warn("it is dark here");\n', "  'fault.dark': ['it is bright here', 'hell', 'chiaro'],\n"
+        )
+        self.assertEqual(code, 1)
+        self.assertIn("fault.dark: no source holds the sentence 'it is bright here'", text)
+
+
 if __name__ == "__main__":
     unittest.main()

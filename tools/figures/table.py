@@ -40,7 +40,7 @@ SECTIONS = {
     "explanations": Inputs("decode", case_s=1),
     "camera_blur": Inputs("reconstruct", case_s=20),
     "two_cameras": Inputs(SCAN, case_s=15),
-    "app": Inputs("serve", files="web/src tests/app benchmarks/service_bench.cpp", case_s=60),
+    "app": Inputs("serve", files="web/src tests/app benchmarks/service_bench.cpp", case_s=300),
     "features": Inputs(SCAN, shared="balls", case_s=7),
     "alignment": Inputs(SCAN, case_s=60),
     "deviation": Inputs("inspect", case_s=25),

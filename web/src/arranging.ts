@@ -1,17 +1,21 @@
 import type { App } from './app';
 import { arranged, type RigDraft } from './arrange';
-import type { DeviceDraft } from './steps/rig_devices';
+import type { BoardKind } from './steps/rig_board';
+import { type DeviceDraft, driverOf } from './steps/rig_devices';
 import type { StageName } from './steps/rig_stages';
-import type { Residuals, RigGeometry } from './types';
+import { type Residuals, type RigGeometry, type Table, TABLES } from './types';
 
 /** What the step Rig changes: the geometry, the devices, and which residuals are on the stage. */
 export class Arranging {
   deviceDraft: DeviceDraft | null = null;
+  boardKind: BoardKind = 'printed';
   residuals: Residuals | null = null;
   /** Index of the map on the stage; -1 shows the rig. */
   residualMap = -1;
   private residualsShown = 0;
   private draft: RigDraft = {};
+  /** The job that gives the rig the devices of the draft. */
+  private using = 0;
 
   /** Stages that were opened or closed by hand, until another one is the next. */
   private byHand = { next: '', open: new Map<StageName, boolean>() };
@@ -47,12 +51,31 @@ export class Arranging {
     this.draft = {};
     this.app.requestUpdate();
   }
+  setBoardKind(kind: BoardKind): void {
+    this.boardKind = kind;
+    this.app.requestUpdate();
+  }
   draftDevices(draft: DeviceDraft | null): void {
     this.deviceDraft = draft;
     this.app.requestUpdate();
   }
   async useDevices(devices: Partial<DeviceDraft>): Promise<void> {
-    if (await this.app.command('set-devices', { devices })) this.draftDevices(null);
+    try {
+      this.using = (await this.app.session.command<{ job: number }>('set-devices', { devices })).job;
+      this.app.dismiss();
+    } catch (error) {
+      this.app.say(error);
+    }
+  }
+  /** Ends the draft when its devices are those of the rig: a failure keeps it. */
+  private followDevices(): void {
+    const job = this.app.state.jobs.find(({ number }) => number === this.using);
+    if (!job || job.state === 'waiting' || job.state === 'running') return;
+    this.using = 0;
+    const { deviceDraft: draft } = this;
+    const driver = (of: Table) => this.app.state.project?.devices.find(({ table }) => table === of)?.driver ?? '';
+    const taken = draft !== null && TABLES.every((table) => driverOf(draft[table]) === driver(table));
+    if (job.state === 'done' || taken) this.draftDevices(null);
   }
 
   showResiduals(map: number): void {
@@ -62,6 +85,7 @@ export class Arranging {
   /** Reads the residuals of the project's calibration when they have changed. */
   async follow(): Promise<void> {
     const { app } = this;
+    this.followDevices();
     const at = app.state.project?.residuals_s ?? 0;
     if (at === this.residualsShown) return;
     this.residualsShown = at;

@@ -1,11 +1,40 @@
 import * as THREE from 'three';
 
+import type { MeshArrays } from './arrays';
 import { viridis } from './colors';
 import { colorByHeight } from './mesh_colors';
 
-/** The points of the stations of a scan, and those of the live preview, which is station -1. */
+/** The coarse surface among the clouds. */
+const GROWN = 'grown';
+
+/** The points of the stations of a scan, those of the live preview, which is station -1, and the surface that grows. */
 export class CloudsView {
   readonly group = new THREE.Group();
+  /** Stations that the surface holds: their points are not drawn. */
+  private grown: readonly number[] = [];
+
+  /** A coarse surface of some stations; null removes it. */
+  setGrown(arrays: MeshArrays | null, stations: readonly number[]): void {
+    const old = this.group.getObjectByName(GROWN) as THREE.Mesh | undefined;
+    if (old) {
+      old.geometry.dispose();
+      (old.material as THREE.Material).dispose();
+      this.group.remove(old);
+    }
+    this.grown = arrays ? stations : [];
+    if (!arrays) return;
+    const geometry = new THREE.BufferGeometry()
+      .setAttribute('position', new THREE.BufferAttribute(arrays.positions, 3))
+      .setAttribute('normal', new THREE.BufferAttribute(arrays.normals, 3))
+      .setIndex(new THREE.BufferAttribute(arrays.triangles, 1));
+    const mesh = new THREE.Mesh(geometry, new THREE.MeshLambertMaterial({ color: 0xb9c4c0, side: THREE.DoubleSide }));
+    mesh.name = GROWN;
+    this.group.add(mesh);
+  }
+  get triangles(): number {
+    const mesh = this.group.getObjectByName(GROWN) as THREE.Mesh | undefined;
+    return mesh ? (mesh.geometry.index?.count ?? 0) / 3 : 0;
+  }
 
   set(station: number, positions: Float32Array | null): void {
     const old = this.group.getObjectByName(String(station)) as THREE.Points | undefined;
@@ -29,6 +58,7 @@ export class CloudsView {
   }
 
   clear(): void {
+    this.setGrown(null, []);
     for (const child of [...this.group.children]) this.set(Number(child.name), null);
   }
 
@@ -37,8 +67,12 @@ export class CloudsView {
     const visible = () => [this.group, ...this.group.children].map((one) => one.visible).join();
     const before = visible();
     this.group.visible = shown;
-    for (const cloud of this.group.children)
-      cloud.visible = live ? cloud.name === '-1' : cloud.name !== '-1' && isShown(Number(cloud.name));
+    const grownIsShown = this.grown.every(isShown);
+    for (const cloud of this.group.children) {
+      if (cloud.name === GROWN) cloud.visible = !live && grownIsShown;
+      else if (live || cloud.name === '-1') cloud.visible = live && cloud.name === '-1';
+      else cloud.visible = isShown(Number(cloud.name)) && !(grownIsShown && this.grown.includes(Number(cloud.name)));
+    }
     return visible() !== before;
   }
 }

@@ -13,6 +13,7 @@ export interface Job {
     | 'open'
     | 'live'
     | 'find'
+    | 'identify'
     | 'devices'
     | 'exposure'
     | 'calibrate'
@@ -143,10 +144,27 @@ export interface Device {
   answer: string;
   fault: string;
 }
+/** A device that was found; `modes` are the ways in which it says that it can work, with the lines that choose them. */
+export interface ConnectedDevice {
+  table: Table;
+  driver: string;
+  name: string;
+  settings: string;
+  modes: { name: string; settings: string }[];
+}
+export interface DeviceDriver {
+  table: Table;
+  driver: string;
+  description: string;
+  /** Whether its devices can show a number. */
+  identifies: boolean;
+  /** Values of settings that have few, the default first. */
+  choices: Record<string, string[]>;
+}
 /** What a search for devices found, and the drivers of the program. */
 export interface DeviceSearch {
-  connected: { table: Table; driver: string; name: string; settings: string }[];
-  drivers: { table: Table; driver: string; description: string }[];
+  connected: ConnectedDevice[];
+  drivers: DeviceDriver[];
   warnings: string[];
 }
 /** The residuals of a calibration; arrows are x, y and the residual in x and y, px. */
@@ -198,6 +216,10 @@ export interface Axis {
 export interface Calibration {
   active: boolean;
   waiting: boolean;
+  /** It waits for a printed board that says by its markers which it is. */
+  naming: boolean;
+  /** Null until it is known. */
+  board: { columns: number; rows: number; square_mm: number } | null;
   found: number;
   wanted: number;
   with_board: number;
@@ -323,6 +345,8 @@ export interface Project {
   axis: Axis | null;
   table_angle: { last_deg: number | null } | null;
   stations: Station[];
+  /** A coarse surface of some stations, while the scan runs and until it is built. */
+  grown: { views: number[]; triangles: number; revision: number } | null;
   /** The surface exists, and is being read. */
   surface_loading: boolean;
   surface: Surface | null;

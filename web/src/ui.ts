@@ -1,6 +1,7 @@
 import { html, type TemplateResult } from 'lit';
 import type { App } from './app';
 import type { StepName } from './app_steps';
+import { worded } from './faults';
 import { icon } from './icons';
 import { t } from './messages';
 
@@ -63,9 +64,12 @@ export const numberForm = (
     <button class="btn" ?disabled=${disabled}>${button}</button>
   </form>`;
 
-/** A sentence of the library for the page: no backticks around names, views by their number, a file by its name alone. */
+/**
+ * A sentence of the library for the page: in the reader's language, no backticks around names, views by their number, a
+ * file by its name alone.
+ */
 export const plain = (sentence: string): string =>
-  sentence
+  worded(sentence)
     .replace(/\bviews\/0*(\d+)/g, (_, number: string) => t('findings.view', { number: Number(number) + 1 }))
     .replace(/`([^`]+)`/g, (_, name: string) => (/^[\w-]+$/.test(name) ? name.replaceAll('_', ' ') : name))
     .replace(/(?<![\w.])(?:\/[^\s/:;,()]+(?: [^\s/:;,()]+)*?)+\/([^\s/:;,()]+)/g, '$1');

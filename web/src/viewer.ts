@@ -45,7 +45,7 @@ export class Viewer {
   private readonly marks = new ViewMarks();
   private readonly scene = new THREE.Scene();
   private readonly lights = new THREE.Group();
-  private readonly clouds = new CloudsView();
+  readonly clouds = new CloudsView();
   private readonly table = new THREE.Group();
   private readonly surface = new SurfaceView();
   private readonly ruler = new Ruler();

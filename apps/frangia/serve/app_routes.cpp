@@ -277,6 +277,8 @@ HttpResponse AppRoutes::get(const std::string& path) const {
   if (path == "/api/preview") return found(service_.preview(), "no edit is previewed");
   if (const auto station = number_after(path, "/api/clouds/"))
     return found(service_.cloud(*station), "this station has no points");
+  if (path == "/api/grown-surface")
+    return found(service_.grown_surface(), "no scan has made a surface yet");
   if (const auto joined = number_after(path, "/api/setups/"))
     return found(service_.setup_cloud(*joined), "there is no such setup");
   if (const auto text = rest_of(path, "/api/thumbnails/")) {

@@ -52,17 +52,27 @@ std::vector<std::string> calibrate_line(const ProgressOfCalibration& calibration
   if (calibration.solved)
     return {"frangia", "calibrate", "rig", calibration.poses.string(), "-o", rig.string()};
   const Board& board = calibration.board;
-  return {"frangia",
-          "calibrate",
-          "capture",
-          rig.string(),
-          "-o",
-          calibration.poses.string(),
-          fmt::format("--corners={},{}", board.columns, board.rows),
-          "--square",
-          fmt::format("{:g}mm", board.square_mm),
-          "--poses",
-          std::to_string(calibration.wanted)};
+  std::vector<std::string> words{"frangia",
+                                 "calibrate",
+                                 "capture",
+                                 rig.string(),
+                                 "-o",
+                                 calibration.poses.string(),
+                                 fmt::format("--corners={},{}", board.columns, board.rows),
+                                 "--square",
+                                 fmt::format("{:g}mm", board.square_mm),
+                                 "--poses",
+                                 std::to_string(calibration.wanted)};
+  if (board.kind == BoardKind::Charuco) {
+    words.insert(words.end(),
+                 {"--board",
+                  std::string(name_of(board.kind)),
+                  "--dictionary",
+                  board.dictionary,
+                  "--first-id",
+                  std::to_string(board.first_id)});
+  }
+  return words;
 }
 
 }  // namespace

@@ -28,10 +28,23 @@ enum class DeviceKind {
 /// Beginning of the tables of further cameras: [devices.camera-NAME].
 inline constexpr std::string_view kFurtherCamera = "camera-";
 
+/// One of several ways in which a device can work.
+struct DeviceMode {
+  std::string name;      ///< for the user: size of the images, pixel format, images per second
+  std::string settings;  ///< lines that choose it, beside those of the device
+};
+
 /// A device that a driver found on this machine.
 struct FoundDevice {
-  std::string name;      ///< for the user: model and address
-  std::string settings;  ///< lines for its table in rig.toml, `driver = "..."` first
+  std::string name;                    ///< for the user: model and address
+  std::string settings;                ///< lines for its table in rig.toml, `driver = "..."` first
+  std::vector<DeviceMode> modes = {};  ///< as the device lists them; empty where it does not
+};
+
+/// The values among which a setting of a driver is chosen.
+struct SettingChoices {
+  std::string key;                  ///< in the table of rig.toml
+  std::vector<std::string> values;  ///< the default first
 };
 
 /// Opens and finds devices of one kind. Drivers are values; a program passes a list of them.
@@ -48,6 +61,13 @@ struct Driver {
       open;
   /// Lists devices without disturbing them; empty when the driver cannot search.
   std::function<std::vector<FoundDevice>(const Deadline&)> find;
+  /// Settings with few values, for forms.
+  std::vector<SettingChoices> choices = {};
+  /// Shows on each device that it finds the number that its name has there, until the deadline is
+  /// over or a stop is requested; empty for devices that show nothing.
+  ///
+  /// @errors   Error(Device) when there is none
+  std::function<void(const Deadline&)> identify = {};
 };
 
 /// The driver that `settings` name, for the kind of their table.

@@ -2,13 +2,16 @@
 #include <chrono>
 #include <cmath>
 #include <optional>
+#include <stop_token>
 #include <string>
 #include <utility>
 
 #include <nlohmann/json.hpp>
 
 #include "frangia/acquisition/calibrate_capture.h"
+#include "frangia/acquisition/preview.h"
 #include "frangia/calibrate/board/find_board.h"
+#include "frangia/calibrate/board/printed_boards.h"
 #include "frangia/calibrate/report/calibration_report.h"
 #include "frangia/calibrate/report/residual_maps.h"
 #include "frangia/calibrate/solve/calibrate_rig.h"
@@ -71,6 +74,33 @@ std::string residuals_text(const RigCalibration& result) {
   return json.dump();
 }
 
+Image<float> counts_of(const Frame& frame) {
+  Image<float> counts(width_of(frame), height_of(frame));
+  std::visit(
+      [&](const auto& image) {
+        std::copy(image.pixels().begin(), image.pixels().end(), counts.pixels().begin());
+      },
+      frame);
+  return counts;
+}
+
+/// The pattern of a calibration that shows the board without fringes.
+Pattern white_of(const Scan& plan) {
+  const auto white = std::find_if(plan.patterns.begin(), plan.patterns.end(), [](const auto& one) {
+    return one.kind == PatternKind::White;
+  });
+  require(white != plan.patterns.end(), "the patterns of a calibration have no white one");
+  return *white;
+}
+
+/// What a simulated camera sees: the board, or of those that name themselves the smallest.
+Board simulated_board(const WizardBoard& wanted) {
+  if (wanted.described) return *wanted.described;
+  Board board = printed_board("a5");
+  board.square_mm *= wanted.scale;
+  return board;
+}
+
 void enter(const PoseCoverage& coverage, WizardState& state) {
   state.coverage = coverage;
   state.field = coverage.field();
@@ -111,15 +141,9 @@ void CalibrationWizard::change(const std::function<void(WizardState&)>& edit) {
 }
 
 /// Publishes a frame with the points of the board that it shows.
-void CalibrationWizard::show(Frame frame, int white_level, const Board& board) {
+void CalibrationWizard::show(Frame frame, int white_level, const std::vector<BoardPoint>& points) {
   auto next = std::make_shared<LiveSnapshot>();
-  Image<float> counts(width_of(frame), height_of(frame));
-  std::visit(
-      [&](const auto& image) {
-        std::copy(image.pixels().begin(), image.pixels().end(), counts.pixels().begin());
-      },
-      frame);
-  for (const BoardPoint& point : find_board(counts, board))
+  for (const BoardPoint& point : points)
     next->corners_px.push_back(point.camera_px);
   next->white_level = white_level;
   next->frame = std::make_shared<const Frame>(std::move(frame));
@@ -128,6 +152,42 @@ void CalibrationWizard::show(Frame frame, int white_level, const Board& board) {
     next->revision = snapshot_ ? snapshot_->revision + 1 : 1;
     snapshot_ = next;
   });
+}
+
+/// Shows what the camera sees in white light until it is a printed board.
+Board CalibrationWizard::wait_for_name(RigDevices& devices,
+                                       const Scan& plan,
+                                       const CameraSettings& camera,
+                                       double scale,
+                                       const Run& run) {
+  change([](WizardState& state) { state.naming = true; });
+  std::optional<Board> named;
+  std::stop_source enough;
+  const std::stop_callback by_user(run.stop, [&] { enough.request_stop(); });
+  Run looking;
+  looking.stop = enough.get_token();
+  std::optional<PreviewSettings> settings{{.camera = camera, .patterns = {white_of(plan)}}};
+  PreviewEvents events;
+  events.next_settings = [&] { return std::exchange(settings, std::nullopt); };
+  events.on_frame = [&](PreviewFrame seen) {
+    const Image<float> counts = counts_of(seen.frame);
+    named = recognize_printed_board(counts);
+    show(std::move(seen.frame),
+         devices.reference()->info().white_level,
+         named ? find_board(counts, *named) : std::vector<BoardPoint>{});
+    if (named) enough.request_stop();
+  };
+  try {
+    preview(devices, plan.rig, events, looking);
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::Cancelled || !named) throw;
+  }
+  named->square_mm *= scale;
+  change([&](WizardState& state) {
+    state.naming = false;
+    state.board = *named;
+  });
+  return *named;
 }
 
 /// Shows what the camera sees until somebody answers.
@@ -148,28 +208,37 @@ bool CalibrationWizard::wait_for_answer(RigDevices& devices,
     CapturedFrame seen = devices.reference()->capture(
         {.view = static_cast<int>(number) - 1, .pattern = "white", .attempt = attempt},
         Deadline::in(kTimeout_s, run.stop));
-    if (seen.complete) show(std::move(seen.frame), devices.reference()->info().white_level, board);
+    if (seen.complete) {
+      const std::vector<BoardPoint> points = find_board(counts_of(seen.frame), board);
+      show(std::move(seen.frame), devices.reference()->info().white_level, points);
+    }
     std::unique_lock lock(mutex_);
     answered_.wait_for(lock, kPause, [&] { return answer_ != Answer::None; });
     if (answer_ != Answer::None) return std::exchange(answer_, Answer::None) == Answer::Capture;
   }
 }
 
-void CalibrationWizard::capture(const Board& board,
-                                std::size_t poses,
-                                const CaptureSettings& settings,
-                                const CaptureSetup& setup,
-                                const Run& run) {
+/// Returns the board that was captured.
+Board CalibrationWizard::capture(const WizardBoard& wanted,
+                                 std::size_t poses,
+                                 const CaptureSettings& settings,
+                                 const CaptureSetup& setup,
+                                 const Run& run) {
   Scan plan;
   plan.folder = folder_;
   plan.name = "poses";
   plan.rig = read_rig(project_.rig(), run, RigContent::StartValues);
-  plan.board = board;
   plan.patterns = calibration_patterns(plan.rig);
   const FolderLock lock(plan.folder);
-  const SimulatedBoard simulated{.board = board, .poses = static_cast<int>(poses)};
+  const SimulatedBoard simulated{.board = simulated_board(wanted),
+                                 .poses = static_cast<int>(poses)};
   OpenedDevices opened(project_.rig(), plan.rig, setup.board_drivers(simulated), setup, run);
   RigDevices& devices = opened.devices();
+  run.stage("poses");
+  const Board board = wanted.described
+                          ? *wanted.described
+                          : wait_for_name(devices, plan, settings.camera, wanted.scale, run);
+  plan.board = board;
   CalibrateCaptureOptions options;
   options.poses = poses;
   options.capture.camera = settings.camera;
@@ -182,10 +251,10 @@ void CalibrationWizard::capture(const Board& board,
       enter(pose.coverage, state);
     });
   };
-  run.stage("poses");
   Run guided = run;
   guided.on_note = nullptr;  // the page shows the poses; the notes count the most that there may be
   static_cast<void>(calibrate_capture(plan, devices, lock, options, guided));
+  return board;
 }
 
 /// Keeps what the page and a report show of a calibration.
@@ -225,7 +294,7 @@ void CalibrationWizard::solve(const Board& board, const Run& run) {
   change([&](WizardState& state) { state.verdict = verdict; });
 }
 
-void CalibrationWizard::run(const Board& board,
+void CalibrationWizard::run(const WizardBoard& board,
                             std::size_t poses,
                             const CaptureSettings& settings,
                             const CaptureSetup& setup,
@@ -233,7 +302,7 @@ void CalibrationWizard::run(const Board& board,
   change([&](WizardState& state) {
     state = {};
     state.active = true;
-    state.board = board;
+    if (board.described) state.board = *board.described;
     state.wanted = poses;
   });
   struct AtEnd {
@@ -244,13 +313,13 @@ void CalibrationWizard::run(const Board& board,
     AtEnd(AtEnd&&) = delete;
     AtEnd& operator=(AtEnd&&) = delete;
     ~AtEnd() {
-      wizard.change([](WizardState& state) { state.active = state.waiting = false; });
+      wizard.change(
+          [](WizardState& state) { state.active = state.waiting = state.naming = false; });
     }
   };
   const AtEnd at_end(*this);
   try {
-    capture(board, poses, settings, setup, run);
-    solve(board, run);
+    solve(capture(board, poses, settings, setup, run), run);
   } catch (const Error& error) {
     if (error.kind() != ErrorKind::Cancelled)
       change([&](WizardState& state) { state.fault = error.what(); });

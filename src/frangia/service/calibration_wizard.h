@@ -6,9 +6,11 @@
 #include <functional>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "frangia/calibrate/board/board_view.h"
 #include "frangia/calibrate/board/pose_coverage.h"
 #include "frangia/calibrate/solve/calibrate_rig.h"
 #include "frangia/core/run.h"
@@ -17,6 +19,16 @@
 #include "frangia/service/project_scan.h"
 
 namespace frangia {
+
+/// Length of the ruler on a printed board, where the printer did not scale it.
+inline constexpr double kPrintedRuler_mm = 100.0;
+
+/// The board of a calibration: one that is described, or one of `kPrintedBoards`, which says by its
+/// markers which it is.
+struct WizardBoard {
+  std::optional<Board> described;  ///< empty: it names itself
+  double scale = 1.0;              ///< measured over true length of the print of the latter
+};
 
 /// A pose of the board that was captured.
 struct WizardPose {
@@ -40,6 +52,7 @@ struct WizardVerdict {
 struct WizardState {
   bool active = false;                ///< it captures, waits or computes
   bool waiting = false;               ///< for the board to stand in its next pose
+  bool naming = false;                ///< waits for a printed board that says which it is
   std::size_t found = 0;              ///< points of the board in the live picture
   Board board;                        ///< that is captured
   std::size_t wanted = 0;             ///< poses
@@ -83,7 +96,7 @@ class CalibrationWizard {
   /// to the project's exports.
   ///
   /// @errors   as open_devices, calibrate_capture and calibrate_rig
-  void run(const Board& board,
+  void run(const WizardBoard& board,
            std::size_t poses,
            const CaptureSettings& settings,
            const CaptureSetup& setup,
@@ -97,12 +110,17 @@ class CalibrationWizard {
                                      std::size_t number,
                                      const PoseCoverage& coverage,
                                      const Run& run);
-  void show(Frame frame, int white_level, const Board& board);
-  void capture(const Board& board,
-               std::size_t poses,
-               const CaptureSettings& settings,
-               const CaptureSetup& setup,
-               const Run& run);
+  [[nodiscard]] Board wait_for_name(RigDevices& devices,
+                                    const Scan& plan,
+                                    const CameraSettings& camera,
+                                    double scale,
+                                    const Run& run);
+  void show(Frame frame, int white_level, const std::vector<BoardPoint>& points);
+  [[nodiscard]] Board capture(const WizardBoard& wanted,
+                              std::size_t poses,
+                              const CaptureSettings& settings,
+                              const CaptureSetup& setup,
+                              const Run& run);
   void solve(const Board& board, const Run& run);
   void keep(const RigCalibration& result, const Board& board);
   void change(const std::function<void(WizardState&)>& edit);

@@ -31,26 +31,31 @@ namespace frangia {
 namespace {
 
 /// Triangulates decoded views of one rig, to be looked at while a scan grows.
-class StationCloud {
+class StationRange {
  public:
-  explicit StationCloud(const Rig& rig) : rig_(rig), rays_(rays_of(rig.reference().model)) {}
+  explicit StationRange(const Rig& rig) : rig_(rig), rays_(rays_of(rig.reference().model)) {}
 
-  /// The points of a view at a turntable angle; none when its phase does not fit the rig.
+  /// The points of a view in the frame of the camera; empty when its phase does not fit the rig.
+  [[nodiscard]] RangeGrid of(const DecodedView& decoded) const;
+  /// The same at a turntable angle.
   ///
   /// @units    mm, object frame of the rig as calibrated
-  [[nodiscard]] PointCloud of(const DecodedView& decoded, double angle_rad) const;
+  [[nodiscard]] PointCloud cloud(const RangeGrid& range, double angle_rad) const;
 
  private:
   Rig rig_;
   Image<Eigen::Vector2f> rays_;
 };
 
-PointCloud StationCloud::of(const DecodedView& decoded, double angle_rad) const {
-  PointCloud cloud;
+RangeGrid StationRange::of(const DecodedView& decoded) const {
   DecodedView view = decoded;
   const ViewFit fit = check_view(view, rig_, rays_, false);
-  if (!fit.fits()) return cloud;
-  const RangeGrid range = triangulate_view(view, fit, rig_, rays_, DirectionChoice::Fused).range;
+  if (!fit.fits()) return {};
+  return triangulate_view(view, fit, rig_, rays_, DirectionChoice::Fused).range;
+}
+
+PointCloud StationRange::cloud(const RangeGrid& range, double angle_rad) const {
+  PointCloud cloud;
   const Eigen::Isometry3d object_from_rig = rig_.rig_from_object(angle_rad).inverse();
   for (int y = 0; y < range.depth_mm.height(); ++y) {
     for (int x = 0; x < range.depth_mm.width(); ++x) {
@@ -133,7 +138,8 @@ Scan plan_of(const ProjectFolder& project,
 
 /// Stores what an assessment found, and the points of its view.
 void enter(const ViewAssessment& found,
-           const StationCloud& clouds,
+           const StationRange& ranges,
+           GrowingSurface* growing,
            const ProjectFolder& project,
            StationBook& book,
            double angle_rad) {
@@ -141,9 +147,11 @@ void enter(const ViewAssessment& found,
   bool has_cloud = false;
   if (found.decoded != nullptr) {
     try {
-      const std::string packed = encode_points(clouds.of(*found.decoded, angle_rad), kMostPoints);
-      write_text_file(project.cloud(found.view), packed);
+      const RangeGrid range = ranges.of(*found.decoded);
+      write_text_file(project.cloud(found.view),
+                      encode_points(ranges.cloud(range, angle_rad), kMostPoints));
       has_cloud = true;
+      if (growing != nullptr && !range.depth_mm.empty()) growing->add(found.view, angle_rad, range);
     } catch (const Error&) {  // NOLINT(bugprone-empty-catch): the picture alone lacks these points
     }
   }
@@ -253,6 +261,7 @@ CaptureReport capture_project(
     const CaptureSetup& setup,
     const std::shared_ptr<DecodedViews>& decoded,
     const std::function<void(const std::vector<ProjectStation>&)>& on_change,
+    GrowingSurface* growing,
     const Run& run) {
   run.stage("devices");
   const Scan plan = plan_of(project, stations, settings, run);
@@ -268,9 +277,9 @@ CaptureReport capture_project(
   options.setup = present_setup(stations);
   options.decoded = decoded;
   StationBook book(project, std::move(stations), on_change);
-  const StationCloud clouds(plan.rig);
+  const StationRange ranges(plan.rig);
   options.on_view = [&](const ViewAssessment& found) {
-    enter(found, clouds, project, book, plan.views[found.view].angle_rad);
+    enter(found, ranges, growing, project, book, plan.views[found.view].angle_rad);
   };
   Run watched = run;
   watched.progress = [&](double done) {

@@ -16,6 +16,7 @@
 #include "frangia/devices/driver.h"
 #include "frangia/devices/guardian.h"
 #include "frangia/service/capture_settings.h"
+#include "frangia/service/growing_surface.h"
 #include "frangia/service/project_folder.h"
 #include "frangia/simulate/simulated_drivers.h"
 
@@ -109,8 +110,8 @@ void write_stations(const ProjectFolder& project, const std::vector<ProjectStati
 /// project's rig, and keeps stations.json and the points of each station. `on_change` receives the
 /// stations after each change, on the calling thread or on that which decodes views.
 ///
-/// Its views are decoded into `decoded`. The points are in the object frame of the rig as
-/// calibrated: registration comes later.
+/// Its views are decoded into `decoded`, and added to `growing`, which may be null. The points are
+/// in the object frame of the rig as calibrated: registration comes later.
 /// @errors   UnknownTableAngle; as open_devices and capture_scan
 CaptureReport capture_project(
     const ProjectFolder& project,
@@ -119,6 +120,7 @@ CaptureReport capture_project(
     const CaptureSetup& setup,
     const std::shared_ptr<DecodedViews>& decoded,
     const std::function<void(const std::vector<ProjectStation>&)>& on_change,
+    GrowingSurface* growing,
     const Run& run = {});
 
 }  // namespace frangia

@@ -68,6 +68,7 @@ std::string Service::Implementation::command(const std::string& name, const std:
       {"open-version", &Implementation::start_open_version},
       {"replay-edits", &Implementation::start_replay},
       {"find-devices", &Implementation::start_find_devices},
+      {"identify-displays", &Implementation::start_identify},
       {"set-devices", &Implementation::start_set_devices},
       {"test-devices", &Implementation::start_test_devices},
       {"find-exposure", &Implementation::start_find_exposure},
@@ -111,6 +112,7 @@ std::string Service::Implementation::command(const std::string& name, const std:
                                                        "take-back-project",
                                                        "set-notes",
                                                        "find-devices",
+                                                       "identify-displays",
                                                        "discard-rig",
                                                        "stop-job"};
   CommandArguments arguments(text, name);
@@ -181,17 +183,6 @@ OpenProject Service::Implementation::opened() const {
   return *project_;
 }
 
-std::string Service::Implementation::cloud(std::size_t station) const {
-  ProjectFolder project;
-  {
-    const std::lock_guard lock(mutex_);
-    if (!project_ || station >= project_->stations.size() || !project_->stations[station].has_cloud)
-      return {};
-    project = project_->folder;
-  }
-  constexpr std::uint64_t kMostBytes = 16'000'000;
-  return read_text_file(project.cloud(station), kMostBytes);
-}
 std::string Service::Implementation::setup_cloud(std::size_t joined) const {
   const OpenProject project = opened();
   if (!project.surface || !project.versions) return {};
@@ -372,6 +363,10 @@ std::string Service::section(const std::string& plane_json) const {
 
 std::string Service::cloud(std::size_t station) const {
   return implementation_->cloud(station);
+}
+
+std::string Service::grown_surface() const {
+  return implementation_->grown_surface();
 }
 
 std::string Service::setup_cloud(std::size_t joined) const {

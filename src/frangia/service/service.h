@@ -155,6 +155,8 @@ class Service {
   [[nodiscard]] std::string section(const std::string& plane_json) const;
   /// The points of a station as encode_points packs them; empty without any.
   [[nodiscard]] std::string cloud(std::size_t station) const;
+  /// The coarse surface of a scan that is captured, as encode_mesh packs it; empty without any.
+  [[nodiscard]] std::string grown_surface() const;
   /// The registered points of a joined setup, counted from 0, as encode_points packs them; empty
   /// without any.
   [[nodiscard]] std::string setup_cloud(std::size_t joined) const;

@@ -38,6 +38,9 @@ def previews(study):
     return {one["name"].split("/")[0]: one for one in json.loads(done.stdout)["benchmarks"]}
 
 
+# Seconds from the last frame to the surface that are wanted, for sizes of the camera up to so many megapixels.
+WANTED_S = ((2, 3), (6, 8))
+
 LARGE = {
     "first_picture_s": ("a mesh of 1 M triangles on screen", "s", "3 s"),
     "orbit_frame_ms": ("a frame while orbiting it", "ms", ""),
@@ -57,6 +60,7 @@ def measure(study, case, seed):
         "page": page,
         "decoded": decoded,
         "large": by_node(study, "large_mesh.mjs", "--json"),
+        "surface": by_node(study, "last_frame.mjs", "--json"),
     }
 
 
@@ -84,6 +88,14 @@ def report(text, results):
     ):
         one = decoded[name]
         text.row(what, f"{one['real_time']:.0f} ms, {one['processor_ms']:.0f} ms of processor", wanted)
+    for one in result.get("surface", []):
+        wanted = next(wanted for most, wanted in WANTED_S if one["megapixels"] < most)
+        text.row(
+            f"surface after the last frame, 8 views of {one['megapixels']:.1f} Mpx, of which the scan ends after "
+            f"{one['complete_s']:.1f} s",
+            f"{one['surface_s']:.1f} s",
+            f"{wanted} s",
+        )
     for key, (what, unit, wanted) in LARGE.items():
         if key in large:
             text.row(what, f"{large[key]:.3g} {unit}", wanted)

@@ -142,6 +142,7 @@ export const FRAME = {
   'command.copied': ['Copied', 'Kopiert', 'Copiato'],
   'job.open': ['Opening', 'Wird geöffnet', 'Apertura'],
   'job.live': ['Live preview', 'Live-Vorschau', 'Anteprima dal vivo'],
+  'job.identify': ['Numbers on the monitors', 'Nummern auf den Bildschirmen', 'Numeri sugli schermi'],
   'job.find': ['Searching for devices', 'Geräte werden gesucht', 'Ricerca dei dispositivi'],
   'job.exposure': ['Finding the exposure', 'Belichtung wird gesucht', "Ricerca dell'esposizione"],
   'job.devices': ['Testing the devices', 'Geräte werden geprüft', 'Prova dei dispositivi'],

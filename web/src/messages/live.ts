@@ -74,6 +74,7 @@ export const LIVE = {
   'live.patternDark': ['Dark', 'Dunkel', 'Buio'],
   'live.frames': ['Frames per pattern', 'Bilder je Muster', 'Immagini per motivo'],
   'live.algorithm': ['Algorithm', 'Verfahren', 'Algoritmo'],
+  'live.home': ['To 0°', 'Auf 0°', 'A 0°'],
   'live.table': ['Turntable', 'Drehtisch', 'Tavola rotante'],
   'live.start': ['Start the preview', 'Vorschau starten', "Avvia l'anteprima"],
   'live.stop': ['Stop the preview', 'Vorschau anhalten', "Ferma l'anteprima"],

@@ -94,8 +94,8 @@ export const RIG = {
   'rig.shared': ['Volume that both see', 'Gemeinsames Volumen', 'Volume visto da entrambi'],
   'rig.calibration': ['Calibration', 'Kalibrierung', 'Calibrazione'],
   'rig.lead': [
-    'Hold a printed checkerboard into the light in several poses. The picture shows the corners that are found, and the app says which pose is wanted next.',
-    'Ein gedrucktes Schachbrett in mehreren Lagen ins Licht halten. Das Bild zeigt die gefundenen Ecken, und die App nennt die nächste Lage.',
+    'Hold a printed board into the light in several poses. The picture shows the corners that are found, and the app says which pose is wanted next.',
+    'Ein gedrucktes Brett in mehreren Lagen ins Licht halten. Das Bild zeigt die gefundenen Ecken, und die App nennt die nächste Lage.',
     "Tenere nella luce una scacchiera stampata, in più pose. L'immagine mostra gli angoli trovati, e l'app dice quale posa serve ora.",
   ],
   'pose.repeat': [
@@ -324,8 +324,34 @@ export const RIG = {
   ],
   'board.print': ['Print a board', 'Ein Brett drucken', 'Stampa una scacchiera'],
   'board.hint': [
-    'Print at actual size, without fitting to the page, and glue it on something flat. Then measure ten squares with a ruler and enter a tenth of that as the square.',
-    'In Originalgröße drucken, ohne Anpassen an die Seite, und auf etwas Ebenes kleben. Dann zehn Felder mit dem Lineal messen und ein Zehntel davon als Feld eintragen.',
-    'Stampare a grandezza naturale, senza adattare alla pagina, e incollare su qualcosa di piano. Poi misurare dieci caselle con un righello e inserire un decimo come casella.',
+    'Print at actual size and glue it on something flat. Choose paper that fills about half of the picture. Then measure the ruler on the print.',
+    'In Originalgröße drucken und auf etwas Ebenes kleben. Ein Papier wählen, das etwa das halbe Bild füllt. Dann das Lineal auf dem Druck messen.',
+    'Stampare a grandezza naturale e incollare su qualcosa di piano. Scegliere un foglio che riempia circa mezza immagine. Poi misurare il righello sulla stampa.',
+  ],
+  'board.kind': ['Board', 'Brett', 'Scacchiera'],
+  'board.printed': ['Printed here', 'Hier gedruckt', 'Stampata qui'],
+  'board.own': ['Another one', 'Ein anderes', "Un'altra"],
+  'board.names': [
+    'Its markers tell the size and the number of its squares. How far the printer scaled it, the ruler on the print tells: 100 mm if not at all.',
+    'Seine Marken zeigen Größe und Zahl der Felder. Wie weit der Drucker skaliert hat, zeigt das Lineal auf dem Druck: 100 mm, wenn gar nicht.',
+    'I suoi marcatori indicano grandezza e numero delle caselle. Il righello sulla stampa mostra quanto la stampante ha scalato: 100 mm se per nulla.',
+  ],
+  'board.ruler': ['Ruler as measured, mm', 'Lineal, gemessen, mm', 'Righello misurato, mm'],
+  'board.naming': [
+    'Hold the printed board into the picture, facing the camera.',
+    'Das gedruckte Brett ins Bild halten, der Kamera zugewandt.',
+    "Tenere la scacchiera stampata nell'immagine, rivolta verso la camera.",
+  ],
+  'board.named': [
+    'Board of {columns} × {rows} corners, squares of {square} mm.',
+    'Brett mit {columns} × {rows} Ecken, Felder von {square} mm.',
+    'Scacchiera di {columns} × {rows} angoli, caselle di {square} mm.',
+  ],
+  'rig.mode': ['Mode', 'Modus', 'Modo'],
+  'rig.modeOwn': ['as the settings say', 'wie eingestellt', 'come impostato'],
+  'rig.identify': [
+    'Show a number on each monitor',
+    'Auf jedem Bildschirm eine Nummer zeigen',
+    'Mostra un numero su ogni schermo',
   ],
 } as const satisfies Rows;

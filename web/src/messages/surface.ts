@@ -99,6 +99,7 @@ export const SURFACE = {
   'surface.measured': ['measured', 'gemessen', 'misurato'],
   'surface.displaced': ['displaced', 'verschoben', 'spostato'],
   'surface.synthesized': ['synthesized', 'ergänzt', 'aggiunto'],
+  'surface.details': ['More figures', 'Weitere Kennzahlen', 'Altri valori'],
   'surface.figures': ['Figures', 'Kennzahlen', 'Valori'],
   'surface.triangles': ['Triangles', 'Dreiecke', 'Triangoli'],
   'surface.size': ['Size', 'Größe', 'Dimensioni'],

@@ -42,8 +42,15 @@ export function labelOf(key: string): string {
   return unit ? `${words.slice(0, -1).join(' ')}, ${unit}` : words.join(' ');
 }
 
-function field({ key, value }: Line, change: (value: Value) => void): TemplateResult | string {
+function field({ key, value }: Line, among: string[], change: (value: Value) => void): TemplateResult | string {
   if (key === undefined || value === undefined || key === 'driver') return '';
+  if (among.length > 0)
+    return html`<label class="field"
+      ><span>${labelOf(key)}</span
+      ><select data-setting=${key} @change=${(event: Event) => change((event.target as HTMLSelectElement).value)}>
+        ${(among.includes(String(value)) ? among : [String(value), ...among]).map((one) => html`<option ?selected=${one === value}>${one}</option>`)}
+      </select></label
+    >`;
   if (typeof value === 'boolean')
     return html`<label class="switch"
       >${labelOf(key)}<input
@@ -72,11 +79,25 @@ function field({ key, value }: Line, change: (value: Value) => void): TemplateRe
 }
 
 /** The settings of a device as a form; as text, too, for what has no field. */
-export function deviceForm(settings: string, label: string, change: (settings: string) => void): TemplateResult {
-  const lines = linesOf(settings);
+export function deviceForm(
+  settings: string,
+  label: string,
+  choices: Record<string, string[]>,
+  change: (settings: string) => void,
+): TemplateResult {
+  // A setting with few values has a field also where it is not set: its default comes first.
+  const unset = Object.entries(choices)
+    .filter(([key]) => !new RegExp(`^\\s*${key}\\s*=`, 'm').test(settings))
+    .map(([key, [value]]) => `${key} = "${value}"`);
+  const lines = linesOf(settings.trimEnd());
+  const missing = linesOf(unset.join('\n')).filter(({ key }) => key !== undefined);
   const set = (at: number, value: Value) =>
-    change(lines.map(({ text, key }, i) => (i === at ? `${key} = ${JSON.stringify(value)}` : text)).join('\n'));
-  return html`<div class="device-form">${lines.map((line, i) => field(line, (value) => set(i, value)))}</div>
+    change(lines.map(({ text, key }, i) => (i === at ? `${key} = ${JSON.stringify(value)}` : text)).join('\n') + '\n');
+  const add = (line: Line, value: Value) => change(`${settings.trimEnd()}\n${line.key} = ${JSON.stringify(value)}\n`);
+  return html`<div class="device-form">
+      ${lines.map((line, i) => field(line, choices[line.key ?? ''] ?? [], (value) => set(i, value)))}
+      ${missing.map((line) => field(line, choices[line.key ?? ''] ?? [], (value) => add(line, value)))}
+    </div>
     <details>
       <summary>${t('rig.asText')}</summary>
       <textarea

@@ -29,18 +29,18 @@ export const exportArguments = (exporting: ExportChoice): object => ({
 });
 
 /** A file that was exported, with the button that brings it to this machine. */
-const written = (app: App, file: ExportedFile): TemplateResult =>
+const written = (app: App, file: ExportedFile, next = false): TemplateResult =>
   html`<div class="file">
     <b>${file.name}</b
     ><span class="num quiet"
       >${bytes(file.bytes, number)}${file.revision === null ? '' : html`<br />${t('export.of', { version: file.version ?? 0, revision: number(file.revision) })}`}</span
     >
     <button
-      class="btn small"
+      class="btn ${next ? 'primary' : 'small'}"
       @click=${() => app.exporting.download(file.name)}
       aria-label="${t('export.download')} ${file.name}"
     >
-      ${icon('download')}
+      ${icon('download')}${next ? t('export.download') : ''}
     </button>
   </div>`;
 
@@ -51,6 +51,9 @@ export function exportStep(app: App): TemplateResult {
   const format = exporting.format;
   const start = () => app.command('export', exportArguments(exporting));
   const newest = project.exports.find(({ name }) => name === `${project.name}.${format}`);
+  // What is written of the surface as it is wants to be fetched next.
+  const ready =
+    newest !== undefined && newest.revision === project.revision && newest.version === project.current_version;
   return html`<section class="group">
       <h2>${t('export.format')}</h2>
       <div class="formats" role="radiogroup" aria-label=${t('export.format')}>
@@ -129,9 +132,14 @@ export function exportStep(app: App): TemplateResult {
       <p class="quiet num" id="estimate">
         ${estimate ? t('export.about', { size: bytes(estimate.bytes, number), triangles: number(estimate.triangles) }) : html`&nbsp;`}
       </p>
-      <button class="btn primary wide" id="export" ?disabled=${app.busy || app.session.watches} @click=${start}>
+      <button
+        class="btn ${ready ? '' : 'primary'} wide"
+        id="export"
+        ?disabled=${app.busy || app.session.watches}
+        @click=${start}
+      >
         ${t('export.write', { format: format.toUpperCase() })}
       </button>
-      ${newest ? written(app, newest) : ''}
+      ${newest ? written(app, newest, ready) : ''}
     </section>`;
 }

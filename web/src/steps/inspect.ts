@@ -82,7 +82,12 @@ function bar(row: MeasuredRow): TemplateResult | string {
   if (row.used === null || row.verdict === null) return '';
   const WIDTH = 100;
   const used = Math.min(1.2, row.used);
-  return html`<svg class="used ${row.verdict}" viewBox="0 0 120 8" preserveAspectRatio="none" aria-hidden="true">
+  return html`<svg
+    class="tolerance-bar ${row.verdict}"
+    viewBox="0 0 120 8"
+    preserveAspectRatio="none"
+    aria-hidden="true"
+  >
     ${svg`<rect class="whole" width=${WIDTH} height="8" /><rect class="part" width=${WIDTH * used} height="8" />
       <line x1=${WIDTH} x2=${WIDTH} y1="0" y2="8" />`}
   </svg>`;

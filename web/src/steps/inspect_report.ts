@@ -40,12 +40,7 @@ export function reporting(app: App, found: Inspection | null): TemplateResult {
       ${field('drawing')}${field('serial')}${field('order')}${field('customer')}${field('operator')}
     </details>
     <div class="pair">
-      <button
-        class="btn ${found ? 'primary' : ''}"
-        id="report"
-        ?disabled=${off || !found}
-        @click=${() => void inspecting.write('pdf')}
-      >
+      <button class="btn" id="report" ?disabled=${off || !found} @click=${() => void inspecting.write('pdf')}>
         ${icon('download')}${t('inspect.writeReport')}
       </button>
       <button class="btn" id="report-html" ?disabled=${off || !found} @click=${() => void inspecting.write('html')}>

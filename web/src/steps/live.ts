@@ -8,6 +8,7 @@ import { number, t } from '../messages';
 import type { Layer } from '../session';
 import type { LivePattern } from '../types';
 import { choice, nextStep, plain } from '../ui';
+import { hasTable } from './rig_axis';
 
 export const LAYERS = [
   'camera',
@@ -250,9 +251,14 @@ function exposures(app: App, several: boolean, fixed: boolean): TemplateResult {
   /></label>`;
 }
 
+/** By how much a button turns the table, degrees. */
+const JOG = 15;
+
 function fringes(app: App): TemplateResult {
   const { capture, scan_begun, live } = app.project;
   const usable = app.state.algorithms;
+  const at = live?.table_deg ?? 0;
+  const turnTo = (angle: number) => void app.command('set-live', { table_deg: angle });
   return html`<section class="group">
     <h2>${t('live.fringes')}</h2>
     ${choice<LivePattern>(
@@ -309,8 +315,25 @@ function fringes(app: App): TemplateResult {
         max="345"
         step="15"
         .value=${String(live?.table_deg ?? 0)}
-        @change=${(event: Event) => void app.command('set-live', { table_deg: Number((event.target as HTMLInputElement).value) })}
+        @change=${(event: Event) => turnTo(Number((event.target as HTMLInputElement).value))}
     /></label>
+    ${
+      hasTable(app)
+        ? html`<div class="row" id="jog">
+            ${[-JOG, 0, JOG].map(
+              (by) =>
+                html`<button
+                  class="btn small grow num"
+                  data-jog=${by}
+                  ?disabled=${!live}
+                  @click=${() => turnTo(by === 0 ? 0 : (at + by + 360) % 360)}
+                >
+                  ${by === 0 ? t('live.home') : `${by < 0 ? '−' : '+'}${number(Math.abs(by))}°`}
+                </button>`,
+            )}
+          </div>`
+        : ''
+    }
   </section>`;
 }
 

@@ -7,7 +7,7 @@ import { poseTable } from '../residuals';
 import type { Calibration, RigGeometry } from '../types';
 import { nextStep, plain } from '../ui';
 import { axisStage } from './rig_axis';
-import { boardField, boardFields, boardOf, boardPrints } from './rig_board';
+import { boardOf, boardPrints, calibrationFields } from './rig_board';
 import { devices } from './rig_devices';
 import { displayStage } from './rig_display';
 import { keepRig, rigHistory } from './rig_history';
@@ -147,7 +147,7 @@ function calibration(app: App): RigStage {
   const start = (event: SubmitEvent) => {
     event.preventDefault();
     const form = new FormData(event.target as HTMLFormElement);
-    const wanted = { ...boardOf(form), poses: Number(form.get('poses')) };
+    const wanted = boardOf(form);
     void (async () => {
       if (!known || (await app.asking.confirm(t('rig.againAsk'), t('rig.again'))))
         await app.command('start-calibration', wanted);
@@ -159,7 +159,7 @@ function calibration(app: App): RigStage {
   const body = html`${
     state?.active
       ? html`<p class="next">
-            ${state.waiting ? (state.poses.length === 0 ? t('rig.first') : nextPose(state)) : state.poses.length && state.with_board >= state.wanted ? t('rig.solving') : t('rig.capturing')}
+            ${state.naming ? t('board.naming') : state.waiting ? (state.poses.length === 0 ? t('rig.first') : nextPose(state)) : state.poses.length && state.with_board >= state.wanted ? t('rig.solving') : t('rig.capturing')}
           </p>
           <div class="pair">
             <button
@@ -179,6 +179,7 @@ function calibration(app: App): RigStage {
               ${t('rig.end')}
             </button>
           </div>
+          ${state.board ? html`<p class="quiet" id="named">${t('board.named', { columns: state.board.columns, rows: state.board.rows, square: number(state.board.square_mm, 2) })}</p>` : ''}
           ${coverage(state)}`
       : html`${state ? verdict(state) : html`<p class="quiet">${t('rig.lead')}</p>`} ${poseTable(app)}`
   }
@@ -188,7 +189,7 @@ function calibration(app: App): RigStage {
       ? ''
       : html`${project.exports.some(({ name }) => name === REPORT) ? html`<button class="btn wide" id="report" @click=${() => app.exporting.download(REPORT)}>${icon('download')}${t('rig.report')}</button>` : ''}
           <form class="form-plain" @submit=${start}>
-            <div class="four">${boardFields(app)}${boardField('poses', t('rig.poses'), 12)}</div>
+            ${calibrationFields(app)}
             <button
               class="btn ${due ? 'primary' : ''} wide"
               id="calibrate"

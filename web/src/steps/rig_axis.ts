@@ -48,7 +48,7 @@ export function axisStage(app: App): RigStage | null {
               ${t('axis.stop')}
             </button>`
         : html`<form class="form-plain" @submit=${find}>
-            ${ownBoard ? '' : html`<div class="four">${boardFields(app)}</div>`}
+            ${ownBoard ? '' : html`<div class="four">${boardFields()}</div>`}
             <button
               class="btn ${known ? '' : 'primary'} wide"
               id="find-axis"

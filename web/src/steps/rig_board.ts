@@ -2,16 +2,21 @@ import { html, type TemplateResult } from 'lit';
 import type { App } from '../app';
 import { icon } from '../icons';
 import { t } from '../messages';
+import { choice } from '../ui';
 
-/** Corners of the boards that are printed here. */
-const CORNERS = { columns: 10, rows: 7 };
+/** A board that was printed here names itself by its markers; another one is described. */
+export type BoardKind = 'printed' | 'own';
+
 const PAPERS = [
+  ['a5', 'A5'],
   ['a4', 'A4'],
-  ['a3', 'A3'],
   ['letter', 'Letter'],
+  ['a3', 'A3'],
 ] as const;
+/** Length of the ruler on a printed board, where the printer did not scale it, mm. */
+const RULER = 100;
 
-/** Whether camera and board are computed, so that the size of its squares is known without a ruler. */
+/** Whether camera and board are computed, so that a print is known without a ruler. */
 const isSimulated = (app: App): boolean =>
   app.project.devices.some(({ table, driver }) => table === 'camera' && driver === 'simulated');
 
@@ -24,22 +29,43 @@ export const boardField = (name: string, label: string, value: number | null, st
       name=${name}
       type="number"
       min=${step < 1 ? 0.1 : 3}
-      max="100"
+      max=${name === 'ruler_mm' ? 199 : 100}
       step=${step}
       required
       .defaultValue=${value === null ? '' : String(value)}
   /></label>`;
 
-/** What describes a checkerboard. The side of a square is that of the ruler, never that of the file. */
-export const boardFields = (app: App): TemplateResult =>
-  html`${boardField('columns', t('rig.columns'), CORNERS.columns)}${boardField('rows', t('rig.rows'), CORNERS.rows)}${boardField('square_mm', t('rig.square'), isSimulated(app) ? 14 : null, 0.01)}`;
+/** What describes a checkerboard. Nothing is filled in: it is counted and measured. */
+export const boardFields = (): TemplateResult =>
+  html`${boardField('columns', t('rig.columns'), null)}${boardField('rows', t('rig.rows'), null)}${boardField('square_mm', t('rig.square'), null, 0.01)}`;
 
-/** The board of a form with these fields. */
+/** The board of the calibration, and how many poses of it. */
+export const calibrationFields = (app: App): TemplateResult =>
+  html`${choice<BoardKind>(
+    t('board.kind'),
+    app.arranging.boardKind,
+    [
+      ['printed', t('board.printed')],
+      ['own', t('board.own')],
+    ],
+    (kind) => app.arranging.setBoardKind(kind),
+  )}
+  ${
+    app.arranging.boardKind === 'printed'
+      ? html`<p class="quiet">${t('board.names')}</p>
+          <div class="four">
+            ${boardField('ruler_mm', t('board.ruler'), isSimulated(app) ? RULER : null, 0.01)}${boardField('poses', t('rig.poses'), 12)}
+          </div>`
+      : html`<div class="four">${boardFields()}${boardField('poses', t('rig.poses'), 12)}</div>`
+  }`;
+
+/** The numbers of a form with such fields. */
 export function boardOf(form: FormData): Record<string, number> {
-  return Object.fromEntries(['columns', 'rows', 'square_mm'].map((name) => [name, Number(form.get(name))]));
+  const fields = ['columns', 'rows', 'square_mm', 'ruler_mm', 'poses'].filter((name) => form.has(name));
+  return Object.fromEntries(fields.map((name) => [name, Number(form.get(name))]));
 }
 
-/** Boards to print; a printer scales them, so that their squares are measured afterwards. */
+/** Boards to print. */
 export const boardPrints = (app: App): TemplateResult =>
   html`<details class="more" ?open=${!isSimulated(app) && !app.project.rig}>
     <summary>${t('board.print')}</summary>

@@ -17,7 +17,8 @@ export const draftOf = (app: App): DeviceDraft =>
     TABLES.map((table) => [table, app.project.devices.find((one) => one.table === table)?.settings ?? '']),
   ) as DeviceDraft;
 
-const driverOf = (lines: string): string => /^\s*driver\s*=\s*"([^"]*)"/m.exec(lines)?.[1] ?? '';
+/** The driver that the lines of a table name; empty without one. */
+export const driverOf = (lines: string): string => /^\s*driver\s*=\s*"([^"]*)"/m.exec(lines)?.[1] ?? '';
 
 /** Whether a device exists in software alone. */
 const isSimulated = (one?: { driver: string }): boolean => one?.driver.startsWith('simulated') ?? false;
@@ -28,13 +29,18 @@ function chooser(app: App, draft: DeviceDraft, table: Table): TemplateResult {
   const found = search?.connected.filter((one) => one.table === table) ?? [];
   const drivers = search?.drivers.filter((one) => one.table === table) ?? [];
   const lines = draft[table];
-  const chosen = found.findIndex((one) => one.settings === lines);
+  const chosen = found.findIndex((one) => lines.startsWith(one.settings));
   const change = (text: string) => app.arranging.draftDevices({ ...draft, [table]: text });
   const pick = (value: string) => {
     if (value === '') return change('');
     const at = Number(value.slice(1));
-    change(value.startsWith('f') ? (found[at]?.settings ?? '') : `driver = "${drivers[at]?.driver}"\n`);
+    const one = found[at];
+    // The first mode is the largest image without compression.
+    if (value.startsWith('f')) return change(one ? one.settings + (one.modes[0]?.settings ?? '') : '');
+    change(`driver = "${drivers[at]?.driver}"\n`);
   };
+  const shown = found.find((one) => lines.startsWith(one.settings));
+  const mode = shown?.modes.findIndex((one) => lines === shown.settings + one.settings) ?? -1;
   const driver = drivers.findIndex((one) => one.driver === driverOf(lines));
   const value = lines === '' ? '' : chosen >= 0 ? `f${chosen}` : driver >= 0 ? `d${driver}` : 'as is';
   const option = (key: string, text: string) => html`<option value=${key} ?selected=${key === value}>${text}</option>`;
@@ -62,7 +68,33 @@ function chooser(app: App, draft: DeviceDraft, table: Table): TemplateResult {
         ])}
       </select></label
     >
-    ${lines ? deviceForm(lines, t(`table.${table}` as MessageKey), change) : ''}
+    ${
+      shown?.modes.length
+        ? html`<label class="field"
+            ><span>${t('rig.mode')}</span
+            ><select
+              data-mode=${table}
+              @change=${(event: Event) => change(shown.settings + (shown.modes[Number((event.target as HTMLSelectElement).value)]?.settings ?? ''))}
+            >
+              ${mode < 0 ? html`<option value="-1" selected>${t('rig.modeOwn')}</option>` : ''}
+              ${shown.modes.map(({ name }, i) => html`<option value=${i} ?selected=${i === mode}>${name}</option>`)}
+            </select></label
+          >`
+        : ''
+    }
+    ${lines ? deviceForm(lines, t(`table.${table}` as MessageKey), search?.drivers.find((one) => one.table === table && one.driver === driverOf(lines))?.choices ?? {}, change) : ''}
+    ${
+      table === 'fringes' && search?.drivers.some(({ identifies }) => identifies)
+        ? html`<button
+            class="btn small"
+            id="identify"
+            ?disabled=${app.occupied}
+            @click=${() => app.command('identify-displays')}
+          >
+            ${t('rig.identify')}
+          </button>`
+        : ''
+    }
   </div>`;
 }
 

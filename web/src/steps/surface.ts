@@ -7,7 +7,7 @@ import { choice, nextStep, plain } from '../ui';
 import { findings } from './surface_findings';
 import { joins } from './scan_setups';
 import { versions } from './surface_versions';
-import type { Summary } from '../types';
+import type { Summary, Surface } from '../types';
 import type { Shading } from '../viewer';
 
 const um = (value: number | null): TemplateResult =>
@@ -84,57 +84,70 @@ function absent(app: App): TemplateResult {
     ${versions(app)}`;
 }
 
+/** The figures that explain the first ones. */
+function details(app: App, surface: Surface): TemplateResult {
+  const { summary } = surface;
+  return html`<details class="more" id="details">
+    <summary>${t('surface.details')}</summary>
+    <dl class="figures">
+      ${
+        surface.sigma_mm.systematic === null
+          ? ''
+          : html`<dt>${t('surface.noise')}</dt>
+              ${um(surface.sigma_mm.noise)}
+              <dt>${t('surface.systematic')}</dt>
+              ${um(surface.sigma_mm.systematic)}`
+      }
+      <dt>${t('surface.triangles')}</dt>
+      <dd class="num">${number(surface.triangles)}</dd>
+      ${
+        summary
+          ? html`<dt>${t('surface.points')}</dt>
+              <dd class="num">${number(summary.points)}</dd>
+              <dt>${t('surface.viewsFused')}</dt>
+              <dd class="num">${number(summary.views)}</dd>`
+          : ''
+      }
+      <dt>${t('surface.parts')}</dt>
+      <dd class="num">${number(surface.components)}</dd>
+      <dt>${t('surface.revision')}</dt>
+      <dd class="num">${number(app.project.revision)}</dd>
+    </dl>
+    ${summary?.registration ? html`<p class="quiet">${registrationWords(summary)}</p>` : ''}
+  </details>`;
+}
+
 export function surfaceStep(app: App): TemplateResult {
   const { surface } = app.project;
   if (!surface) return absent(app);
   const { size } = app.viewer;
-  const { summary } = surface;
-  return html`${findings(app)}${appearance(app)}
-    <section class="group" id="section">
-      <h2>${t('section.title')}</h2>
-      ${app.sectioning.panel()}
-    </section>
-    ${app.measuring.panel()} ${joins(app)}
+  return html`${findings(app)}
     <section class="group">
       <h2>${t('surface.figures')}</h2>
       <dl class="figures">
         <dt>${t('surface.sigmaMedian')}</dt>
         ${um(surface.sigma_mm.combined)}
-        ${
-          surface.sigma_mm.systematic === null
-            ? ''
-            : html`<dt class="sub">${t('surface.noise')}</dt>
-                ${um(surface.sigma_mm.noise)}
-                <dt class="sub">${t('surface.systematic')}</dt>
-                ${um(surface.sigma_mm.systematic)}`
-        }
         <dt>${t('surface.size')}</dt>
         <dd class="num">${number(size.x, 1)} × ${number(size.y, 1)} × ${number(size.z, 1)}<span>mm</span></dd>
-        <dt>${t('surface.revision')}</dt>
-        <dd class="num">${number(app.project.revision)}</dd>
-        <dt>${t('surface.triangles')}</dt>
-        <dd class="num">${number(surface.triangles)}</dd>
-        ${
-          summary
-            ? html`<dt>${t('surface.points')}</dt>
-                <dd class="num">${number(summary.points)}</dd>
-                <dt>${t('surface.viewsFused')}</dt>
-                <dd class="num">${number(summary.views)}</dd>`
-            : ''
-        }
-        <dt>${t('surface.parts')}</dt>
-        <dd class="num">${number(surface.components)}</dd>
         <dt>${t('surface.holes')}</dt>
         <dd class="num">${number(surface.hole_count)}</dd>
       </dl>
-      ${summary?.registration ? html`<p class="quiet">${registrationWords(summary)}</p>` : ''}
-      ${
-        app.project.scan_complete
-          ? html`<button class="btn wide" ?disabled=${app.busy || app.session.watches} @click=${() => app.build()}>
-              ${t('surface.build')}
-            </button>`
-          : ''
-      }
+      ${details(app, surface)}
     </section>
+    ${app.measuring.panel()} ${appearance(app)}
+    <section class="group" id="section">
+      <h2>${t('section.title')}</h2>
+      ${app.sectioning.panel()}
+    </section>
+    ${joins(app)}
+    ${
+      app.project.scan_complete
+        ? html`<section class="group">
+            <button class="btn wide" ?disabled=${app.busy || app.session.watches} @click=${() => app.build()}>
+              ${t('surface.build')}
+            </button>
+          </section>`
+        : ''
+    }
     ${versions(app)} ${nextStep(app, 'edit')}`;
 }

@@ -92,8 +92,9 @@ void draw_squares(HPDF_Page page, const Board& board, double left_mm, double top
 
 PaperSize paper_size(const std::string& name) {
   if (name == "a4") return {297.0, 210.0};
+  if (name == "a5") return {210.0, 148.0};
   if (name == "a3") return {420.0, 297.0};
-  require(name == "letter", "a board is printed on a4, a3 or letter");
+  require(name == "letter", "a board is printed on a5, a4, a3 or letter");
   return {279.4, 215.9};
 }
 

@@ -13,7 +13,7 @@ struct PaperSize {
   double height_mm = 210.0;  ///< shorter side; A4
 };
 
-/// The sheet of a name: "a4", "a3" or "letter".
+/// The sheet of a name: "a5", "a4", "a3" or "letter".
 ///
 /// @errors   Error(Input) for another name
 [[nodiscard]] PaperSize paper_size(const std::string& name);

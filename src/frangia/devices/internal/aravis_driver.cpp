@@ -1,5 +1,8 @@
 #include "frangia/devices/internal/aravis_driver.h"
 
+#include <initializer_list>
+#include <string_view>
+
 #include "frangia/devices/internal/aravis_camera.h"
 
 namespace frangia {
@@ -8,13 +11,15 @@ namespace frangia {
 
 namespace {
 
+const std::initializer_list<std::string_view> kPixelFormats = {
+    "Mono8", "Mono10", "Mono12", "Mono14", "Mono16"};
+
 std::unique_ptr<Device> open(DeviceSettings& settings,
                              const Rig& /*rig*/,
                              const Deadline& deadline) {
   AravisSettings camera;
   camera.id = settings.text_or("id", "");
-  camera.pixel_format =
-      settings.choice("pixel_format", {"Mono8", "Mono10", "Mono12", "Mono14", "Mono16"});
+  camera.pixel_format = settings.choice("pixel_format", kPixelFormats);
   const auto region = settings.numbers_or("region_px", {0, 0, 0, 0});
   if (region.size() != 4) settings.fail("region_px", "must be [x, y, width, height]");
   for (std::size_t i = 0; i < 4; ++i) {
@@ -34,6 +39,7 @@ Driver aravis_driver() {
   driver.description = "GigE Vision and USB3 Vision cameras through Aravis";
   driver.open = open;
   driver.find = find_aravis_cameras;
+  driver.choices = {{"pixel_format", {kPixelFormats.begin(), kPixelFormats.end()}}};
   return driver;
 }
 

@@ -3,6 +3,7 @@
 #include "frangia/devices/internal/glfw_display.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 
@@ -196,7 +197,58 @@ class GlfwDisplay final : public PatternDisplay {
   std::vector<std::uint8_t> levels_;
 };
 
+/// Segments of a digit as on a pocket calculator, bit 0 at the top, then clockwise, bit 6 in the
+/// middle.
+constexpr std::array<unsigned, 10> kSegments = {
+    0x3FU, 0x06U, 0x5BU, 0x4FU, 0x66U, 0x6DU, 0x7DU, 0x07U, 0x7FU, 0x6FU};
+
+/// Whether a point of a digit is lit; its box is from 0 to 1 each way, y downwards.
+bool is_lit(unsigned digit, double x, double y) {
+  constexpr double kThick = 0.16;
+  constexpr double kHalf = 0.5;
+  const unsigned segments = kSegments.at(digit);
+  const auto on = [&](unsigned bit) { return (segments >> bit & 1U) != 0U; };
+  const bool left = x < kThick;
+  const bool right = x > 1.0 - kThick;
+  return (y < kThick / 2 && on(0)) || (y > 1.0 - kThick / 2 && on(3)) ||
+         (std::abs(y - kHalf) < kThick / 4 && on(6)) || (right && y < kHalf && on(1)) ||
+         (right && y >= kHalf && on(2)) || (left && y >= kHalf && on(4)) ||
+         (left && y < kHalf && on(5));
+}
+
+/// A digit in the middle of a dark picture.
+Image<float> digit_image(int width, int height, unsigned digit) {
+  constexpr double kShare = 0.5;   // of the height
+  constexpr double kNarrow = 0.5;  // width over height of the digit
+  const double tall = kShare * height;
+  const double wide = kNarrow * tall;
+  Image<float> image(width, height, 0.0F);
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      const double u = (x - 0.5 * (width - wide)) / wide;
+      const double v = (y - 0.5 * (height - tall)) / tall;
+      if (u >= 0.0 && u <= 1.0 && v >= 0.0 && v <= 1.0 && is_lit(digit, u, v)) image(x, y) = 1.0F;
+    }
+  }
+  return image;
+}
+
 }  // namespace
+
+void identify_glfw_monitors(const Deadline& deadline) {
+  const Glfw glfw;
+  std::vector<std::unique_ptr<PatternDisplay>> displays;
+  const std::size_t count = std::min(Glfw::monitors().size(), kSegments.size());
+  for (std::size_t i = 0; i < count; ++i) {
+    displays.push_back(open_glfw_display(
+        {.monitor = std::to_string(i), .delay_s = 0.0, .response = std::nullopt}));
+    const DisplayInfo& info = displays.back()->info();
+    displays.back()->show(digit_image(info.width_px, info.height_px, static_cast<unsigned>(i)),
+                          deadline);
+  }
+  if (displays.empty()) fail("monitor", "no monitor found; connect the projector");
+  deadline.sleep(kIdentify_s);
+}
 
 std::unique_ptr<PatternDisplay> open_glfw_display(const GlfwSettings& settings) {
   return std::make_unique<GlfwDisplay>(settings);
@@ -208,13 +260,18 @@ std::vector<FoundDevice> find_glfw_monitors() {
   const auto monitors = Glfw::monitors();
   for (std::size_t i = 0; i < monitors.size(); ++i) {
     const GLFWvidmode* mode = glfwGetVideoMode(monitors[i]);
-    found.push_back(
-        {fmt::format("{}, {} x {} pixels{}",
-                     name_of(i, monitors[i]),
-                     mode->width,
-                     mode->height,
-                     i == 0 ? ", the primary monitor" : ""),
-         fmt::format("driver = \"monitor\"\nmonitor = \"{}\"\n", glfwGetMonitorName(monitors[i]))});
+    const std::string name = glfwGetMonitorName(monitors[i]);
+    // Two monitors of one model differ by their number alone.
+    const bool unique = std::count_if(monitors.begin(), monitors.end(), [&](GLFWmonitor* other) {
+                          return name == glfwGetMonitorName(other);
+                        }) == 1;
+    found.push_back({fmt::format("{}, {} x {} pixels{}",
+                                 name_of(i, monitors[i]),
+                                 mode->width,
+                                 mode->height,
+                                 i == 0 ? ", the primary monitor" : ""),
+                     fmt::format("driver = \"monitor\"\nmonitor = \"{}\"\n",
+                                 unique ? name : std::to_string(i))});
   }
   return found;
 }

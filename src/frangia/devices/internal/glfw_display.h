@@ -26,6 +26,15 @@ struct GlfwSettings {
 
 [[nodiscard]] std::vector<FoundDevice> find_glfw_monitors();
 
+/// How long each monitor shows its number.
+inline constexpr double kIdentify_s = 4.0;
+
+/// Shows on each monitor the number that `find_glfw_monitors` gives it. Only defined in builds with
+/// GLFW.
+///
+/// @errors   Error(Device) as `open_glfw_display`
+void identify_glfw_monitors(const Deadline& deadline);
+
 /// The driver "monitor".
 [[nodiscard]] Driver glfw_driver();
 

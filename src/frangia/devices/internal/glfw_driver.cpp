@@ -23,6 +23,7 @@ Driver glfw_driver() {
                         std::getenv("WAYLAND_DISPLAY") != nullptr;  // NOLINT(concurrency-mt-unsafe)
     return screen ? find_glfw_monitors() : std::vector<FoundDevice>{};
   };
+  driver.identify = identify_glfw_monitors;
 #else
   driver.description = "a projector connected as a monitor; not in this build";
   driver.open =

@@ -12,6 +12,7 @@
 #include <linux/videodev2.h>
 
 #include "frangia/devices/internal/v4l2_automatics.h"
+#include "frangia/devices/internal/v4l2_modes.h"
 #include "frangia/frames/decode_mjpeg.h"
 
 namespace frangia {
@@ -190,9 +191,14 @@ class V4l2Camera final : public CameraDevice {
   }
 
   void choose_format() {
-    // Compression costs accuracy: it is the last choice.
-    for (const unsigned format :
-         {V4L2_PIX_FMT_GREY, V4L2_PIX_FMT_YUYV, V4L2_PIX_FMT_MJPEG, V4L2_PIX_FMT_JPEG}) {
+    if (settings_.width_px == 0) {
+      const std::vector<V4l2Mode> modes = v4l2_modes(*system_, file_);
+      if (modes.empty()) fail("does not list its sizes; choose size_px = [width, height]");
+      settings_.width_px = modes.front().width_px;
+      settings_.height_px = modes.front().height_px;
+    }
+    for (const auto& [name, format, people] : v4l2_formats()) {
+      if (settings_.format != 0 && format != settings_.format) continue;
       auto wanted = zeroed<v4l2_format>();
       wanted.type = V4L2_BUF_TYPE_VIDEO_CAPTURE;
       wanted.fmt.pix.width = static_cast<unsigned>(settings_.width_px);
@@ -208,11 +214,25 @@ class V4l2Camera final : public CameraDevice {
       info_.height_px = static_cast<int>(wanted.fmt.pix.height);
       info_.white_level = 255;
       info_.skip_frames = settings_.skip_frames;
+      choose_rate();
       return;
     }
-    fail(
-        "delivers neither grey, YUYV nor Motion JPEG images of this size; use another camera or a "
-        "smaller size");
+    fail(settings_.format == 0
+             ? "delivers neither grey, YUYV nor Motion JPEG images of this size; use another "
+               "camera or a smaller size"
+             : "does not deliver images of this size in this pixel_format; choose another mode");
+  }
+
+  /// A camera that has no such rate takes the nearest one, or leaves its own.
+  void choose_rate() {
+    if (settings_.fps <= 0.0) return;
+    constexpr unsigned kParts = 1000;
+    auto rate = zeroed<v4l2_streamparm>();
+    rate.type = V4L2_BUF_TYPE_VIDEO_CAPTURE;
+    rate.parm.capture.timeperframe.numerator = kParts;
+    rate.parm.capture.timeperframe.denominator =
+        static_cast<unsigned>(std::lround(kParts * settings_.fps));
+    static_cast<void>(system_->ioctl(file_, VIDIOC_S_PARM, &rate));
   }
 
   void map_buffers() {
@@ -330,42 +350,6 @@ class V4l2Camera final : public CameraDevice {
 std::unique_ptr<CameraDevice> open_v4l2_camera(const V4l2Settings& settings,
                                                std::shared_ptr<V4l2System> system) {
   return std::make_unique<V4l2Camera>(settings, std::move(system));
-}
-
-std::vector<FoundDevice> find_v4l2_cameras(V4l2System& system) {
-  std::vector<FoundDevice> found;
-  constexpr int kMost = 64;
-  for (int i = 0; i < kMost; ++i) {
-    const std::string path = fmt::format("/dev/video{}", i);
-    const int file = system.open(path.c_str());
-    if (file < 0) continue;
-    auto capability = zeroed<v4l2_capability>();
-    const bool answers = system.ioctl(file, VIDIOC_QUERYCAP, &capability) >= 0;
-    system.close(file);
-    if (!answers || (capability.device_caps & V4L2_CAP_VIDEO_CAPTURE) == 0) continue;
-    found.push_back(
-        {fmt::format("{} at {}", reinterpret_cast<const char*>(capability.card), path),  // NOLINT
-         fmt::format("driver = \"v4l2\"\npath = \"{}\"\n", path)});
-  }
-  return found;
-}
-
-Driver v4l2_driver() {
-  Driver driver;
-  driver.name = "v4l2";
-  driver.kind = DeviceKind::Camera;
-  driver.description = "webcams through Video4Linux2";
-  driver.open =
-      [](DeviceSettings& settings, const Rig& rig, const Deadline&) -> std::unique_ptr<Device> {
-    V4l2Settings camera;
-    camera.path = settings.text_or("path", camera.path);
-    camera.skip_frames = settings.integer_or("skip_frames", camera.skip_frames, 0, 30);
-    camera.width_px = rig.reference().model.width_px;
-    camera.height_px = rig.reference().model.height_px;
-    return open_v4l2_camera(camera, kernel_v4l2());
-  };
-  driver.find = [](const Deadline&) { return find_v4l2_cameras(*kernel_v4l2()); };
-  return driver;
 }
 
 }  // namespace frangia

@@ -12,8 +12,10 @@ namespace frangia {
 
 struct V4l2Settings {
   std::string path = "/dev/video0";
-  int width_px = 0;  ///< required by the rig
-  int height_px = 0;
+  int width_px = 0;     ///< 0: the largest that the camera lists
+  int height_px = 0;    ///< as the width
+  unsigned format = 0;  ///< V4L2_PIX_FMT_...; 0: the least compressed one of the size
+  double fps = 0.0;     ///< images per second; 0: as the camera likes
   int skip_frames = 1;  ///< frames in the pipeline of the camera at a request
 };
 

@@ -54,6 +54,19 @@ nlohmann::ordered_json Service::Implementation::start_find_devices(CommandArgume
   });
 }
 
+/// Shows on each monitor its number.
+nlohmann::ordered_json Service::Implementation::start_identify(CommandArguments& arguments) {
+  arguments.check_all_read();
+  require_idle();
+  stop_live();
+  return started("identify", [this](const Run& run) {
+    run.stage("devices");
+    constexpr double kTimeout_s = 20.0;
+    for (const Driver& driver : options_.capture.drivers())
+      if (driver.identify) driver.identify(Deadline::in(kTimeout_s, run.stop));
+  });
+}
+
 /// Replaces the devices of the project's rig, and tests them.
 nlohmann::ordered_json Service::Implementation::start_set_devices(CommandArguments& arguments) {
   const std::map<std::string, std::string> given = arguments.texts("devices", kTables.size());

@@ -37,6 +37,7 @@ class Service::Implementation {
   /// @errors   Error(Input) when no project is open
   [[nodiscard]] ProjectFolder folder() const;
   [[nodiscard]] std::string cloud(std::size_t station) const;
+  [[nodiscard]] std::string grown_surface() const;
   [[nodiscard]] std::string setup_cloud(std::size_t joined) const;
   void add_to_reference(std::size_t offset, const std::string& bytes) const;
   /// The residuals of the project's calibration, as docs/service-api.md describes them.
@@ -84,6 +85,7 @@ class Service::Implementation {
   Json start_replay(CommandArguments& arguments);
 
   Json start_find_devices(CommandArguments& arguments);
+  Json start_identify(CommandArguments& arguments);
   Json start_set_devices(CommandArguments& arguments);
   Json start_test_devices(CommandArguments& arguments);
   Json start_check_scan(CommandArguments& arguments);

@@ -2,6 +2,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "frangia/calibrate/board/printed_boards.h"
 #include "frangia/calibrate/board/write_board_pdf.h"
 #include "frangia/core/error.h"
 #include "frangia/dataset/scan_folder.h"
@@ -107,18 +108,29 @@ nlohmann::ordered_json Service::Implementation::start_calibration(CommandArgumen
   constexpr std::size_t kUsualColumns = 10;
   constexpr std::size_t kUsualRows = 7;
   constexpr std::size_t kUsualPoses = 12;
-  Board board;
-  const auto square_mm = arguments.positive("square_mm");
-  require(square_mm.has_value(), "square_mm: the side of a square is missing here");
-  board.square_mm = *square_mm;
-  board.columns =
-      static_cast<int>(arguments.whole_or("columns", kUsualColumns, kFewestPoints, kMostPoints));
-  board.rows = static_cast<int>(arguments.whole_or("rows", kUsualRows, kFewestPoints, kMostPoints));
+  constexpr double kLeastScale = 0.5;  // of a print; less is a slip of the unit
+  WizardBoard board;
+  if (const auto ruler_mm = arguments.positive("ruler_mm")) {
+    board.scale = *ruler_mm / kPrintedRuler_mm;
+    require(
+        board.scale > kLeastScale && board.scale < 1.0 / kLeastScale,
+        "ruler_mm: the ruler of a printed board is 100 mm long; measure it and state its length");
+  } else {
+    const auto square_mm = arguments.positive("square_mm");
+    require(square_mm.has_value(),
+            "square_mm: the side of a square is missing here, or ruler_mm of a printed board");
+    Board& described = board.described.emplace();
+    described.square_mm = *square_mm;
+    described.columns =
+        static_cast<int>(arguments.whole_or("columns", kUsualColumns, kFewestPoints, kMostPoints));
+    described.rows =
+        static_cast<int>(arguments.whole_or("rows", kUsualRows, kFewestPoints, kMostPoints));
+    check_board(described);
+  }
   const std::size_t poses = arguments.whole_or("poses", kUsualPoses, 3, kMostPoints);
   arguments.check_all_read();
   require(project.can_scan, "this project has no rig with devices");
   require(!project.scan_begun, "the scan has begun with this rig; create a project to calibrate");
-  check_board(board);
   require_idle();
   const auto wizard = std::make_shared<CalibrationWizard>(project.folder, [this] {
     on_change_();
@@ -178,17 +190,15 @@ nlohmann::ordered_json Service::Implementation::find_axis(CommandArguments& argu
       });
 }
 
-/// A checkerboard to print, as an export.
+/// A board to print, which names itself, as an export.
 nlohmann::ordered_json Service::Implementation::print_board(CommandArguments& arguments) {
   const std::string paper = arguments.text("paper");
   arguments.check_all_read();
-  const PaperSize size = paper_size(paper);
-  constexpr int kColumns = 10;
-  constexpr int kRows = 7;
-  return started("export", [this, paper, size, project = folder()](const Run& run) {
+  const Board board = printed_board(paper);
+  return started("export", [this, paper, board, project = folder()](const Run& run) {
     run.stage("files");
     const auto write = [&](const std::filesystem::path& path) {
-      static_cast<void>(write_board_pdf(path, {.columns = kColumns, .rows = kRows}, size));
+      static_cast<void>(write_board_pdf(path, board, paper_size(paper)));
     };
     put_export(project, "board-" + paper + ".pdf", std::nullopt, write, run);
   });

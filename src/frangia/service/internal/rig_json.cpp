@@ -96,15 +96,24 @@ RigJson json_of_devices(const std::vector<ProjectDevice>& devices) {
 RigJson json_of_search(const DeviceSearch& search) {
   RigJson json{{"connected", RigJson::array()}, {"drivers", RigJson::array()}};
   for (const ConnectedDevice& device : search.connected) {
-    json["connected"].push_back({{"table", table_name(device.kind)},
-                                 {"driver", device.driver},
-                                 {"name", device.found.name},
-                                 {"settings", device.found.settings}});
+    RigJson one{{"table", table_name(device.kind)},
+                {"driver", device.driver},
+                {"name", device.found.name},
+                {"settings", device.found.settings},
+                {"modes", RigJson::array()}};
+    for (const DeviceMode& mode : device.found.modes)
+      one["modes"].push_back({{"name", mode.name}, {"settings", mode.settings}});
+    json["connected"].push_back(one);
   }
   for (const Driver& driver : search.drivers) {
-    json["drivers"].push_back({{"table", table_name(driver.kind)},
-                               {"driver", driver.name},
-                               {"description", driver.description}});
+    RigJson one{{"table", table_name(driver.kind)},
+                {"driver", driver.name},
+                {"description", driver.description},
+                {"identifies", driver.identify != nullptr},
+                {"choices", RigJson::object()}};
+    for (const SettingChoices& setting : driver.choices)
+      one["choices"][setting.key] = setting.values;
+    json["drivers"].push_back(one);
   }
   json["warnings"] = search.warnings;
   return json;
@@ -169,6 +178,7 @@ RigJson json_of_wizard(const WizardState& state) {
   RigJson json{
       {"active", state.active},
       {"waiting", state.waiting},
+      {"naming", state.naming},
       {"found", state.found},
       {"wanted", state.wanted},
       {"with_board", coverage.poses},
@@ -181,6 +191,11 @@ RigJson json_of_wizard(const WizardState& state) {
       {"next", json_of(coverage.next)},
       {"findings", state.findings},
       {"fault", state.fault}};
+  const Board& board = state.board;  // of no columns until a printed one has said which it is
+  json["board"] = board.columns == 0 ? RigJson()
+                                     : RigJson{{"columns", board.columns},
+                                               {"rows", board.rows},
+                                               {"square_mm", board.square_mm}};
   json["poses"] = RigJson::array();
   for (const WizardPose& pose : state.poses)
     json["poses"].push_back({{"points", pose.points}, {"expected", pose.expected}});

@@ -1,10 +1,12 @@
 #include <algorithm>
 #include <filesystem>
+#include <optional>
 
 #include <fmt/format.h>
 
 #include "frangia/core/angles.h"
 #include "frangia/core/error.h"
+#include "frangia/core/read_text_file.h"
 #include "frangia/service/internal/implementation.h"
 
 namespace frangia {
@@ -73,12 +75,20 @@ nlohmann::ordered_json Service::Implementation::start_scan(CommandArguments& arg
   change([&](OpenProject& opened) {
     opened.scan_begun = true;
     opened.stations = stations;
+    opened.grown.reset();
     opened.unknown_angle.reset();
   });
   return started("scan", [this, project, stations, settings, setup](const Run& run) {
     CaptureReport report;
     const auto decoded = views_to_keep(project, stations, settings, opened().decoded, run);
     change([&](OpenProject& opened) { opened.decoded = decoded; });
+    // Each setup stands in its own pose on the table: the surface is that of the present one.
+    std::optional<GrowingSurface> growing;
+    if (const std::optional<Rig> rig = opened().rig) {
+      growing.emplace(*rig, [this](const GrownSurface& grown) {
+        change([&](OpenProject& opened) { opened.grown = grown; });
+      });
+    }
     try {
       report = capture_project(
           project,
@@ -89,6 +99,7 @@ nlohmann::ordered_json Service::Implementation::start_scan(CommandArguments& arg
           [this](const std::vector<ProjectStation>& all) {
             change([&](OpenProject& opened) { opened.stations = all; });
           },
+          growing ? &*growing : nullptr,
           run);
     } catch (const UnknownTableAngle& error) {
       change([&](OpenProject& opened) { opened.unknown_angle = error; });
@@ -123,6 +134,22 @@ nlohmann::ordered_json Service::Implementation::rescan_station(CommandArguments&
       project.in_scan(std::filesystem::path("views") / fmt::format("{:03}", station)));
   CommandArguments none("{}");
   return start_scan(none);
+}
+
+std::string Service::Implementation::cloud(std::size_t station) const {
+  ProjectFolder project;
+  {
+    const std::lock_guard lock(mutex_);
+    if (!project_ || station >= project_->stations.size() || !project_->stations[station].has_cloud)
+      return {};
+    project = project_->folder;
+  }
+  constexpr std::uint64_t kMostBytes = 16'000'000;
+  return read_text_file(project.cloud(station), kMostBytes);
+}
+std::string Service::Implementation::grown_surface() const {
+  const std::lock_guard lock(mutex_);
+  return project_ && project_->grown ? *project_->grown->packed : std::string();
 }
 
 }  // namespace frangia

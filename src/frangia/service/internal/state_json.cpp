@@ -177,6 +177,11 @@ Json json_of_project(const OpenProject& project, const CommandLines& commands) {
                          number_or_null(project.unknown_angle->last_deg().value_or(kMissing))}}
                  : Json()},
             {"stations", json_of_stations(project.stations)},
+            {"grown",
+             project.grown ? Json{{"views", project.grown->views},
+                                  {"triangles", project.grown->triangles},
+                                  {"revision", project.grown->revision}}
+                           : Json()},
             {"surface_loading", project.surface_loading},
             {"surface", project.surface ? json_of_surface(*project.surface) : Json()}};
   const SurfaceVersions none;
@@ -221,8 +226,10 @@ ProjectProgress progress_of(const OpenProject& project) {
   progress.capture = project.capture;
   if (project.wizard) {
     const WizardState state = project.wizard->state();
-    progress.calibration = {
-        project.wizard->folder(), state.board, state.wanted, !state.verdict.grade.empty()};
+    if (state.board.columns > 0) {  // otherwise it has not said yet which it is
+      progress.calibration = {
+          project.wizard->folder(), state.board, state.wanted, !state.verdict.grade.empty()};
+    }
   }
   progress.has_surface = project.surface != nullptr;
   if (project.surface) {

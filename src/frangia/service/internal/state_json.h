@@ -78,6 +78,7 @@ struct OpenProject {
   std::vector<KeptRig> kept_rigs;             ///< that the project had, the newest first
   std::vector<ProjectStation> stations;
   std::shared_ptr<DecodedViews> decoded;  ///< of the scan that was captured here; null before
+  std::optional<GrownSurface> grown;      ///< while its scan runs and until it is built
   /// Why the scan did not go on: the angle of its turntable is unknown.
   std::optional<UnknownTableAngle> unknown_angle;
   /// Null when versions.json cannot be read, until it can.

@@ -210,7 +210,8 @@ void Service::Implementation::rebuild_surface(const ProjectFolder& project,
         untrusted = result.untrusted_reason;
       },
       run);
-  if (!untrusted.empty()) run.warn("do not trust this surface: " + untrusted);
+  change([](OpenProject& now) { now.grown.reset(); });
+  if (!untrusted.empty()) run.warn(fmt::format("do not trust this surface: {}", untrusted));
 }
 
 void Service::Implementation::add_version(
