@@ -22,9 +22,8 @@ struct PredictedFrames {
 };
 
 /// Predicts the frames of a pattern from those of the coarser ones: frames that leave no residual
-/// by themselves have one beside them.
+/// by themselves have one beside them. `map` is the number of the pattern, 1 or more.
 ///
-/// @param map  number of the pattern, 1 or more
 /// @shape    `coarse_to_fine` as for check_sequence
 /// @missing  nothing where the coarser patterns do not determine the place in the field
 [[nodiscard]] std::optional<PredictedFrames> predict_frames(
