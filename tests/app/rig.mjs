@@ -108,8 +108,7 @@ await tell(home, async () => {
   // The board was not captured here: it is counted and measured.
   for (const [name, value] of [['columns', 10], ['rows', 7], ['square_mm', 14]]) await page.fill(`#axis input[name=${name}]`, String(value));
   await page.click('#find-axis');
-  const found = await waitForState(page, (state) => state.project.axis !== null);
-  expect(found.project.rig.turntable !== null, 'the axis is not in the rig');
+  const found = await waitForState(page, ({ project }) => project.axis !== null && project.rig.turntable !== null);
   await idle(page);
   await look(page, shots, 'axis-found');
   // What a search changed comes back with a click, after a question; so does what was found.

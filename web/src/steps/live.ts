@@ -362,5 +362,5 @@ export function liveStep(app: App): TemplateResult {
       }
       <p class="quiet">${t(project.rig ? 'live.lead' : 'live.leadUncalibrated')}</p>
     </section>
-    ${light(app)}${exposure(app)}${fringes(app)}${nextStep(app, 'scan')}`;
+    ${light(app)}${exposure(app)}${fringes(app)}${nextStep(app, 'scan', Boolean(project.live))}`;
 }
