@@ -233,6 +233,22 @@ TEST(ExplainPoses, NamesALostStepThoughAnyAnglesWouldFit) {
   EXPECT_LT(out.error_mm, 0.01);
 }
 
+const RayScene& shaft() {
+  static const RayScene kPart(make_part("shaft"));
+  return kPart;
+}
+
+TEST(ExplainPoses, CorrectsTheWobbleOfATableUnderAShaft) {
+  FaultyScan scan(8);
+  scan.wobble(rad_from_deg(0.03), 0.03);
+  const Registered out = registered(scan, shaft());
+  const PoseExplanation& found = out.report.explanation;
+  EXPECT_EQ(found.best, PoseCause::Wobble) << found.text;
+  EXPECT_LT(out.error_mm, 0.02);
+  EXPECT_LT(out.error.share_beyond, 0.05) << out.error.over_sigma;
+  EXPECT_TRUE(out.report.untrusted_reason().empty()) << out.report.untrusted_reason();
+}
+
 TEST(ExplainPoses, CountsInSigmaAMoveThatTheScatterOfThePairsHides) {
   for (const int views : {6, 8}) {
     FaultyScan scan(views);

@@ -51,7 +51,23 @@ def ball_bar(p):
     return np.minimum.reduce([*balls, surfaces.box(p, (-30, -5, 25), (30, 5, 35))])
 
 
-PARTS = {"ball bar": ball_bar, "bracket": bracket, "bust": bust, "shaft": shaft}
+def cup(p):
+    wall = np.maximum(surfaces.cylinder(p, 0, 0, 26, 0, 58), -surfaces.cylinder(p, 0, 0, 22.5, 4, 70))
+    from_ring = np.stack([np.hypot(p[:, 0] - 27, p[:, 2] - 30) - 15, p[:, 1]], axis=1)
+    outside = 24 - np.hypot(p[:, 0], p[:, 1])
+    return np.minimum(wall, np.maximum(np.linalg.norm(from_ring, axis=1) - 3.5, outside))
+
+
+def gear(p):
+    """14 teeth about a hub; the slope of their flanks bounds the distance."""
+    radius, angle = np.hypot(p[:, 0], p[:, 1]), np.arctan2(p[:, 1], p[:, 0])
+    rim = 0.27 * (radius - 28 - 4 * np.clip(1.8 * np.sin(14 * angle), -1, 1))
+    teeth = np.maximum(rim, np.abs(p[:, 2] - 10) - 10)
+    bore = np.minimum(surfaces.cylinder(p, 0, 0, 7, -1, 40), surfaces.box(p, (0, -2.5, -1), (9.5, 2.5, 40)))
+    return np.maximum(np.minimum(teeth, surfaces.cylinder(p, 0, 0, 14, 0, 36)), -bore)
+
+
+PARTS = {"ball bar": ball_bar, "bracket": bracket, "bust": bust, "cup": cup, "gear": gear, "shaft": shaft}
 CENTRE, RADIUS = np.array([0, 0, 30]), 75  # of a sphere around each
 
 

@@ -133,7 +133,7 @@ class RigFit {
   [[nodiscard]] Eigen::MatrixXd information(RigRefinement& result) {
     const Eigen::MatrixXd free_directions = bundle_.free_directions;
     bundle_.free_directions = Eigen::MatrixXd::Identity(model_.count(), model_.count());
-    const Eigen::MatrixXd all = evidence_of(bundle_, sum_drift(bundle_, kComparedSurfels)).hessian;
+    const Eigen::MatrixXd all = information_of(bundle_, sum_drift(bundle_, kComparedSurfels));
     result.directions = static_cast<std::size_t>(model_.count());
     result.held = result.directions - static_cast<std::size_t>(free_directions.cols());
     const Eigen::MatrixXd projection = free_directions * free_directions.transpose();

@@ -10,6 +10,7 @@
 #include "frangia/core/parallel.h"
 #include "frangia/geometry/robust_gauss_newton.h"
 #include "frangia/registration/internal/surfel_pair.h"
+#include "frangia/registration/internal/turntable_bundle.h"
 #include "frangia/registration/internal/view_transfer.h"
 
 namespace frangia {
@@ -28,6 +29,8 @@ class ViewComparison {
     const Eigen::Index count = free_.cols() + bundle.state.table.unknowns();
     sums.hessian = Eigen::MatrixXd::Zero(count, count);
     sums.gradient = Eigen::VectorXd::Zero(count);
+    sums.region_gradients =
+        Eigen::MatrixXd::Zero(count, static_cast<Eigen::Index>(kRegionsPerView));
   }
 
   void compare_with(std::size_t other, std::size_t every) {
@@ -53,6 +56,9 @@ class ViewComparison {
                 const DriftView& to,
                 const ViewTransfer& transfer) {
     const PointDrift::Derivative& by_from = from_.derivatives[index];
+    const auto width = static_cast<std::size_t>(from_.map.surfels.width());
+    const auto height = static_cast<std::size_t>(from_.map.surfels.height());
+    region_ = (2 * (index % width) < width ? 0 : 1) + (2 * (index / width) < height ? 0 : 2);
     const Eigen::Vector3d own = place_of(surfel, by_from);
     const Eigen::Vector3d point = transfer.apply(own);
     const SurfelMap::Surfel* found = surfel_at(to.map, bundle_.camera, point);
@@ -102,6 +108,7 @@ class ViewComparison {
     }
     for (std::size_t i = 0; i < indices_.size(); ++i) {
       sums.gradient[indices_[i]] += weight * values_[i] * distance;
+      sums.region_gradients(indices_[i], region_) += weight * values_[i] * distance;
       for (std::size_t j = 0; j < indices_.size(); ++j)
         sums.hessian(indices_[i], indices_[j]) += weight * values_[i] * values_[j];
     }
@@ -111,6 +118,7 @@ class ViewComparison {
   const DriftView& from_;
   Eigen::VectorXf moved_;
   Eigen::MatrixXf free_;
+  Eigen::Index region_ = 0;  ///< of the surfel
   std::vector<Eigen::Index> indices_;
   std::vector<double> values_;
 };
@@ -138,7 +146,12 @@ DriftSums sum_drift(const DriftBundle& bundle, std::size_t surfels) {
     parts[view] = std::move(comparison.sums);
   });
   DriftSums all = std::move(parts.front());
+  const Eigen::Index regions = all.region_gradients.cols();
+  all.region_gradients.conservativeResize(Eigen::NoChange,
+                                          regions * static_cast<Eigen::Index>(parts.size()));
   for (std::size_t view = 1; view < parts.size(); ++view) {
+    all.region_gradients.middleCols(regions * static_cast<Eigen::Index>(view), regions) =
+        parts[view].region_gradients;
     all.hessian += parts[view].hessian;
     all.gradient += parts[view].gradient;
     all.distances_mm.insert(
@@ -178,12 +191,15 @@ void optimize_drift(DriftBundle& bundle, std::size_t surfels, int max_iterations
   bundle.gate_mm = result.gate;
 }
 
-DriftEvidence evidence_of(const DriftBundle& bundle, const DriftSums& sums) {
+namespace {
+
+/// Equations of w and the table, reduced to those of w, with the prior of the table.
+DriftEvidence without_table(const DriftBundle& bundle,
+                            Eigen::MatrixXd hessian,
+                            Eigen::VectorXd gradient) {
   const Eigen::Index changes = bundle.free_directions.cols();
   const Eigen::Index table = bundle.table_sigma.size();
   const Eigen::VectorXd prior = bundle.table_sigma.cwiseAbs2().cwiseInverse();
-  Eigen::MatrixXd hessian = sums.weight(bundle) * sums.hessian;
-  Eigen::VectorXd gradient = sums.weight(bundle) * sums.gradient;
   hessian.diagonal().tail(table) += prior;
   gradient.tail(table) += prior.cwiseProduct(deviation(bundle.state.table, bundle.given));
   const Eigen::MatrixXd across = hessian.topRightCorner(changes, table);
@@ -194,6 +210,34 @@ DriftEvidence evidence_of(const DriftBundle& bundle, const DriftSums& sums) {
           (hessian.topLeftCorner(changes, changes) - across * of_table.solve(across.transpose())) *
           free.transpose(),
       free * (gradient.head(changes) - across * of_table.solve(gradient.tail(table)))};
+}
+
+}  // namespace
+
+DriftEvidence evidence_of(const DriftBundle& bundle, const DriftSums& sums) {
+  const double weight = sums.weight(bundle);
+  return without_table(bundle, weight * sums.hessian, weight * sums.gradient);
+}
+
+Eigen::MatrixXd information_of(const DriftBundle& bundle, const DriftSums& sums) {
+  const double weight = sums.weight(bundle);
+  const Eigen::Index changes = bundle.free_directions.cols();
+  // In units of the prior, so that one ridge suits all unknowns.
+  Eigen::VectorXd unit = Eigen::VectorXd::Ones(changes + bundle.table_sigma.size());
+  unit.tail(bundle.table_sigma.size()) = bundle.table_sigma;
+  const Eigen::MatrixXd hessian = weight * (unit.asDiagonal() * sums.hessian * unit.asDiagonal());
+  const Eigen::MatrixXd pulls = weight * (unit.asDiagonal() * sums.region_gradients);
+  const auto regions = static_cast<double>(pulls.cols());
+  // The unknowns have been fitted to the same regions, and either view of a pair repeats an error.
+  const double left = std::max(1.0, regions - static_cast<double>(hessian.rows()));
+  Eigen::MatrixXd covariance = hessian + 2.0 * regions / left * pulls * pulls.transpose();
+  covariance.diagonal().array() += 1e-9 * covariance.trace();
+  const Eigen::MatrixXd all = hessian * covariance.ldlt().solve(hessian);
+  const Eigen::VectorXd back = unit.cwiseInverse();
+  return without_table(bundle,
+                       back.asDiagonal() * (0.5 * (all + all.transpose())) * back.asDiagonal(),
+                       Eigen::VectorXd::Zero(unit.size()))
+      .hessian;
 }
 
 }  // namespace frangia

@@ -50,9 +50,10 @@ struct DriftBundle {
 
 /// Normal equations of the distances between all views, in one state.
 struct DriftSums {
-  Eigen::MatrixXd hessian;          ///< sum of w J^T J
-  Eigen::VectorXd gradient;         ///< sum of w J^T r
-  std::vector<float> distances_mm;  ///< absolute, of all pairs within the gate
+  Eigen::MatrixXd hessian;           ///< sum of w J^T J
+  Eigen::VectorXd gradient;          ///< sum of w J^T r
+  Eigen::MatrixXd region_gradients;  ///< the same, a column for each quarter of a view
+  std::vector<float> distances_mm;   ///< absolute, of all pairs within the gate
 
   /// Weight of the pairs relative to the prior. The pairs of two views share an error of
   /// `systematic_mm`, so that they count as (noise / systematic)^2 independent ones at most, and
@@ -74,5 +75,12 @@ struct DriftEvidence {
 };
 
 [[nodiscard]] DriftEvidence evidence_of(const DriftBundle& bundle, const DriftSums& sums);
+
+/// The information of the pairs on w once it has been fitted to them, axis and angles being
+/// unknown. What is left between the views of each region pulls at w: where the regions do so by
+/// more than their noise, they have errors that no number of pairs averages out.
+///
+/// @source   sandwich estimator with clusters: White 1980, Liang & Zeger 1986
+[[nodiscard]] Eigen::MatrixXd information_of(const DriftBundle& bundle, const DriftSums& sums);
 
 }  // namespace frangia

@@ -59,11 +59,50 @@ BundleSums sum(const Bundle& bundle, const SurfelLists& surfels) {
                     {bundle.gate_mm, free_space_margin_mm(bundle)});
 }
 
+namespace {
+
+/// Mean distance of the surfels from the axis.
+double arm_mm(const Bundle& bundle, const SurfelLists& surfels) {
+  const Turntable& table = bundle.given.table;
+  double sum = 0.0;
+  double count = 0.0;
+  for (const auto& own : surfels) {
+    for (const SurfelMap::Surfel& surfel : own) {
+      sum += table.axis.cross(surfel.point_mm.cast<double>() - table.point_mm).norm();
+      count += 1.0;
+    }
+  }
+  return sum / std::max(1.0, count);
+}
+
+/// Holds the angles by which hardly any surface moves along its normals: a round part would turn by
+/// many degrees to make up for a motion of a few hundredths of a millimetre.
+void hold_open_angles(Linearization& at, const Bundle& bundle, const BundleSums& sums, double arm) {
+  // Of the arm, root mean square along the normals: noise of normals and a part off the axis by a
+  // tenth of a millimetre stay far below, a keyway or a handle in the view is above.
+  constexpr double kOpen = 0.03;
+  constexpr double kHeld = 1e8;  // times the information of the prior
+  const std::size_t views = bundle.maps.size();
+  for (std::size_t view = 1; view < views; ++view) {
+    double pairs = 0.0;
+    for (std::size_t other = 0; other < views; ++other)
+      pairs += sums.pair(view, other).weight + sums.pair(other, view).weight;
+    const auto i = static_cast<Eigen::Index>(view) + 3;
+    if (sums.hessian(i, i) > std::pow(kOpen * arm, 2) * pairs) continue;
+    const double held = kHeld / std::pow(bundle.prior_sigma[i], 2);
+    at.hessian(i, i) += held;
+    at.gradient[i] += held * deviation(bundle.state, bundle.given)[i];
+  }
+}
+
+}  // namespace
+
 void optimize_bundle(Bundle& bundle,
                      const SurfelLists& surfels,
                      int max_iterations,
                      const Run& run) {
   const Eigen::VectorXd information = bundle.prior_sigma.cwiseAbs2().cwiseInverse();
+  const double arm = arm_mm(bundle, surfels);
   const auto linearize = [&](double gate_mm) {
     bundle.gate_mm = gate_mm;
     BundleSums sums = sum(bundle, surfels);
@@ -73,7 +112,9 @@ void optimize_bundle(Bundle& bundle,
     at.hessian.diagonal() += information;
     at.gradient =
         weight * sums.gradient + information.cwiseProduct(deviation(bundle.state, bundle.given));
-    if (!bundle.ties.empty()) {
+    if (bundle.ties.empty()) {
+      hold_open_angles(at, bundle, sums, arm);
+    } else {
       const TieSums ties = sum_ties(bundle.ties, bundle.state);
       at.hessian += ties.hessian;
       at.gradient += ties.gradient;

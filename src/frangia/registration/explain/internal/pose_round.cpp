@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "frangia/core/median.h"
+#include "frangia/core/symmetric_eigen.h"
 #include "frangia/geometry/robust_gauss_newton.h"
 #include "frangia/registration/explain/internal/time_profiles.h"
 #include "frangia/registration/internal/state_motions.h"
@@ -48,6 +49,39 @@ Eigen::VectorXd stated_sigmas(const Bundle& bundle) {
   if (!std::isnan(table.angle_sigma_rad))
     sigma.segment(4, angles).setConstant(table.angle_sigma_rad);
   return sigma;
+}
+
+/// Holds the motions of a view that hardly move its surface along its normals, as of a round part
+/// about its axis: else it would turn by many degrees to make up for a fault of a hundredth of a
+/// millimetre.
+void hold_open_motions(Linearization& at,
+                       const Eigen::MatrixXd& data,
+                       const BundleSums& sums,
+                       const PoseSetting& setting,
+                       std::size_t view,
+                       const Eigen::VectorXd& off) {
+  constexpr double kOpen = 0.03;  // of the way, root mean square along the normals
+  constexpr double kHeld = 1e4;   // times what the pairs of the view would tell of a shift
+  double pairs = 0.0;
+  for (std::size_t other = 0; other < setting.views; ++other)
+    pairs += sums.pair(view, other).weight + sums.pair(other, view).weight;
+  // Rotations about the part's centre, as arcs, and shifts, both in mm.
+  Eigen::Matrix<double, 6, 6> by = Eigen::Matrix<double, 6, 6>::Identity();
+  for (int i = 0; i < 3; ++i) {
+    by.block<3, 1>(0, i) = Eigen::Vector3d::Unit(i) / setting.radius_mm;
+    by.block<3, 1>(3, i) = setting.center_mm.cross(Eigen::Vector3d::Unit(i)) / setting.radius_mm;
+  }
+  const auto first = static_cast<Eigen::Index>(6 * view);
+  const Eigen::MatrixXd own = by.transpose() * data.block<6, 6>(first, first) * by;
+  const auto eigen = symmetric_eigen(own);
+  const Eigen::Matrix<double, 6, 6> from = by.inverse();
+  for (Eigen::Index i = 0; i < 6; ++i) {
+    if (eigen.values[i] > kOpen * kOpen * pairs) continue;
+    const Eigen::Matrix<double, 6, 1> row = from.transpose() * eigen.vectors.col(i);
+    const double held = kHeld * pairs;
+    at.hessian.block<6, 6>(first, first) += held * row * row.transpose();
+    at.gradient.segment<6>(first) += held * row * row.dot(off.segment<6>(first));
+  }
 }
 
 /// Centre and radius of the part that some surfels show.
@@ -154,9 +188,11 @@ void free_poses(Bundle& bundle,
     const NormalEquations data = sums.all();
     Linearization at;
     at.hessian = weight * data.hessian;
+    const Eigen::VectorXd off = chart.motions_to(poses) - chart.stated;
     at.hessian.diagonal() += information;
-    at.gradient =
-        weight * data.gradient + information.cwiseProduct(chart.motions_to(poses) - chart.stated);
+    at.gradient = weight * data.gradient + information.cwiseProduct(off);
+    for (std::size_t view = 0; view < poses.size(); ++view)
+      hold_open_motions(at, data.hessian, sums.fit, chart.setting, view, off);
     at.median_residual = static_cast<double>(median(sums.fit.distances_mm));
     return at;
   };
