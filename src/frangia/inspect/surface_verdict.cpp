@@ -22,11 +22,14 @@ using inspect::OutGuard;
 
 constexpr std::size_t kMostPlaces = 24;
 
-/// Largest U95, of the half-width, of a patch whose lack of a proof is due to its value. A value
-/// beyond a limit counts up to twice as large a U95: on a good part it would lie at four standard
-/// uncertainties.
+/// Largest U95, of the half-width, of a patch whose lack of a proof is due to its value: of a good
+/// part, which is off by less than its U95, the guard band proves such a patch. A value beyond a
+/// limit counts up to twice the share of a patch that is measured well: on a good part it would lie
+/// at four standard uncertainties.
 double near_share(const SurfaceRule& rule, bool is_beyond) {
-  return (is_beyond ? 2.0 : 1.0) * rule.well_measured_share();
+  constexpr double kProvenOnGoodParts = 0.35;
+  return is_beyond ? 2.0 * rule.well_measured_share()
+                   : std::min(kProvenOnGoodParts, rule.max_uncertainty_share);
 }
 
 PatchDecision decide(const SurfacePatches& patches,

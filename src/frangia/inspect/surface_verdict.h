@@ -33,8 +33,7 @@ struct SurfaceRule {
   std::vector<ExcludedBox> excluded;  ///< parts of the reference that are not judged
 
   /// Largest U95 of what is measured well, of the half-width: a quarter, and
-  /// `max_uncertainty_share` at most. What is undecided in spite of it lies near a limit; else the
-  /// measurement lacks. Scans are planned for it.
+  /// `max_uncertainty_share` at most. Scans are planned for it.
   [[nodiscard]] double well_measured_share() const;
 
   /// @errors   Error(Input) that names the value which is out of its range
