@@ -360,6 +360,30 @@ TEST(ExplainPoses, FindsATurnThatDidNotHappen) {
   EXPECT_LT(out.error_mm, 0.01);
 }
 
+// Free views find these poses, which lie too far from the stated angles for a linear cause: "in
+// views 1 and 2 the part was elsewhere", with 0.07 to 0.45 mm of error.
+TEST(ExplainPoses, FindsStepsThatAreFarFromTheStatedAngles) {
+  struct Lost {
+    std::string part;
+    std::size_t first;
+    double by_deg;
+  };
+  for (const Lost& lost : {Lost{"ball-bar", 2, 5.0},
+                           Lost{"bracket", 2, 5.0},
+                           Lost{"bust", 2, 9.0},
+                           Lost{"bust", 6, -12.0}}) {
+    FaultyScan scan(8);
+    for (std::size_t view = lost.first; view < 8; ++view)
+      scan.views[view].angle_rad += rad_from_deg(lost.by_deg);
+    const Registered out = registered(scan, RayScene(make_part(lost.part)));
+    const PoseExplanation& found = out.report.explanation;
+    EXPECT_EQ(found.best, PoseCause::Turned) << found.text;
+    EXPECT_EQ(found.views, std::vector<std::size_t>{lost.first});
+    EXPECT_NEAR(found.turned_rad, rad_from_deg(lost.by_deg), rad_from_deg(0.02)) << found.text;
+    EXPECT_LT(out.error_mm, 0.003);
+  }
+}
+
 TEST(ExplainPoses, FindsNoContradictionInTheNoiseOfGrazingFaces) {
   // The bracket has faces that a view sees at grazing incidence, with ten times the usual noise.
   const Registered out = registered(FaultyScan(8), bracket());
