@@ -13,6 +13,7 @@
 #include "frangia/core/vectorized.h"
 #include "frangia/phase/internal/wrap_tile.h"
 #include "frangia/phase/wrap/internal/phase_kernel.h"
+#include "frangia/phase/wrap/internal/sum_frames.h"
 
 namespace frangia {
 namespace {

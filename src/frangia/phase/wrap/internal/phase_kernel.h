@@ -6,9 +6,18 @@
 #include "frangia/frames/frame_stack.h"
 #include "frangia/frames/noise_model.h"
 #include "frangia/phase/algorithm/phase_algorithm.h"
-#include "frangia/phase/internal/wrap_tile.h"
+#include "frangia/phase/wrap/internal/sum_frames.h"
 
 namespace frangia {
+
+/// Coefficients of the noise of the sums.
+struct SumNoise {
+  float variance_floor;  ///< of the camera noise, counts squared
+  float variance_slope;  ///< of the camera noise, counts squared per count
+  float sine_gain;       ///< sum of sine[k]^2
+  float cosine_gain;     ///< sum of cosine[k]^2
+  float cross_gain;      ///< sum of sine[k] cosine[k]
+};
 
 /// What the kernel computes of a tile, one value per pixel. Callers choose what is kept.
 struct TilePhase {
@@ -31,7 +40,7 @@ class PhaseKernel {
   ///          and depth
   PhaseKernel(const FrameStack& stack, const PhaseAlgorithm& algorithm, const NoiseModel& noise);
 
-  /// Computes the pixels [at, at + n), n <= kTilePixels. The error of a phase is below 5e-7 rad.
+  /// Computes the pixels [at, at + n), n <= kTilePixels. The error of a phase is below 6e-7 rad.
   void wrap(std::size_t at, std::size_t n, WrapTile& scratch, const TilePhase& out) const;
 
   /// The level at which a pixel is saturated, in counts.
