@@ -109,6 +109,7 @@ class TileDecoder {
                     scratch_,
                     {.phase_rad = phase,
                      .precision = precision,
+                     .sigma_rad = nullptr,
                      .modulation_counts = nullptr,
                      .mean_counts = nullptr,
                      .brightest = brightest_.data()});

@@ -63,13 +63,14 @@ FRANGIA_VECTORIZED void find_phase(const WrapTile& __restrict tile,
     phase_rad[i] = fast_atan2(tile.sine[i], tile.cosine[i]);
 }
 
-/// `kAll`: modulation and mean, too.
+/// `kAll`: what a map keeps; else the precision alone.
 template <bool kAll>
 FRANGIA_VECTORIZED void find_precision(const WrapTile& __restrict tile,
                                        std::size_t n,
                                        SumNoise f,
                                        const TilePhase& out) {
   float* __restrict precision = out.precision;
+  float* __restrict sigma = out.sigma_rad;
   float* __restrict modulation = out.modulation_counts;
   float* __restrict means = out.mean_counts;
   for (std::size_t i = 0; i < n; ++i) {
@@ -79,8 +80,11 @@ FRANGIA_VECTORIZED void find_precision(const WrapTile& __restrict tile,
     const float mean = tile.mean[i] > 0.0F ? tile.mean[i] : 0.0F;
     const float variance = f.variance_floor + f.variance_slope * mean;
     const float gain = c * c * f.sine_gain + s * s * f.cosine_gain - 2.0F * s * c * f.cross_gain;
-    precision[i] = square * square / (variance * gain + kLeastVariance);
-    if constexpr (kAll) {
+    const float product = variance * gain + kLeastVariance;
+    if constexpr (!kAll) {
+      precision[i] = square * square / product;
+    } else {
+      sigma[i] = std::sqrt(product) / square;
       modulation[i] = std::sqrt(square);
       means[i] = tile.mean[i];
     }
@@ -139,7 +143,7 @@ FRANGIA_VECTORIZED void sum_four(FourFrames<T> frames, std::size_t n, Sums<T>& _
   }
 }
 
-/// `kAll`: modulation and mean, too.
+/// `kAll`: what a map keeps; else the precision alone.
 template <bool kAll, typename T>
 FRANGIA_VECTORIZED void find_phase(const Sums<T>& __restrict sums,
                                    std::size_t n,
@@ -148,6 +152,7 @@ FRANGIA_VECTORIZED void find_phase(const Sums<T>& __restrict sums,
   const FourStepNoise noise = scales.noise;
   float* __restrict phase = out.phase_rad;
   float* __restrict precision = out.precision;
+  float* __restrict sigma = out.sigma_rad;
   float* __restrict modulation = out.modulation_counts;
   float* __restrict means = out.mean_counts;
   for (std::size_t i = 0; i < n; ++i) {
@@ -163,8 +168,10 @@ FRANGIA_VECTORIZED void find_phase(const Sums<T>& __restrict sums,
     const float large = larger > 0.5F ? larger : 0.5F;  // otherwise an integer of at least 1
     const float inverse = 1.0F / (large * variance);    // one division serves both quotients
     phase[i] = restore_octant(fast_atan(smaller * (variance * inverse)), y, x);
-    precision[i] = square * (large * inverse);
-    if constexpr (kAll) {
+    if constexpr (!kAll) {
+      precision[i] = square * (large * inverse);
+    } else {
+      sigma[i] = std::sqrt(variance / square);
       modulation[i] = scales.modulation * std::sqrt(square);
       means[i] = scales.mean * all;
     }
@@ -192,7 +199,7 @@ template <typename T>
 void wrap(FourFrames<T> frames, std::size_t n, const FourStepScales& scales, const TilePhase& out) {
   Sums<T> sums;  // NOLINT(cppcoreguidelines-pro-type-member-init): filled below
   sum_four<T>(frames, n, sums);
-  if (out.modulation_counts != nullptr) {
+  if (out.precision == nullptr) {
     find_phase<true>(sums, n, scales, out);
   } else {
     find_phase<false>(sums, n, scales, out);
@@ -273,7 +280,7 @@ void PhaseKernel::wrap(std::size_t at,
   }
   sum_frames(*stack_, *algorithm_, at, n, scratch, out.brightest);
   find_phase(scratch, n, out.phase_rad);
-  if (out.modulation_counts != nullptr) {
+  if (out.precision == nullptr) {
     find_precision<true>(scratch, n, noise_, out);
   } else {
     find_precision<false>(scratch, n, noise_, out);

@@ -19,12 +19,14 @@ struct SumNoise {
   float cross_gain;      ///< sum of sine[k] cosine[k]
 };
 
-/// What the kernel computes of a tile, one value per pixel. Callers choose what is kept.
+/// What the kernel computes of a tile, one value per pixel: precisions, of which a sequence needs
+/// nothing else, or all that a map keeps.
 struct TilePhase {
-  float* phase_rad;          ///< in (-pi, pi]; meaningless where the precision is 0
-  float* precision;          ///< inverse variance of the phase, in 1 / rad^2; 0 without modulation
-  float* modulation_counts;  ///< null, as `mean_counts`, where neither is wanted
-  float* mean_counts;
+  float* phase_rad;          ///< in (-pi, pi]; meaningless without modulation
+  float* precision;          ///< inverse variance of the phase, in 1 / rad^2; null: sigma is wanted
+  float* sigma_rad;          ///< its root's inverse; infinite without modulation
+  float* modulation_counts;  ///< with sigma
+  float* mean_counts;        ///< with sigma
   std::uint16_t*
       brightest;  ///< maximum over all frames so far; set it to 0 before the first pattern
 };
