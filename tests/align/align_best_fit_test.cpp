@@ -175,7 +175,8 @@ TEST(AlignBestFit, NamesTheFactorByWhichAPartOfThePartFits) {
   const Mesh part = transform_mesh(upper_part(20.0F), far_pose(6));
   const std::string centimetres = refusal_of(part, scaled(make_bracket(), 0.1F));
   EXPECT_NE(centimetres.find("10 times as large"), std::string::npos) << centimetres;
-  EXPECT_NE(centimetres.find("the reference may be in centimetres"), std::string::npos) << centimetres;
+  EXPECT_NE(centimetres.find("the reference may be in centimetres"), std::string::npos)
+      << centimetres;
 }
 
 TEST(AlignBestFit, NamesTheFactorByWhichASmallMeshFits) {

@@ -49,8 +49,8 @@ TEST(SystematicPart, OfTheCalibrationStandsBesideTheNoiseOfTheMesh) {
   EXPECT_EQ(after.raw.points_mm, before.raw.points_mm);
 }
 
-// Pixels at edges mix two surfaces, which the views of a sound scan have in common, and some rig far
-// off explains it.
+// Pixels at edges mix two surfaces, which the views of a sound scan have in common, and some rig
+// far off explains it.
 TEST(SystematicPart, CountsNoRigWhoseEffectOnTheViewsIsNotNoticeable) {
   const testing::TemporaryFolder folder;
   const Scan scan =

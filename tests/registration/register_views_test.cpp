@@ -46,7 +46,7 @@ TEST(RegisterViews, FindsTheAxisAndTheAngles) {
 
 TEST(RegisterViews, FindsTheAxisAndTheAnglesOfManyViews) {
   constexpr int kViews = 40;  // more than are compared with each other
-  const CameraModel camera = small_camera_model(80, 400.0);
+  const CameraModel camera = small_camera_model(120, 600.0);
   const Table table(kViews);
   ViewStore views = table.take(knobbly, camera);
   const auto report = register_views(views, camera, {table.given, table.stations()});

@@ -17,6 +17,7 @@
 #include "frangia/range/fringe_ray.h"
 #include "frangia/registration/register_views.h"
 #include "frangia/rig/rig.h"
+#include "frangia/simulate/parts.h"
 #include "frangia/simulate/rig_presets.h"
 #include "frangia/views/view_store.h"
 
@@ -340,6 +341,16 @@ inline Registered registered(const FaultyScan& scan,
   if (with_error) out.error = SurfaceErrors(scan, part, views).over(out.report.motions);
   out.error_mm = out.error.rms_mm;
   return out;
+}
+
+inline const RayScene& bracket() {
+  static const RayScene kPart(make_part("bracket"));
+  return kPart;
+}
+
+inline const RayScene& ball_bar() {
+  static const RayScene kPart(make_part("ball-bar"));
+  return kPart;
 }
 
 }  // namespace frangia::testing

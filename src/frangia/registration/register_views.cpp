@@ -127,16 +127,25 @@ ExplainedPoses explain(RegistrationReport& report,
                        Registration& work,
                        const TurntableStations& given,
                        std::size_t dense) {
-  if (auto angles = explain_angles(work)) {
-    report.explanation = std::move(angles->explanation);
-    work.bundle.given.angles_rad = std::move(angles->angles_rad);
-    if (report.explanation.best == PoseCause::AnglesScaled)
-      work.angle_factor = report.explanation.scale;
-    work.optimize_again();
-  }
+  std::optional<ExplainedAngles> angles = explain_angles(work);
   for (;;) {
+    if (angles) {
+      report.explanation = std::move(angles->explanation);
+      work.bundle.given.angles_rad = std::move(angles->angles_rad);
+      if (report.explanation.best == PoseCause::AnglesScaled)
+        work.angle_factor = report.explanation.scale;
+      work.optimize_again();
+      angles.reset();
+    }
     ExplainedPoses found = explain_poses(work, given, dense);
     const PoseExplanation& explanation = found.explanation;
+    const bool each_moved = explanation.best == PoseCause::Unexplained ||
+                            explanation.best == PoseCause::ViewsMoved ||
+                            explanation.best == PoseCause::Wobble;
+    if (each_moved && found.corrected && report.explanation.best == PoseCause::AsStated) {
+      angles = explain_free_views(work, *found.corrected);
+      if (angles) continue;
+    }
     if (explanation.best != PoseCause::AsStated) report.explanation = explanation;
     const bool leaves_out = explanation.best == PoseCause::ViewMoved && explanation.decided &&
                             2 * (report.outliers.size() + 1) < work.views.size();

@@ -112,7 +112,8 @@ std::string unit_advice(double factor, double read_by_mm) {
                        read_by_mm,
                        unit ? unit->name : fmt::format("{:.6g}mm", right_mm));
   }
-  if (unit) return fmt::format("the reference may be in {}; state `units` {}", unit->word, unit->name);
+  if (unit)
+    return fmt::format("the reference may be in {}; state `units` {}", unit->word, unit->name);
   const std::optional<LengthUnit> of_mesh = unit_of_length(1.0 / right_mm);
   return fmt::format("{}write the mesh in mm, or state `units` {:.6g}mm",
                      of_mesh ? fmt::format("the mesh may be in {}: ", of_mesh->word) : "",

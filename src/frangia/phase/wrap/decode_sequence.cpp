@@ -17,6 +17,7 @@
 #include "frangia/phase/internal/hierarchical_unwrapper.h"
 #include "frangia/phase/internal/wrap_tile.h"
 #include "frangia/phase/wrap/internal/phase_kernel.h"
+#include "frangia/phase/wrap/internal/sum_frames.h"
 
 namespace frangia {
 namespace {
@@ -108,6 +109,7 @@ class TileDecoder {
                     scratch_,
                     {.phase_rad = phase,
                      .precision = precision,
+                     .sigma_rad = nullptr,
                      .modulation_counts = nullptr,
                      .mean_counts = nullptr,
                      .brightest = brightest_.data()});

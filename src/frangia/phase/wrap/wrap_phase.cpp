@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <utility>
@@ -13,6 +12,7 @@
 #include "frangia/core/vectorized.h"
 #include "frangia/phase/internal/wrap_tile.h"
 #include "frangia/phase/wrap/internal/phase_kernel.h"
+#include "frangia/phase/wrap/internal/sum_frames.h"
 
 namespace frangia {
 namespace {
@@ -31,12 +31,6 @@ struct TileState {
   alignas(64) std::array<std::int32_t,
                          kTilePixels> status;  ///< a PixelStatus; narrower types do not vectorize
 };
-
-/// Turns inverse variances into sigma, in place.
-FRANGIA_VECTORIZED void find_sigma(std::size_t n, float* __restrict sigma) {
-  for (std::size_t i = 0; i < n; ++i)
-    sigma[i] = 1.0F / std::sqrt(sigma[i]);
-}
 
 FRANGIA_VECTORIZED void find_status(const float* __restrict sigma,
                                     std::size_t n,
@@ -97,11 +91,11 @@ WrappedPhase wrap_phase(const FrameStack& stack,
                       n,
                       scratch,
                       {.phase_rad = phase,
-                       .precision = sigma,
+                       .precision = nullptr,
+                       .sigma_rad = sigma,
                        .modulation_counts = out.modulation_counts.pixels().data() + at,
                        .mean_counts = out.mean_counts.pixels().data() + at,
                        .brightest = state.brightest.data()});
-          find_sigma(n, sigma);
           find_status(sigma, n, {kernel.white(), options.max_sigma_rad}, state);
           clear_discarded(state, n, phase, sigma);
           narrow(state, n, out.status.pixels().data() + at);

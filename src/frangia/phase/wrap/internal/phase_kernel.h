@@ -6,16 +6,27 @@
 #include "frangia/frames/frame_stack.h"
 #include "frangia/frames/noise_model.h"
 #include "frangia/phase/algorithm/phase_algorithm.h"
-#include "frangia/phase/internal/wrap_tile.h"
+#include "frangia/phase/wrap/internal/sum_frames.h"
 
 namespace frangia {
 
-/// What the kernel computes of a tile, one value per pixel. Callers choose what is kept.
+/// Coefficients of the noise of the sums.
+struct SumNoise {
+  float variance_floor;  ///< of the camera noise, counts squared
+  float variance_slope;  ///< of the camera noise, counts squared per count
+  float sine_gain;       ///< sum of sine[k]^2
+  float cosine_gain;     ///< sum of cosine[k]^2
+  float cross_gain;      ///< sum of sine[k] cosine[k]
+};
+
+/// What the kernel computes of a tile, one value per pixel: precisions, of which a sequence needs
+/// nothing else, or all that a map keeps.
 struct TilePhase {
-  float* phase_rad;          ///< in (-pi, pi]; meaningless where the precision is 0
-  float* precision;          ///< inverse variance of the phase, in 1 / rad^2; 0 without modulation
-  float* modulation_counts;  ///< null, as `mean_counts`, where neither is wanted
-  float* mean_counts;
+  float* phase_rad;          ///< in (-pi, pi]; meaningless without modulation
+  float* precision;          ///< inverse variance of the phase, in 1 / rad^2; null: sigma is wanted
+  float* sigma_rad;          ///< its root's inverse; infinite without modulation
+  float* modulation_counts;  ///< with sigma
+  float* mean_counts;        ///< with sigma
   std::uint16_t*
       brightest;  ///< maximum over all frames so far; set it to 0 before the first pattern
 };
@@ -31,7 +42,7 @@ class PhaseKernel {
   ///          and depth
   PhaseKernel(const FrameStack& stack, const PhaseAlgorithm& algorithm, const NoiseModel& noise);
 
-  /// Computes the pixels [at, at + n), n <= kTilePixels. The error of a phase is below 5e-7 rad.
+  /// Computes the pixels [at, at + n), n <= kTilePixels. The error of a phase is below 6e-7 rad.
   void wrap(std::size_t at, std::size_t n, WrapTile& scratch, const TilePhase& out) const;
 
   /// The level at which a pixel is saturated, in counts.

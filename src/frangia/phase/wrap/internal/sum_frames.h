@@ -9,6 +9,14 @@
 
 namespace frangia {
 
+/// Weighted sums over the frames of one tile.
+struct WrapTile {
+  alignas(64) Lane sine;
+  alignas(64) Lane cosine;
+  alignas(64) Lane mean;
+  alignas(64) Lane outer;  ///< Carré's second difference
+};
+
 /// Computes the sums over all frames for the pixels [at, at + n), n <= kTilePixels, and raises
 /// `brightest` to the largest counts of each.
 void sum_frames(const FrameStack& stack,
