@@ -121,7 +121,7 @@ def stated_3mf(data):
 def stated_dxf(data):
     """Only faces in the entities, with four corners each; the fourth of a triangle is the third or the first."""
     entities = re.split(r"\n *2\nENTITIES\n", text_of(data))
-    faces = re.split(r"^ *0\n(?=\w)", entities[1], flags=re.MULTILINE)[1:]
+    faces = re.split(r"^ *0+\n(?=\w)", entities[1], flags=re.MULTILINE)[1:]
     names = [face.split("\n")[0] for face in faces]
     if len(entities) != 2 or set(names) != {"3DFACE", "ENDSEC", "EOF"}:
         raise ValueError("not counted")
