@@ -2,7 +2,7 @@
 """Checks that every sentence that the app translates is one of the library.
 
 The English sentence of a failure or warning is its id, as in gettext: a row of web/src/messages/faults_*.ts holds it with
-numbered places for the values, {0}, {1}, ..., and the other languages beside it. The page finds the row of a sentence that
+numbered places for the values, {0}, {1}, ..., and its translations. The page finds the row of a sentence that
 the server sends, and the values in it. A sentence that is changed in a source would no longer be found: this check fails
 then. It prints how many of the sentences of each module have a row.
 """

@@ -98,14 +98,14 @@ TEST_F(CaptureOfPoses, OnTheTurntableNeedsNobody) {
 
 TEST_F(CaptureOfPoses, LeavesOutAPoseThatWasInterrupted) {
   const std::string command = capture(maker_rig("real_time = true\n"), "--poses 2 --exposure 100");
-  // The pipe stays open until the program is told to end.
+  // The pipe stays open until the program has received SIGTERM.
   const Answer stopped = run_shell(fmt::format(
       "(echo; until test -e {2}; do sleep 0.05; done) 2>/dev/null | {0} & until ls "
       "{1}/views/*/*-1.png "
       ">/dev/null 2>&1 || ! kill -0 $!; do sleep 0.05; done; kill -TERM $!; touch {2}; wait $!",
       command,
       poses(),
-      (folder_.path() / "told").string()));
+      (folder_.path() / "stopped").string()));
   EXPECT_EQ(stopped.exit_code, 130) << stopped.output;
   EXPECT_TRUE(says(stopped, "continue with: ")) << stopped.output;
   const Answer finished = run_shell("printf '\\n' | " + command);

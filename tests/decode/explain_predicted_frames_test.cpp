@@ -1,4 +1,4 @@
-// Three frames by formula, with one fault, beside what coarser patterns say of their pixels.
+// Three computed frames with one fault, and what coarser patterns predict of their pixels.
 #include "frangia/decode/explain/explain_predicted_frames.h"
 
 #include <cmath>

@@ -30,7 +30,8 @@ TEST(OutGuard, GrowsWithTheNumberOfPatchesThatFitBesideEachOther) {
   EXPECT_NEAR(many.guard_mm(0.01, 0.0), 0.0358, 3e-4);  // 5 % over 287: 3.58 u
 }
 
-/// What is alike over a third of the part is not drawn anew for each patch.
+/// A systematic error is the same over a third of the part, so its independent samples are regions,
+/// not patches.
 TEST(OutGuard, CountsRegionsForTheSystematicPart) {
   const OutGuard guard = out_guard_of(square(30, 0.001F, 0.01F));
   EXPECT_TRUE(guard.split);

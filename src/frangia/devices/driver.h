@@ -31,7 +31,7 @@ inline constexpr std::string_view kFurtherCamera = "camera-";
 /// One of several ways in which a device can work.
 struct DeviceMode {
   std::string name;      ///< for the user: size of the images, pixel format, images per second
-  std::string settings;  ///< lines that choose it, beside those of the device
+  std::string settings;  ///< lines of the device's settings that select this mode
 };
 
 /// A device that a driver found on this machine.

@@ -15,7 +15,7 @@ namespace frangia {
 namespace {
 
 /// Uses the rig where the frames do not decide between shifts in the opposite direction and other
-/// suppositions: the direction in which the measured phase rises shows which it is.
+/// hypotheses: the direction in which the measured phase rises shows which it is.
 void decide_by_orientation(const WrappedPhase& fringes,
                            const Rig& rig,
                            const Image<Eigen::Vector2f>& rays,

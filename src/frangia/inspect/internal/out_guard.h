@@ -23,8 +23,8 @@ struct OutGuard {
   }
 };
 
-/// The guard bands for which a good part is called out in 5 % of cases at most. Patches overlap: as
-/// many are independent as fit beside each other on the measured area.
+/// The guard bands for which a good part is called out in 5 % of cases at most. Patches overlap:
+/// the number of independent ones is the measured area over that of a patch.
 [[nodiscard]] OutGuard out_guard_of(const SurfacePatches& patches);
 
 }  // namespace frangia::inspect

@@ -21,8 +21,9 @@ struct PredictedFrames {
   Eigen::ArrayXd phase_rad;   ///< of this pattern, at the place that the coarser ones give
 };
 
-/// Predicts the frames of a pattern from those of the coarser ones: frames that leave no residual
-/// by themselves have one beside them. `map` is the number of the pattern, 1 or more.
+/// Predicts the frames of a pattern from those of the coarser ones: three frames
+/// determine a phase without a residual, and the prediction gives them one. `map` is the number of
+/// the pattern, 1 or more.
 ///
 /// @shape    `coarse_to_fine` as for check_sequence
 /// @missing  nothing where the coarser patterns do not determine the place in the field

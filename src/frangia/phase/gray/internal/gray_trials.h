@@ -23,13 +23,13 @@ struct GrayTrial {
   double period_px = 0.0;  ///< of the fringes
 };
 
-/// The supposition that the code is as declared, without fringes or beside them.
+/// The hypothesis that the code is as declared, for scans with and without fringes.
 [[nodiscard]] GrayTrial declared_trial(const Pattern& code);
 [[nodiscard]] GrayTrial declared_trial(const Pattern& code, const Pattern& fringes);
 
-/// Suppositions about the order of bits and frames, inversions and the code.
+/// Hypotheses about the order of bits and frames, inversions and the code.
 [[nodiscard]] std::vector<GrayTrial> code_trials(const Pattern& code);
-/// The same beside fringes, and suppositions about these.
+/// The same of a scan that has fringes, too, with hypotheses about those.
 [[nodiscard]] std::vector<GrayTrial> gray_trials(const Pattern& code, const Pattern& fringes);
 
 /// The stripe that a pixel is in, if the recorded frames with a bit in `bright` are bright there.

@@ -8,13 +8,13 @@
 
 namespace frangia {
 
-/// A supposition and how well the phases fit it.
+/// A hypothesis and how well the phases fit it.
 struct RankedTrial {
   SequenceTrial trial;
   double misfit_rad = 0.0;
 };
 
-/// Suppositions about starts in quarter turns, directions, orders, periods and exchanged patterns.
+/// Hypotheses about starts in quarter turns, directions, orders, periods and exchanged patterns.
 [[nodiscard]] std::vector<SequenceTrial> all_trials(const SequenceSample& sample);
 
 /// Sorts trials by their misfit and keeps those that fit decisively better than scan.toml, and

@@ -49,8 +49,8 @@ class SequenceSample {
   /// The phase error of a map that repeats with its own phase, RMS, by the coarser maps; 0 where
   /// these do not determine the place in the field, or nothing repeats.
   [[nodiscard]] double ripple(std::size_t map) const;
-  /// The frames of a map beside what the coarser maps say of their pixels; nothing where these do
-  /// not determine the place in the field.
+  /// The frames of a map and what the coarser maps predict of their pixels; nothing where the
+  /// coarser maps do not determine the place in the field.
   [[nodiscard]] std::optional<PredictedFrames> predicted(std::size_t map) const;
   /// The number of fringes per unit that the frames of a map show if the other maps are right; 0
   /// if no number fits. Where the other maps do not determine the place in the field, their slopes
