@@ -78,17 +78,11 @@ double arm_mm(const Bundle& bundle, const SurfelLists& surfels) {
 /// Holds the angles by which hardly any surface moves along its normals: a round part would turn by
 /// many degrees to make up for a motion of a few hundredths of a millimetre.
 void hold_open_angles(Linearization& at, const Bundle& bundle, const BundleSums& sums, double arm) {
-  // Of the arm, root mean square along the normals: noise of normals and a part off the axis by a
-  // tenth of a millimetre stay far below, a keyway or a handle in the view is above.
-  constexpr double kOpen = 0.03;
   constexpr double kHeld = 1e8;  // times the information of the prior
   const std::size_t views = bundle.maps.size();
   for (std::size_t view = 1; view < views; ++view) {
-    double pairs = 0.0;
-    for (std::size_t other = 0; other < views; ++other)
-      pairs += sums.pair(view, other).weight + sums.pair(other, view).weight;
     const auto i = static_cast<Eigen::Index>(view) + 3;
-    if (sums.hessian(i, i) > std::pow(kOpen * arm, 2) * pairs) continue;
+    if (sums.hessian(i, i) > std::pow(kOpenMotion * arm, 2) * sums.weight_of(view)) continue;
     const double held = kHeld / std::pow(bundle.prior_sigma[i], 2);
     at.hessian(i, i) += held;
     at.gradient[i] += held * deviation(bundle.state, bundle.given)[i];

@@ -45,6 +45,11 @@ struct SurfelChunk {
 [[nodiscard]] std::vector<SurfelChunk> chunks_of(
     std::span<const std::vector<SurfelMap::Surfel>> surfels);
 
+/// A motion that moves a surface along its normals by less than this share of the way, root mean
+/// square, leaves it where it is: the pairs do not determine it. Noise of normals and a part off
+/// the axis by a tenth of a millimetre stay far below, a keyway or a handle in the view is above.
+inline constexpr double kOpenMotion = 0.03;
+
 /// Normal equations of all point-to-plane distances between views, in one state.
 ///
 /// @shape    unknowns: as `TableState` orders them
@@ -66,6 +71,13 @@ struct BundleSums {
     PairTally all;
     for (std::size_t i = 0; i < kRegionsPerView; ++i)
       all.add(regions[kRegionsPerView * (from * matched.size() + to) + i]);
+    return all;
+  }
+  /// The weight of all pairs of a view, of its own surfels and of those of the others.
+  [[nodiscard]] double weight_of(std::size_t view) const {
+    double all = 0.0;
+    for (std::size_t other = 0; other < matched.size(); ++other)
+      all += pair(view, other).weight + pair(other, view).weight;
     return all;
   }
 };

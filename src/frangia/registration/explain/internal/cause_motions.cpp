@@ -7,19 +7,6 @@ namespace {
 
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 
-/// Motions of points by changes of 1 mm: rotations about the part's centre by an arc of 1 mm, then
-/// shifts.
-Matrix6 motions_of_part(const PoseSetting& setting) {
-  Matrix6 by = Matrix6::Zero();
-  for (int i = 0; i < 3; ++i) {
-    const Eigen::Vector3d turn = Eigen::Vector3d::Unit(i) / setting.radius_mm;
-    by.block<3, 1>(0, i) = turn;
-    by.block<3, 1>(3, i) = setting.center_mm.cross(turn);
-    by(3 + i, 3 + i) = 1.0;
-  }
-  return by;
-}
-
 /// A rotation about the table's axis by 1 rad.
 Eigen::Matrix<double, 6, 1> turn_of_table() {
   return Eigen::Matrix<double, 6, 1>::Unit(2);
@@ -66,6 +53,17 @@ Eigen::VectorXd turned_angles(const PoseSetting& setting) {
 }
 
 }  // namespace
+
+Eigen::Matrix<double, 6, 6> motions_of_part(const PoseSetting& setting) {
+  Matrix6 by = Matrix6::Zero();
+  for (int i = 0; i < 3; ++i) {
+    const Eigen::Vector3d turn = Eigen::Vector3d::Unit(i) / setting.radius_mm;
+    by.block<3, 1>(0, i) = turn;
+    by.block<3, 1>(3, i) = setting.center_mm.cross(turn);
+    by(3 + i, 3 + i) = 1.0;
+  }
+  return by;
+}
 
 Eigen::MatrixXd unit_motions(PoseCause cause,
                              const std::vector<std::size_t>& at,

@@ -9,6 +9,10 @@
 
 namespace frangia {
 
+/// Motions of points by changes of 1 mm: rotations about the part's centre by an arc of 1 mm, then
+/// shifts.
+[[nodiscard]] Eigen::Matrix<double, 6, 6> motions_of_part(const PoseSetting& setting);
+
 /// The motions of the views by the own changes of a cause, each by 1 mm or by its prior.
 ///
 /// @shape    `at`: the views of the cause, as `PoseExplanation` has them; `profile`: of a drift

@@ -7,6 +7,7 @@
 #include "frangia/core/median.h"
 #include "frangia/core/symmetric_eigen.h"
 #include "frangia/geometry/robust_gauss_newton.h"
+#include "frangia/registration/explain/internal/cause_motions.h"
 #include "frangia/registration/explain/internal/time_profiles.h"
 #include "frangia/registration/internal/state_motions.h"
 
@@ -60,23 +61,15 @@ void hold_open_motions(Linearization& at,
                        const PoseSetting& setting,
                        std::size_t view,
                        const Eigen::VectorXd& off) {
-  constexpr double kOpen = 0.03;  // of the way, root mean square along the normals
-  constexpr double kHeld = 1e4;   // times what the pairs of the view would tell of a shift
-  double pairs = 0.0;
-  for (std::size_t other = 0; other < setting.views; ++other)
-    pairs += sums.pair(view, other).weight + sums.pair(other, view).weight;
-  // Rotations about the part's centre, as arcs, and shifts, both in mm.
-  Eigen::Matrix<double, 6, 6> by = Eigen::Matrix<double, 6, 6>::Identity();
-  for (int i = 0; i < 3; ++i) {
-    by.block<3, 1>(0, i) = Eigen::Vector3d::Unit(i) / setting.radius_mm;
-    by.block<3, 1>(3, i) = setting.center_mm.cross(Eigen::Vector3d::Unit(i)) / setting.radius_mm;
-  }
+  constexpr double kHeld = 1e4;  // times what the pairs of the view would tell of a shift
+  const double pairs = sums.weight_of(view);
+  const Eigen::Matrix<double, 6, 6> by = motions_of_part(setting);
   const auto first = static_cast<Eigen::Index>(6 * view);
   const Eigen::MatrixXd own = by.transpose() * data.block<6, 6>(first, first) * by;
   const auto eigen = symmetric_eigen(own);
   const Eigen::Matrix<double, 6, 6> from = by.inverse();
   for (Eigen::Index i = 0; i < 6; ++i) {
-    if (eigen.values[i] > kOpen * kOpen * pairs) continue;
+    if (eigen.values[i] > kOpenMotion * kOpenMotion * pairs) continue;
     const Eigen::Matrix<double, 6, 1> row = from.transpose() * eigen.vectors.col(i);
     const double held = kHeld * pairs;
     at.hessian.block<6, 6>(first, first) += held * row * row.transpose();
