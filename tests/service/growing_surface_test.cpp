@@ -4,6 +4,7 @@
 #include <condition_variable>
 #include <cstring>
 #include <mutex>
+#include <stdexcept>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -117,6 +118,20 @@ TEST(GrowingSurface, EndsWhileItIsMade) {
     GrowingSurface growing(rig, [](const GrownSurface&) {});
     growing.add(0, 0.0, range);
   }
+}
+
+TEST(GrowingSurface, OutlivesAnyException) {
+  Reports reports;
+  const Rig rig = rig_of(320);
+  const RangeGrid range = view_of_ball(rig);
+  GrowingSurface growing(rig, [&](const GrownSurface& grown) {
+    reports.add(grown);
+    if (grown.views.size() == 1) throw std::length_error("of a library");
+  });
+  growing.add(0, 0.0, range);
+  EXPECT_GT(reports.with(1).triangles, 100U);
+  growing.add(1, 0.0, range);
+  EXPECT_GT(reports.with(2).triangles, 100U);
 }
 
 TEST(GrowingSurface, WaitsForPointsThatFormASurface) {

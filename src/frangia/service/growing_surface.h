@@ -30,8 +30,8 @@ struct GrownSurface {
 /// thread.
 class GrowingSurface {
  public:
-  /// `on_surface` is called on the own thread, each time that a surface is ready. It does not
-  /// throw.
+  /// `on_surface` is called on the own thread, each time that a surface is ready. An exception of
+  /// it, or of what makes the surface, drops this surface.
   GrowingSurface(const Rig& rig, std::function<void(const GrownSurface&)> on_surface);
   GrowingSurface(const GrowingSurface&) = delete;
   GrowingSurface& operator=(const GrowingSurface&) = delete;
