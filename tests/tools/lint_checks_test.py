@@ -174,6 +174,41 @@ class Faults(Tree):
         self.assertEqual(code, 1)
         self.assertIn("fault.dark: no source holds the sentence 'it is bright here'", text)
 
+    def reached(self, source, *english):
+        self.write("src/frangia/service/service.cpp", '#include "frangia/scan/scan.h"\nrun.note("all is well here");\n')
+        self.write("src/frangia/scan/scan.h", "#pragma once\n")
+        for name, text in english:
+            self.write(name, text)
+        row = "  'fault.well': ['all is well here', 'alles ist gut', 'tutto bene'],\n"
+        return self.rows('#include "frangia/scan/scan.h"\n' + source, row)
+
+    def test_refuse_a_sentence_without_a_row(self):
+        code, text = self.reached('fail(path + ": the view " + name + " is dark");\n')
+        self.assertEqual(code, 1)
+        self.assertIn("frangia/scan/scan.cpp: web/src/messages has no row of '{0}: the view {1} is dark'", text)
+
+    def test_refuse_a_sentence_within_a_choice(self):
+        code, text = self.reached('fail(fmt::format("{}: {}", path, dark ? "it is too dark" : "it is too bright"));\n')
+        self.assertEqual(code, 1)
+        self.assertIn("has no row of 'it is too dark'", text)
+        self.assertIn("has no row of 'it is too bright'", text)
+
+    def test_allow_errors_of_a_program(self):
+        self.assertEqual(self.reached('require(n > 0, "the count must be positive");\n'), (0, ""))
+
+    def test_allow_what_the_service_does_not_reach(self):
+        other = "src/frangia/print/print.cpp"
+        self.assertEqual(self.reached("", (other, 'fail("this paper is too small");\n')), (0, ""))
+
+    def test_allow_what_is_listed_with_a_reason_as_long_as_it_is_there(self):
+        listed = "tools/english_sentences.toml"
+        source = 'fail("the view is dark");\n'
+        self.assertEqual(self.reached(source, (listed, '[unseen]\n"scan/scan" = "of the program"\n')), (0, ""))
+        self.assertEqual(self.reached(source, (listed, '[single]\n"the view is dark" = "of a file"\n')), (0, ""))
+        code, text = self.reached("", (listed, '[unseen]\n"scan/gone" = "of the program"\n'))
+        self.assertEqual(code, 1)
+        self.assertIn("lists 'scan/gone', which is no source", text)
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -1,10 +1,6 @@
-import type { StepName } from './app_steps';
-import { FAULTS_BUILD } from './messages/faults_build';
-import { FAULTS_CALIBRATION } from './messages/faults_calibration';
-import { FAULTS_CAPTURE } from './messages/faults_capture';
+import { FAULTS } from './messages/faults';
 import { currentLanguage, t } from './messages';
 
-const FAULTS = { ...FAULTS_CAPTURE, ...FAULTS_CALIBRATION, ...FAULTS_BUILD };
 export type FaultId = keyof typeof FAULTS;
 
 /** A sentence of the server as its row and the values in it. */
@@ -13,73 +9,81 @@ export interface Fault {
   values: string[];
 }
 
-/** The row's first column as an expression whose groups are its values, in the order of their numbers. */
-function expressionOf(template: string): RegExp {
-  const escaped = template.replace(/[.*+?^$()|[\]\\]/g, '\\$&');
-  return new RegExp(`^${escaped.replace(/\{\d+\}/g, '(.*?)')}$`, 's');
+interface Template {
+  id: FaultId;
+  /** Its groups are the values, in the order of their numbers. */
+  expression: RegExp;
+  /** The longest piece without a value, which every sentence of the row holds. */
+  piece: string;
+  /** Letters that are no value. */
+  fixed: number;
 }
-const EXPRESSIONS = (Object.keys(FAULTS) as FaultId[]).map((id) => ({ id, expression: expressionOf(FAULTS[id][0]) }));
-// What begins or ends with a value would also match longer sentences: the longest row is tried first.
-EXPRESSIONS.sort((a, b) => FAULTS[b.id][0].length - FAULTS[a.id][0].length);
+
+function templateOf(id: FaultId): Template {
+  const [english] = FAULTS[id];
+  const pieces = english.split(/\{\d+\}/);
+  const escaped = english.replace(/[.*+?^$()|[\]\\]/g, '\\$&');
+  return {
+    id,
+    expression: new RegExp(`^${escaped.replace(/\{\d+\}/g, '(.*?)')}$`, 's'),
+    piece: pieces.reduce((longest, one) => (one.length > longest.length ? one : longest), ''),
+    fixed: pieces.join('').length,
+  };
+}
+// What begins or ends with a value would also match longer sentences: the row with most letters of its own is tried first.
+const TEMPLATES = (Object.keys(FAULTS) as FaultId[]).map(templateOf).sort((a, b) => b.fixed - a.fixed);
+
+const found = new Map<string, Fault | undefined>();
+/** Sentences that are remembered; a scan with many warnings sends some hundred. */
+const REMEMBERED = 2000;
 
 /** The row of a sentence; undefined where the catalogue has none. */
 export function faultOf(sentence: string): Fault | undefined {
-  for (const { id, expression } of EXPRESSIONS) {
-    const found = expression.exec(sentence);
-    if (found) return { id, values: found.slice(1) };
+  if (found.has(sentence)) return found.get(sentence);
+  let fault: Fault | undefined;
+  for (const { id, piece, expression } of TEMPLATES) {
+    const match = sentence.includes(piece) ? expression.exec(sentence) : null;
+    if (!match) continue;
+    fault = { id, values: match.slice(1) };
+    break;
   }
-  return undefined;
+  if (found.size >= REMEMBERED) found.clear();
+  found.set(sentence, fault);
+  return fault;
 }
 
 /** What precedes a sentence: the device, the file, the key. */
-const PREFIX = /^([^:;]{1,80}): (.+)$/s;
+const PREFIX = /^([^:;]{1,120}): (.+)$/s;
+/** Where a sentence may go on with one of another row, which begins with its sign: "views agree ...; the axis moved ...". */
+const JOINT = /(?<=.)(?=[;:,] | and )/gs;
+/** A row that says something of a key or device in front of it: "camera.white_level must be a number". */
+const PREDICATE = /^(is|are|must|has|had|holds|does|needs|names|shows|cannot|accepts|refers) /;
+/** Words that stand in front of a predicate at most, such as `pattern "fringe"`. */
+const SUBJECT_WORDS = 3;
+
+/** The parts of a sentence that has no row itself, if some have one; put together they are the sentence. */
+export function partsOf(sentence: string): string[] | undefined {
+  const [, prefix, rest] = PREFIX.exec(sentence) ?? [];
+  if (prefix && rest && (faultOf(rest) || faultOf(prefix))) return [prefix, ': ', rest];
+  for (const { index } of sentence.matchAll(JOINT)) {
+    const tail = sentence.slice(index);
+    const head = sentence.slice(0, index);
+    if (faultOf(tail) || faultOf(head)) return [head, tail];
+  }
+  const [, sign, after] = /^([;:,] )(.+)$/s.exec(sentence) ?? [];
+  if (sign && after) return [sign, after];
+  const words = sentence.split(' ');
+  for (let n = 1; n <= SUBJECT_WORDS && n < words.length; n++) {
+    const predicate = words.slice(n).join(' ');
+    if (PREDICATE.test(predicate) && faultOf(predicate)) return [words.slice(0, n).join(' '), ' ', predicate];
+  }
+  return prefix && rest ? [prefix, ': ', rest] : undefined;
+}
 
 /** A sentence of the server in the language of the reader; as it is where the catalogue has no row for it. */
 export function worded(sentence: string): string {
-  if (currentLanguage() === 'en') return sentence;
+  if (currentLanguage() === 'en' || !/[a-z]/i.test(sentence)) return sentence;
   const fault = faultOf(sentence);
   if (fault) return t(fault.id, Object.fromEntries(fault.values.map((value, i) => [i, worded(value)])));
-  const [, prefix, rest] = PREFIX.exec(sentence) ?? [];
-  return prefix && rest ? `${prefix}: ${worded(rest)}` : sentence;
-}
-
-/** Where the user can do what a fault asks for; of a page that shows another step already, nothing. */
-const STEPS: Partial<Record<FaultId, StepName>> = {
-  'fault.nothingMeasured': 'live',
-  'fault.overexposed': 'live',
-  'fault.lowContrast': 'live',
-  'fault.saturatedPixels': 'live',
-  'fault.darkFrames': 'live',
-  'fault.noFringesSeen': 'live',
-  'fault.noMeasuredPixel': 'live',
-  'fault.exposureUneven': 'live',
-  'fault.exposureRange': 'live',
-  'fault.needsCamera': 'rig',
-  'fault.needsTable': 'rig',
-  'fault.wantsDisplay': 'rig',
-  'fault.noDevices': 'rig',
-  'fault.noAxis': 'rig',
-  'fault.axisUnknown': 'rig',
-  'fault.calibrateTable': 'rig',
-  'fault.notTheRig': 'rig',
-  'fault.viewsContradict': 'rig',
-  'fault.latencyChanges': 'rig',
-  'fault.shiftsNotFollowed': 'rig',
-  'fault.viewFitsNoOther': 'scan',
-  'fault.quarterMissing': 'scan',
-  'fault.sideMissing': 'scan',
-  'fault.copiedView': 'scan',
-  'fault.setupIncomplete': 'scan',
-  'fault.openMesh': 'edit',
-  'fault.nothingToExport': 'edit',
-  'fault.changedSince': 'inspect',
-  'fault.inspectAgain': 'inspect',
-};
-
-/** The step that a sentence of the server sends to; also of a sentence within it. */
-export function stepOf(sentence: string): StepName | undefined {
-  const fault = faultOf(sentence);
-  if (fault) return STEPS[fault.id] ?? fault.values.map(stepOf).find((step) => step !== undefined);
-  const rest = PREFIX.exec(sentence)?.[2];
-  return rest ? stepOf(rest) : undefined;
+  return partsOf(sentence)?.map(worded).join('') ?? sentence;
 }

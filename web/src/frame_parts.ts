@@ -100,9 +100,8 @@ export function footer(app: App): TemplateResult {
               : commands.edit;
   const line = words?.map(quoted).join(' ') ?? '';
   const last = app.state.jobs.at(-1);
-  // What the library says is English: in another language only what a person must know.
   const report = last?.log.at(-1);
-  const said = report && (report.warning || currentLanguage() === 'en') ? plain(report.sentence) : t('job.idle');
+  const said = report ? plain(report.sentence) : t('job.idle');
   const copy = async () => {
     await navigator.clipboard.writeText(line);
     app.copied = true;

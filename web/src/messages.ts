@@ -1,9 +1,7 @@
 import { CHECK } from './messages/check';
 import { EDIT } from './messages/edit';
 import { EXPORT } from './messages/export';
-import { FAULTS_BUILD } from './messages/faults_build';
-import { FAULTS_CALIBRATION } from './messages/faults_calibration';
-import { FAULTS_CAPTURE } from './messages/faults_capture';
+import { FAULTS } from './messages/faults';
 import { FRAME } from './messages/frame';
 import { HOME } from './messages/home';
 import { INSPECT } from './messages/inspect';
@@ -28,9 +26,7 @@ const CATALOGUE = {
   ...INSPECT,
   ...EXPORT,
   ...VERDICT,
-  ...FAULTS_CAPTURE,
-  ...FAULTS_CALIBRATION,
-  ...FAULTS_BUILD,
+  ...FAULTS,
 } as const;
 
 export type MessageKey = keyof typeof CATALOGUE;

@@ -1,6 +1,6 @@
 import { html, type TemplateResult } from 'lit';
 
-import { adviceStep } from './advice';
+import { adviceStep } from './fault_steps';
 import type { App } from './app';
 import { icon, logo } from './icons';
 import { t } from './messages';
@@ -36,7 +36,7 @@ export function blankPage(app: App): TemplateResult {
       /></label>
       <button class="btn">${t('app.enter')}</button>
     </form>
-    ${app.problem ? html`<p class="bad" role="alert">${app.problem}</p>` : ''}
+    ${app.problem ? html`<p class="bad" role="alert">${plain(app.problem)}</p>` : ''}
   </main>`;
 }
 

@@ -39,6 +39,41 @@ export const HOME = {
     'rig.toml, con il file CSV della sua covarianza se ne nomina uno',
   ],
   'home.example': ['Example', 'Beispiel', 'Esempio'],
+  'example.lab-piezo': [
+    "A laboratory's interferometer: a GigE Vision camera, a piezo on a function generator, a table with GRBL that also switches the lasers. Enter the geometry of your own rig.",
+    'Das Interferometer eines Labors: eine GigE-Vision-Kamera, ein Piezo an einem Funktionsgenerator, ein Tisch mit GRBL, der auch die Laser schaltet. Die Geometrie des eigenen Aufbaus eintragen.',
+    "L'interferometro di un laboratorio: una camera GigE Vision, un piezo su un generatore di funzioni, una tavola con GRBL che comanda anche i laser. Inserire la geometria del proprio apparato.",
+  ],
+  'example.maker-projector': [
+    "A maker's scanner before its calibration: a webcam, a projector that is the second monitor of this computer, a table with GRBL. Sizes and devices are all that must be known.",
+    'Der Scanner eines Makers vor seiner Kalibrierung: eine Webcam, ein Projektor als zweiter Bildschirm dieses Rechners, ein Tisch mit GRBL. Nur Größen und Geräte müssen bekannt sein.',
+    'Lo scanner di un maker prima della calibrazione: una webcam, un proiettore come secondo schermo di questo computer, una tavola con GRBL. Bastano grandezze e dispositivi.',
+  ],
+  'example.simulated-binocular': [
+    'A digital projector between two cameras, and a table, all simulated: a scan runs at once.',
+    'Ein Digitalprojektor zwischen zwei Kameras und ein Tisch, alles simuliert: ein Scan läuft sofort.',
+    'Un proiettore digitale fra due camere e una tavola, tutto simulato: si può scansionare subito.',
+  ],
+  'example.simulated-digital': [
+    'A digital projector, a camera and a table, all simulated: a scan runs at once.',
+    'Ein Digitalprojektor, eine Kamera und ein Tisch, alles simuliert: ein Scan läuft sofort.',
+    'Un proiettore digitale, una camera e una tavola, tutto simulato: si può scansionare subito.',
+  ],
+  'example.simulated-interferometer': [
+    'An interferometer with a piezo, a laser sheet and a table, all simulated.',
+    'Ein Interferometer mit Piezo, Laserblatt und Tisch, alles simuliert.',
+    'Un interferometro con piezo, foglio laser e tavola, tutto simulato.',
+  ],
+  'example.simulated-maker-unpacked': [
+    "A maker's scanner as it comes out of its box, simulated: only sizes are known. Its projector shows a picture two frames late with a gamma of 2.2, lamps on 50 Hz light the room, the axis of its table is unknown. Measure the display, calibrate with the board, find the axis, then scan.",
+    'Der Scanner eines Makers frisch ausgepackt, simuliert: nur Größen sind bekannt. Sein Projektor zeigt Bilder zwei Takte zu spät mit Gamma 2,2, Lampen an 50 Hz beleuchten den Raum, die Achse des Tischs ist unbekannt. Den Projektor messen, mit dem Brett kalibrieren, die Achse finden, dann scannen.',
+    "Lo scanner di un maker appena disimballato, simulato: si conoscono solo le grandezze. Il proiettore mostra le immagini due fotogrammi in ritardo con gamma 2,2, lampade a 50 Hz illuminano la stanza, l'asse della tavola è ignoto. Misurare il proiettore, calibrare con la scacchiera, trovare l'asse, poi scansionare.",
+  ],
+  'example.simulated-maker': [
+    "A maker's scanner before its calibration, simulated: only sizes are known.",
+    'Der Scanner eines Makers vor seiner Kalibrierung, simuliert: nur Größen sind bekannt.',
+    'Lo scanner di un maker prima della calibrazione, simulato: si conoscono solo le grandezze.',
+  ],
   'home.create': ['Create', 'Anlegen', 'Crea'],
   'home.recent': ['Recent', 'Zuletzt', 'Recenti'],
   'home.none': ['Projects appear here.', 'Hier erscheinen Projekte.', 'I progetti appaiono qui.'],

@@ -2,7 +2,7 @@ import { html, svg, type TemplateResult } from 'lit';
 import type { App } from '../app';
 import { fringePaths } from '../fringes';
 import { icon } from '../icons';
-import { type MessageKey, moment, number, t } from '../messages';
+import { isMessage, type MessageKey, moment, number, t } from '../messages';
 import { freeName } from '../projects';
 import { acts } from '../shell';
 import type { ProjectEntry } from '../types';
@@ -24,6 +24,12 @@ async function rigOf(files: FileList): Promise<{ rig: string; covariance: string
     else texts.rig = text;
   }
   return texts;
+}
+
+/** What an example is: in the reader's language, or as its file says where the catalogue does not have it. */
+function exampleWords(example: { name: string; description: string } | undefined): string {
+  const key = `example.${example?.name}`;
+  return isMessage(key) ? t(key) : (example?.description ?? '');
 }
 
 /** The kept rigs, of which one is chosen. */
@@ -84,9 +90,7 @@ function sourceFields(app: App): TemplateResult {
           ${state.examples.map(({ name }) => html`<option value=${name} ?selected=${name === app.projects.example}>${name}</option>`)}
         </select></label
       >
-      <p class="quiet note">
-        ${state.examples.find(({ name }) => name === app.projects.example)?.description.replaceAll('`', '') ?? ''}
-      </p>`;
+      <p class="quiet note">${exampleWords(state.examples.find(({ name }) => name === app.projects.example))}</p>`;
   return html`<p class="quiet note">${t('home.devicesHint')}</p>`;
 }
 

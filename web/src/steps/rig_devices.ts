@@ -1,5 +1,6 @@
 import { html, type TemplateResult } from 'lit';
 import type { App } from '../app';
+import { worded } from '../faults';
 import { icon } from '../icons';
 import { type MessageKey, t } from '../messages';
 import { type Table, TABLES } from '../types';
@@ -45,7 +46,7 @@ function chooser(app: App, draft: DeviceDraft, table: Table): TemplateResult {
   const value = lines === '' ? '' : chosen >= 0 ? `f${chosen}` : driver >= 0 ? `d${driver}` : 'as is';
   const option = (key: string, text: string) => html`<option value=${key} ?selected=${key === value}>${text}</option>`;
   const foundOption = (one: { name: string }, i: number) => option(`f${i}`, one.name);
-  const driverOption = (one: { description: string }, i: number) => option(`d${i}`, one.description);
+  const driverOption = (one: { description: string }, i: number) => option(`d${i}`, worded(one.description));
   const group = (name: MessageKey, options: TemplateResult[]) =>
     options.length ? html`<optgroup label=${t(name)}>${options}</optgroup>` : '';
   return html`<div class="chooser">
