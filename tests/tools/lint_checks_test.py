@@ -210,5 +210,29 @@ class Faults(Tree):
         self.assertIn("lists 'scan/gone', which is no source", text)
 
 
+class WebImports(Tree):
+    def check(self, names, **sources):
+        self.write("web/src/step_names.ts", f"export const STEP_NAMES = [{names}] as const;\n")
+        self.write("web/src/steps/rig/index.ts", "import { store } from '../../store';\n")
+        for name, text in sources.items():
+            self.write(f"web/src/{name}.ts", text)
+        return self.answer("check_web_imports.py", self.root)
+
+    def test_allow_a_store_at_the_bottom(self):
+        self.assertEqual(self.check("'rig'", store="export const store = 1;\n"), (0, ""))
+
+    def test_refuse_a_circle_also_of_types(self):
+        step = "import type { Step } from './steps/rig';\nexport const store = 1;\n"
+        code, text = self.check("'rig'", store=step)
+        self.assertEqual(code, 1)
+        self.assertIn("a circle of imports: steps/rig/index.ts -> store.ts -> steps/rig/index.ts", text)
+
+    def test_refuse_a_step_without_folder_and_a_folder_without_name(self):
+        code, text = self.check("'scan'", store="export const store = 1;\n")
+        self.assertEqual(code, 1)
+        self.assertIn("the step rig has no name in STEP_NAMES", text)
+        self.assertIn("the step scan has no folder of steps", text)
+
+
 if __name__ == "__main__":
     unittest.main()

@@ -1,88 +1,24 @@
-import { html, LitElement, type TemplateResult } from 'lit';
+import { html, type TemplateResult } from 'lit';
 import { customElement } from 'lit/decorators.js';
 
-import { ON_SURFACE, type StepName } from './app_steps';
-import { Arranging } from './arranging';
-import { Asking } from './ask';
-import { Editing } from './editing';
-import { Exporting } from './exporting';
+import { stepNamed } from './all_steps';
+import type { StepName } from './step_names';
 import { dialogs, footer, header, picture } from './frame_parts';
-import { Inspecting } from './inspecting';
 import { onKey } from './keyboard';
-import type { Sharing } from './link_dialog';
-import { LiveStage } from './live_stage';
-import type { Coloring } from './mesh_colors';
-import { Measuring } from './measuring';
 import { MeshSource } from './mesh_source';
 import { type Language, setLanguage, t } from './messages';
+import { App } from './parts';
 import { applyPreferences } from './preferences';
-import { Opening } from './opening';
-import { Pairing } from './pairing';
-import { Projects } from './projects';
-import { CONFLICT, Refusal, Session } from './session';
-import { Sectioning } from './sectioning';
-import { Setups } from './setups';
-import { acts, blankPage, notices } from './shell';
+import { blankPage, notices } from './shell';
+import { acts } from './ui';
 import { StationClouds } from './station_clouds';
-import { editStep } from './steps/edit';
-import { exportStep } from './steps/export';
-import { inspectStep } from './steps/inspect';
-import { liveStep } from './steps/live';
-import { projectStep } from './steps/project';
-import { rigStep } from './steps/rig';
-import { scanStep } from './steps/scan';
-import { surfaceStep } from './steps/surface';
-import type { Job, Project, State } from './types';
-import { type Hit, type Ray, type SectionLook, type Shading, type Tool, Viewer } from './viewer';
-
-interface Look extends SectionLook {
-  shading: Shading;
-  coloring: Coloring;
-}
-
-const PANELS: Record<Exclude<StepName, 'project'>, (app: App) => TemplateResult> = {
-  rig: rigStep,
-  live: liveStep,
-  scan: scanStep,
-  surface: surfaceStep,
-  edit: editStep,
-  inspect: inspectStep,
-  export: exportStep,
-};
-
-/** Steps whose panels do nothing but act. */
-const ACTING: ReadonlySet<StepName> = new Set(['rig', 'live', 'scan', 'edit']);
+import type { State } from './types';
+import { type Hit, type Ray, Viewer } from './viewer';
 
 /** The window: steps, picture, panel, and the line at the bottom. What each step does is in a part of its own. */
 @customElement('frangia-app')
-export class App extends LitElement {
-  step: StepName = 'project';
-  look: Look = { shading: 'smooth', coloring: 'plain', axis: 'off', normal: null, at: null, flipped: false };
-  readonly session = new Session(
-    () => this.onState(),
-    (picture) => this.live.draw(picture),
-  );
-  readonly asking = new Asking(this);
-  readonly projects = new Projects(this);
-  readonly opening = new Opening(this);
-  readonly arranging = new Arranging(this);
-  readonly live = new LiveStage(this);
-  readonly setups = new Setups(this);
-  readonly inspecting = new Inspecting(this);
-  readonly editing = new Editing(this);
-  readonly exporting = new Exporting(this);
-  readonly measuring = new Measuring(this);
-  readonly sectioning = new Sectioning(this);
-  readonly pairing = new Pairing(this);
-  readonly host = document.createElement('div');
-  viewer!: Viewer;
-  meshes!: MeshSource;
+export class FrangiaApp extends App {
   private clouds!: StationClouds;
-  problem = '';
-  /** Whether `problem` is that another browser operates. */
-  refused = false;
-  copied = false;
-  sharing: Sharing = { link: '', lan: null };
   private seenFailure = 0;
   private projectShown = '';
   private wantSurface = false;
@@ -126,37 +62,7 @@ export class App extends LitElement {
     void this.session.begin();
   }
 
-  get state(): State {
-    return this.session.state as State;
-  }
-  get project(): Project {
-    return this.state.project as Project;
-  }
-  /** The job of a kind that waits or runs. */
-  job(kind: Job['kind']): Job | undefined {
-    return this.state.jobs.find((job) => job.kind === kind && (job.state === 'running' || job.state === 'waiting'));
-  }
-  get busy(): boolean {
-    return this.state.jobs.some((job) => job.state === 'running' || job.state === 'waiting');
-  }
-  /** Whether a job runs other than the live preview, which gives way. */
-  get occupied(): boolean {
-    return this.state.jobs.some((job) => job.kind !== 'live' && (job.state === 'running' || job.state === 'waiting'));
-  }
-  /** Whether the stage shows the camera instead of the scene. */
-  get showsCamera(): boolean {
-    if (this.step === 'rig') return Boolean(this.project.calibration?.active);
-    return this.step === 'live' && this.live.layer !== 'points';
-  }
-  get showsResiduals(): boolean {
-    return (
-      this.step === 'rig' &&
-      !this.project.calibration?.active &&
-      Boolean(this.arranging.residuals?.maps[this.arranging.residualMap])
-    );
-  }
-
-  private onState(): void {
+  protected override onState(): void {
     const state = this.session.state;
     if (state) {
       const name = state.project?.name ?? '';
@@ -196,7 +102,7 @@ export class App extends LitElement {
     this.viewer.frame([0.9, -1.1, 0.6]);
   }
 
-  async build(): Promise<void> {
+  override async build(): Promise<void> {
     this.wantSurface = await this.command('reconstruct');
   }
   /** Goes to the surface when it has been built here. */
@@ -216,60 +122,33 @@ export class App extends LitElement {
       return null;
     }
   }
-  chooseClouds(): void {
+  protected override chooseClouds(): void {
     this.clouds.choose(this.step, this.setups.shown);
   }
 
-  go(step: StepName): void {
-    const before = this.step;
+  override titleOf(step: StepName): string {
+    return stepNamed(step).title();
+  }
+  override canOpen(step: StepName): boolean {
+    return stepNamed(step).reachable(this.session.state?.project ?? null);
+  }
+  override get onSurface(): boolean {
+    return stepNamed(this.step).onSurface;
+  }
+  override go(step: StepName): void {
+    stepNamed(this.step).left?.(this, step);
     this.step = step;
     this.setTool('orbit');
     this.chooseClouds();
-    this.viewer.showSurface(ON_SURFACE.has(step));
-    this.viewer.setRig(step === 'rig' ? (this.session.state?.project?.rig ?? null) : null);
-    if (step === 'rig') this.viewer.frame([0.55, -0.9, 0.5]);
-    else if (before === 'rig') this.viewer.frame([0.9, -1.1, 0.6]);
-    this.live.stepped(before, step);
+    this.viewer.showSurface(this.onSurface);
+    stepNamed(step).entered?.(this);
+    this.live.follow();
     this.requestUpdate();
   }
-  async command(name: string, argument: object = {}): Promise<boolean> {
-    // A job may fail before the answer that it was started arrives: what it says stays.
-    const before = this.problem;
-    try {
-      await this.session.command(name, argument);
-      if (this.problem === before) this.problem = '';
-      return true;
-    } catch (error) {
-      this.say(error);
-      return false;
-    }
+  protected override onPicture(picture: ArrayBuffer): void {
+    this.live.draw(picture);
   }
-  setTool(tool: Tool): void {
-    this.viewer.setTool(tool);
-    this.requestUpdate();
-  }
-  setLook(change: Partial<Look>): void {
-    this.look = { ...this.look, ...change };
-    const { look, viewer } = this;
-    if (change.shading) viewer.setShading(look.shading);
-    if (change.coloring) viewer.setColoring(look.coloring);
-    if (look.coloring === 'setup') void this.meshes.showSetups();
-    viewer.setSection(look);
-    this.requestUpdate();
-  }
-  say(error: unknown): void {
-    this.problem = error instanceof Error ? error.message : String(error);
-    this.refused = error instanceof Refusal && error.status === CONFLICT;
-    this.requestUpdate();
-  }
-  dismiss(): void {
-    this.problem = '';
-    this.requestUpdate();
-  }
-  dialog(id: string): HTMLDialogElement {
-    return this.querySelector(`#${id}`) as HTMLDialogElement;
-  }
-  changeLanguage(language: Language): void {
+  override changeLanguage(language: Language): void {
     setLanguage(language);
     this.requestUpdate();
   }
@@ -289,15 +168,16 @@ export class App extends LitElement {
   }
   protected override render(): TemplateResult {
     if (this.session.link === 'refused' || !this.session.state) return blankPage(this);
+    const { title, panel, acts: acting } = stepNamed(this.step);
     return html`${header(this)}
       <div class="work">
         ${
           this.step === 'project' || !this.state.project
-            ? projectStep(this)
+            ? stepNamed('project').panel(this)
             : html`${picture(this)}
                 <main class="panel" tabindex=${this.session.watches ? 0 : -1}>
-                  <h1 class="sr">${t(`step.${this.step}`)}</h1>
-                  ${ACTING.has(this.step) ? acts(this, PANELS[this.step](this)) : PANELS[this.step](this)}
+                  <h1 class="sr">${title()}</h1>
+                  ${acting ? acts(this, panel(this)) : panel(this)}
                 </main>`
         }
         ${notices(this)}

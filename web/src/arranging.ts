@@ -1,9 +1,16 @@
-import type { App } from './app';
+import type { Store } from './store';
 import { arranged, type RigDraft } from './arrange';
-import type { BoardKind } from './steps/rig_board';
-import { type DeviceDraft, driverOf } from './steps/rig_devices';
-import type { StageName } from './steps/rig_stages';
 import { type Residuals, type RigGeometry, type Table, TABLES } from './types';
+
+/** A board that was printed here names itself by its markers; another one is described. */
+export type BoardKind = 'printed' | 'own';
+/** The settings of each table as they stand in the form: lines of rig.toml, empty for no device. */
+export type DeviceDraft = Record<Table, string>;
+/** The stages of the step Rig. */
+export type StageName = 'devices' | 'display' | 'calibration' | 'axis';
+
+/** The driver that the lines of a table name; empty without one. */
+export const driverOf = (lines: string): string => /^\s*driver\s*=\s*"([^"]*)"/m.exec(lines)?.[1] ?? '';
 
 /** What the step Rig changes: the geometry, the devices, and which residuals are on the stage. */
 export class Arranging {
@@ -20,7 +27,7 @@ export class Arranging {
   /** Stages that were opened or closed by hand, until another one is the next. */
   private byHand = { next: '', open: new Map<StageName, boolean>() };
 
-  constructor(private readonly app: App) {}
+  constructor(private readonly app: Store) {}
 
   isOpen(stage: StageName, next: StageName): boolean {
     if (this.byHand.next !== next) this.byHand = { next, open: new Map() };

@@ -1,6 +1,12 @@
 import { html, type TemplateResult } from 'lit';
-import type { App } from './app';
 import { t } from './messages';
+
+/** The page on which a question is asked. */
+interface Host {
+  requestUpdate(): void;
+  readonly updateComplete: Promise<boolean>;
+  dialog(id: string): HTMLDialogElement;
+}
 
 interface Question {
   text: string;
@@ -15,7 +21,7 @@ interface Question {
 export class Asking {
   private question: Question | null = null;
 
-  constructor(private readonly app: App) {}
+  constructor(private readonly app: Host) {}
 
   /** Resolves to the number of the answer, or to null for none. */
   async choose(text: string, answers: readonly string[], entry?: Question['entry']): Promise<number | null> {

@@ -1,7 +1,10 @@
-import type { App } from './app';
+import type { Store } from './store';
+import type { Inspecting } from './inspecting';
 import { t } from './messages';
-import type { Combine } from './steps/edit';
 import type { ModifierKeys, Tool } from './viewer';
+
+/** What a selection does with the present one. */
+export type Combine = 'replace' | 'add' | 'without' | 'within';
 
 const NO_KEYS: ModifierKeys = { shift: false, ctrl: false };
 
@@ -14,7 +17,10 @@ export class Editing {
   private chosen = { revision: -1, holes: new Set<number>() };
   private previewFocused = -1;
 
-  constructor(private readonly app: App) {}
+  constructor(
+    private readonly app: Store,
+    private readonly inspecting: Inspecting,
+  ) {}
 
   setCombine(combine: Combine): void {
     this.combine = combine;
@@ -49,7 +55,7 @@ export class Editing {
     const { app } = this;
     const surface = app.session.state?.project?.surface;
     const chosen = app.step === 'edit' && surface ? this.chosenHoles : new Set<number>();
-    if (app.step === 'inspect' && surface) app.viewer.mark(app.inspecting.marks);
+    if (app.step === 'inspect' && surface) app.viewer.mark(this.inspecting.marks);
     else app.viewer.mark((surface?.holes ?? []).filter((hole) => chosen.has(hole.number)));
     this.focusPreview();
   }

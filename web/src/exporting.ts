@@ -1,5 +1,35 @@
-import type { App } from './app';
-import { type ExportChoice, exportArguments } from './steps/export';
+import type { Store } from './store';
+import type { Triple } from './types';
+
+/** Formats of the step Export, in their order. */
+export const FORMATS = ['dxf', 'stl', 'ply', 'obj', 'glb', '3mf'] as const;
+export type Format = (typeof FORMATS)[number];
+export type Variant = 'faces' | 'polyface' | 'mesh';
+/** AutoCAD slows down beyond this; `frangia reconstruct` keeps to it as well. */
+export const LIMITS = ['200000', '50000', '0'] as const;
+export type Limit = (typeof LIMITS)[number];
+
+export type Encoding = 'binary' | 'ascii';
+export interface ExportChoice {
+  format: Format;
+  variant: Variant;
+  encoding: Encoding;
+  limit: Limit;
+}
+
+/** What the commands `export` and `estimate-export` take. */
+export const exportArguments = (exporting: ExportChoice): object => ({
+  format: exporting.format,
+  ...(exporting.format === 'dxf' ? { dxf: exporting.variant } : {}),
+  ...(exporting.format === 'stl' ? { stl: exporting.encoding } : {}),
+  ...(exporting.limit === '0' ? {} : { triangles: Number(exporting.limit) }),
+});
+
+/** A plane that cuts the surface. */
+interface Cut {
+  point_mm: Triple;
+  normal: Triple;
+}
 
 /** What the step Export writes and how large it will be. */
 export class Exporting {
@@ -8,7 +38,7 @@ export class Exporting {
   estimate: { triangles: number; bytes: number } | null = null;
   private estimated = '';
 
-  constructor(private readonly app: App) {}
+  constructor(private readonly app: Store) {}
 
   choose(change: Partial<ExportChoice>): void {
     this.choice = { ...this.choice, ...change };
@@ -45,9 +75,7 @@ export class Exporting {
     }
   }
   /** Writes what the section plane cuts, and downloads it when it is there. */
-  async section(format: 'dxf' | 'svg'): Promise<void> {
-    const { plane } = this.app.sectioning;
-    if (!plane) return;
+  async section(plane: Cut, format: 'dxf' | 'svg'): Promise<void> {
     try {
       const { job } = await this.app.session.command<{ job: number }>('export-section', { ...plane, format });
       this.wanted = { job, name: `${this.app.project.name} section.${format}` };

@@ -1,4 +1,4 @@
-import type { StepName } from './app_steps';
+import type { StepName } from './step_names';
 import { type FaultId, faultOf, partsOf } from './faults';
 
 /** Where the user can do what a fault asks for. */

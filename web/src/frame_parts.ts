@@ -1,15 +1,12 @@
 import { html, nothing, type TemplateResult } from 'lit';
 
-import type { App } from './app';
-import { STEPS } from './app_steps';
+import type { App } from './parts';
+import { STEPS, stepNamed } from './all_steps';
 import { icon, type IconName, logo } from './icons';
-import { KEYS } from './keyboard';
+import { shortcuts } from './keyboard';
 import { linkDialog, share } from './link_dialog';
 import { currentLanguage, type Language, LANGUAGES, type MessageKey, stageName, t } from './messages';
 import { toggleTheme } from './preferences';
-import { residualStage } from './residuals';
-import { finished, reachable } from './step_state';
-import { liveOverlay } from './steps/live';
 import { stepWords } from './step_words';
 import type { Job, Step } from './types';
 import { plain, quoted, span } from './ui';
@@ -54,15 +51,15 @@ export function header(app: App): TemplateResult {
     </div>
     <nav class="steps" aria-label=${t('steps')}>
       ${STEPS.map(
-        (step, i) =>
+        ({ name, title, finished, reachable }, i) =>
           html`<button
-            class=${finished(app.state.project, step) ? 'done' : ''}
-            ?disabled=${!reachable(app.state.project, step)}
-            aria-current=${step === app.step ? 'step' : nothing}
-            data-step=${step}
-            @click=${() => app.go(step)}
+            class=${finished(app.state.project) ? 'done' : ''}
+            ?disabled=${!reachable(app.state.project)}
+            aria-current=${name === app.step ? 'step' : nothing}
+            data-step=${name}
+            @click=${() => app.go(name)}
           >
-            <i>${i + 1}</i>${t(`step.${step}`)}
+            <i>${i + 1}</i>${title()}
           </button>`,
       )}
     </nav>
@@ -85,19 +82,7 @@ export function header(app: App): TemplateResult {
 /** What runs, and the command line that does the same. */
 export function footer(app: App): TemplateResult {
   const job = app.state.jobs.find((one) => one.state === 'running');
-  const commands = app.state.project?.commands ?? {};
-  const words =
-    app.step === 'scan' || app.step === 'live'
-      ? commands.scan
-      : app.step === 'rig'
-        ? commands.rig
-        : app.step === 'surface'
-          ? commands.reconstruct
-          : app.step === 'inspect'
-            ? commands.inspect
-            : app.step === 'project'
-              ? undefined
-              : commands.edit;
+  const words = stepNamed(app.step).commandLine(app.state.project?.commands ?? {});
   const line = words?.map(quoted).join(' ') ?? '';
   const last = app.state.jobs.at(-1);
   const report = last?.log.at(-1);
@@ -157,7 +142,7 @@ export function picture(app: App): TemplateResult {
   >
     ${viewer.supported ? app.host : app.showsCamera || app.showsResiduals ? '' : html`<div class="blank"><p>${t('app.noWebGL')}</p></div>`}
     ${app.showsCamera ? html`<div class="camera ${app.step === 'live' && app.live.frozen_s !== null ? 'frozen' : ''}">${app.live.view.canvas}</div>` : ''}
-    ${app.step === 'live' ? liveOverlay(app) : ''} ${app.step === 'rig' ? residualStage(app) : ''} ${viewOverlay(app)}
+    ${stepNamed(app.step).overlay?.(app) ?? ''} ${viewOverlay(app)}
   </div>`;
 }
 
@@ -170,7 +155,7 @@ export function dialogs(app: App): TemplateResult {
   return html`<dialog id="keys" aria-label=${t('app.keys')}>
       <h2>${t('app.keys')}</h2>
       <div class="keys">
-        ${KEYS.map(([key, keys]) => html`<span>${t(key as MessageKey)}</span><span>${keys.split(' ').map((one) => (one === '–' ? ' – ' : html`<kbd>${one}</kbd>`))}</span>`)}
+        ${shortcuts().map(([key, keys]) => html`<span>${t(key)}</span><span>${keys.split(' ').map((one) => (one === '–' ? ' – ' : html`<kbd>${one}</kbd>`))}</span>`)}
       </div>
       ${close('keys')}
     </dialog>

@@ -1,8 +1,8 @@
-import type { App } from './app';
+import type { Store } from './store';
+import type { Exporting } from './exporting';
 import { formatOf, MESH_FORMATS, REFERENCE_FORMATS } from './file_formats';
 import { t } from './messages';
-import { requireSendable } from './opening';
-import { nextName } from './steps/inspect_series';
+import { requireSendable } from './session';
 import type {
   CharacteristicKind,
   FoundFeature,
@@ -11,6 +11,15 @@ import type {
   PlannedCharacteristic,
   PlannedFeature,
 } from './inspection_types';
+
+/** The name of the next part: the number at the end of this one's grows. */
+export function nextName(name: string, taken: readonly string[]): string {
+  const [, base, digits] = /^(.*?)(\d*)$/.exec(name) as unknown as [string, string, string];
+  for (let i = Number(digits || 1) + 1; ; i++) {
+    const next = `${digits ? base : `${base} `}${String(i).padStart(digits.length, '0')}`;
+    if (!taken.includes(next)) return next;
+  }
+}
 
 /** The plan that is inspected by until one is made. */
 const USUAL: Plan = {
@@ -68,7 +77,10 @@ export class Inspecting {
   private wantedAfter: number | null = null;
   private report: { job: number; name: string } | null = null;
 
-  constructor(private readonly app: App) {}
+  constructor(
+    private readonly app: Store,
+    private readonly exporting: Exporting,
+  ) {}
 
   get plan(): Plan {
     return this.app.project.plan ?? USUAL;
@@ -98,17 +110,17 @@ export class Inspecting {
     app.requestUpdate();
   }
 
-  /** Begins the next part by the same plan: in a project of its own, to be scanned or from a file. */
-  async next(file?: File): Promise<void> {
+  /** Begins the next part by the same plan: in a project of its own, to be scanned, or from a file that `into` brings into it. */
+  async next(file?: File, into?: (file: File, format: string) => Promise<void>): Promise<void> {
     const { app } = this;
     const format = file && formatOf(file.name, MESH_FORMATS);
     if (file && !format) return app.say(t('inspect.wrongFile'));
     const taken = app.state.projects.map(({ name }) => name);
     const wanted = await app.asking.write(t('series.ask'), nextName(app.project.name, taken), t('series.begin'));
     if (wanted === null || !(await app.command('next-part', { name: wanted }))) return;
-    if (!file || !format) return app.go('scan');
+    if (!file || !format || !into) return app.go('scan');
     try {
-      await app.opening.into(file, format);
+      await into(file, format);
     } catch (error) {
       app.say(error);
     }
@@ -237,6 +249,6 @@ export class Inspecting {
     if (!this.report || !job || job.state === 'waiting' || job.state === 'running') return;
     const { name } = this.report;
     this.report = null;
-    if (job.state === 'done') void app.exporting.download(name);
+    if (job.state === 'done') void this.exporting.download(name);
   }
 }

@@ -1,5 +1,5 @@
 import { html, svg, type TemplateResult } from 'lit';
-import type { App } from './app';
+import type { Store } from './store';
 import { css, MARK_COLORS, type Rgb, SEVERAL_SETUPS, setupColor } from './colors';
 import { number, t } from './messages';
 import { type Legend, shade } from './mesh_colors';
@@ -33,7 +33,7 @@ function legend(title: string, scale: Legend, factor: number, digits: number): T
 }
 
 /** The setups that were joined; fewer than two colour nothing. */
-export const joinedSetups = (app: App): { number: number }[] => {
+export const joinedSetups = (app: Store): { number: number }[] => {
   const joined = (app.project.surface?.summary?.setups ?? []).filter((setup) => setup.joined);
   return joined.length > 1 ? joined : [];
 };
@@ -45,7 +45,7 @@ const swatch = (color: Rgb, text: string): TemplateResult =>
   >`;
 
 /** What the colours of the surface mean, with the unit, on the picture. */
-export function surfaceLegend(app: App): TemplateResult | string {
+export function surfaceLegend(app: Store): TemplateResult | string {
   const { coloring } = app.look;
   const scale = app.viewer.legend;
   const setups = joinedSetups(app);

@@ -1,6 +1,7 @@
 import { html, svg, type TemplateResult } from 'lit';
 import { encode } from 'uqr';
-import type { App } from './app';
+import type { Lan } from './session';
+import type { Store } from './store';
 import { t } from './messages';
 
 /** A QR code as one path of squares, with the quiet zone that readers need. */
@@ -19,20 +20,8 @@ function code(text: string): TemplateResult {
   </svg>`;
 }
 
-/** How tablets in the network of the scanner reach it. */
-export interface Lan {
-  addresses: string[];
-  open: { url: string; link: string; password: string } | null;
-}
-
-/** What the dialog shows; `lan` is null where tablets cannot be let in. */
-export interface Sharing {
-  link: string;
-  lan: Lan | null;
-}
-
 /** Makes a link and shows it. */
-export async function share(app: App): Promise<void> {
+export async function share(app: Store): Promise<void> {
   try {
     app.sharing = { link: await app.session.newLink(), lan: await app.session.lan() };
     app.requestUpdate();
@@ -42,7 +31,7 @@ export async function share(app: App): Promise<void> {
   }
 }
 
-async function change(app: App, address?: string): Promise<void> {
+async function change(app: Store, address?: string): Promise<void> {
   try {
     app.sharing.lan = await app.session.changeLan(address);
   } catch (error) {
@@ -52,7 +41,7 @@ async function change(app: App, address?: string): Promise<void> {
   app.requestUpdate();
 }
 
-function tablets(app: App, lan: Lan): TemplateResult {
+function tablets(app: Store, lan: Lan): TemplateResult {
   const letIn = (event: SubmitEvent) => {
     event.preventDefault();
     const chosen = new FormData(event.target as HTMLFormElement).get('address');
@@ -89,7 +78,7 @@ function tablets(app: App, lan: Lan): TemplateResult {
 const isLocal = (link: string): boolean => /^http:\/\/(127\.|localhost|\[::1\])/.test(link);
 
 /** Lets a tablet in, or one more browser by a link. A link to this machine itself has no code that a tablet could use. */
-export function linkDialog(app: App, close: TemplateResult): TemplateResult {
+export function linkDialog(app: Store, close: TemplateResult): TemplateResult {
   const { link, lan } = app.sharing;
   return html`<dialog id="link" aria-label=${t('app.link')}>
     ${

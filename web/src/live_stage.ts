@@ -1,6 +1,17 @@
-import type { App } from './app';
+import type { Store } from './store';
 import { LiveView } from './live_view';
-import type { LiveLayer } from './steps/live';
+import type { Layer } from './session';
+
+/** What the live preview can show, in the order of the choice. */
+export const LAYERS = [
+  'camera',
+  'phase',
+  'modulation',
+  'status',
+  'depth',
+  'points',
+] as const satisfies readonly Layer[];
+export type LiveLayer = (typeof LAYERS)[number];
 
 /** The live preview on the stage: its layer, and what the server is asked to send. */
 export class LiveStage {
@@ -14,7 +25,7 @@ export class LiveStage {
   /** Whether the preview is to begin as soon as nothing else runs. */
   private wanted = false;
 
-  constructor(private readonly app: App) {
+  constructor(private readonly app: Store) {
     const { canvas } = this.view;
     canvas.addEventListener('click', (event) =>
       this.toggleLoupe(event.offsetX / canvas.clientWidth, event.offsetY / canvas.clientHeight),
@@ -80,16 +91,18 @@ export class LiveStage {
     this.wanted = false;
     if (!project.live) void app.command('start-live');
   }
+  /** The preview begins with the step. */
+  entered(): void {
+    this.peak = 0;
+    this.wanted = true;
+  }
   /** It ends when another step is opened. */
-  stepped(before: string, step: string): void {
+  left(next: string): void {
     const { app } = this;
-    if (step === 'live') this.peak = 0;
-    this.wanted = step === 'live';
+    this.wanted = false;
     const live = app.session.state ? app.job('live') : undefined;
-    if (before === 'live' && step !== 'live' && live && !app.session.watches) {
-      void app.session.command('stop-job', { job: live.number }).catch(() => undefined); // it has ended by itself
-      this.view.clear();
-    }
-    this.follow();
+    if (next === 'live' || !live || app.session.watches) return;
+    void app.session.command('stop-job', { job: live.number }).catch(() => undefined); // it has ended by itself
+    this.view.clear();
   }
 }

@@ -1,5 +1,4 @@
-import type { Triple } from './types';
-
+export type Triple = [number, number, number];
 export type Quantity = 'distance' | 'angle' | 'diameter' | 'thickness' | 'area' | 'volume';
 /** What was measured by clicking on the surface. */
 export interface HandMeasurement {

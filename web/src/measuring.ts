@@ -1,5 +1,6 @@
 import { html, type TemplateResult } from 'lit';
-import type { App } from './app';
+import type { Exporting } from './exporting';
+import type { Store } from './store';
 import { icon } from './icons';
 import { number, t } from './messages';
 import type { HandMeasurement, Quantity } from './measure_types';
@@ -52,7 +53,10 @@ export class Measuring {
   private places: { point_mm: Triple; triangle: number; face: boolean }[] = [];
   private shown = '';
 
-  constructor(private readonly app: App) {}
+  constructor(
+    private readonly app: Store,
+    private readonly exporting: Exporting,
+  ) {}
 
   get all(): readonly HandMeasurement[] {
     const { app } = this;
@@ -145,7 +149,7 @@ export class Measuring {
       );
     };
     const text = ['name,quantity,of,value,unit,u95,dx_mm,dy_mm,dz_mm', ...this.all.map(row), ''].join('\n');
-    this.app.exporting.save(new Blob([text], { type: 'text/csv' }), `${this.app.project.name} measured.csv`);
+    this.exporting.save(new Blob([text], { type: 'text/csv' }), `${this.app.project.name} measured.csv`);
   }
 
   /** What can be measured, and the list of what was. */

@@ -1,6 +1,5 @@
 import { CHECK } from './messages/check';
 import { EDIT } from './messages/edit';
-import { EXPORT } from './messages/export';
 import { FAULTS } from './messages/faults';
 import { FRAME } from './messages/frame';
 import { HOME } from './messages/home';
@@ -9,6 +8,7 @@ import { LIVE } from './messages/live';
 import { MEASURE } from './messages/measure';
 import { RIG } from './messages/rig';
 import { SCAN } from './messages/scan';
+import type { Rows } from './messages/rows';
 import { SURFACE } from './messages/surface';
 import { VERDICT } from './messages/verdict';
 
@@ -24,7 +24,6 @@ const CATALOGUE = {
   ...MEASURE,
   ...EDIT,
   ...INSPECT,
-  ...EXPORT,
   ...VERDICT,
   ...FAULTS,
 } as const;
@@ -53,10 +52,17 @@ export function setLanguage(next: Language): void {
   document.documentElement.lang = next;
 }
 
-export function t(key: MessageKey, values: Record<string, string | number> = {}): string {
-  const text: string = CATALOGUE[key][column];
-  return text.replace(/\{(\w+)\}/g, (_, name: string) => String(values[name] ?? ''));
-}
+type Values = Record<string, string | number>;
+const filled = (text: string, values: Values): string =>
+  text.replace(/\{(\w+)\}/g, (_, name: string) => String(values[name] ?? ''));
+
+export const t = (key: MessageKey, values: Values = {}): string => filled(CATALOGUE[key][column], values);
+
+/** The texts that one step alone has, from a file `words.ts` in its folder. */
+export const wordsOf =
+  <R extends Rows>(rows: R) =>
+  (key: keyof R & string, values: Values = {}): string =>
+    filled((rows[key] as Rows[string])[column], values);
 
 /** Whether the catalogue has a text. */
 export const isMessage = (key: string): key is MessageKey => key in CATALOGUE;

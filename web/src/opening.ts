@@ -1,8 +1,9 @@
-import type { App } from './app';
+import type { Store } from './store';
 import { accepted, formatOf, REFERENCE_FORMATS, SURFACE_FORMATS } from './file_formats';
+import type { Inspecting } from './inspecting';
 import { number, t } from './messages';
-import { freeName } from './projects';
-import { MOST_BYTES } from './session';
+import { freeName, type Projects } from './projects';
+import { requireSendable } from './session';
 import { MOST_FILES, type PlacedFile, zipOf } from './zip_files';
 
 const OPENABLE = accepted([...SURFACE_FORMATS, 'zip', 'toml', 'csv']);
@@ -23,12 +24,6 @@ async function below(entry: FileSystemEntry, folder: string): Promise<PlacedFile
   }
 }
 
-/** Before anything is read: the server would refuse it at the end. */
-export function requireSendable(bytes: number): void {
-  const MB = 2 ** 20;
-  if (bytes > MOST_BYTES) throw new Error(t('open.large', { size: number(bytes / MB), most: number(MOST_BYTES / MB) }));
-}
-
 /** The step that shows what arrived. */
 type Arrived = 'surface' | 'scan' | 'inspect';
 
@@ -41,7 +36,11 @@ export class Opening {
   /** The job that reads a file into a project of its own. */
   private pending: { job: number; name: string; step: Arrived } | null = null;
 
-  constructor(private readonly app: App) {
+  constructor(
+    private readonly app: Store,
+    private readonly projects: Projects,
+    private readonly inspecting: Inspecting,
+  ) {
     addEventListener('dragover', (event) => this.onOver(event));
     addEventListener('dragleave', (event) => {
       if (!event.relatedTarget) this.setOver(false);
@@ -116,14 +115,13 @@ export class Opening {
       if (answer === null) return;
       if (answer === 0) {
         app.go('inspect');
-        return app.inspecting.send(file);
+        return this.inspecting.send(file);
       }
     }
     await this.own(file, file.name, format, stem(file.name), 'surface');
   }
   private async rig(file: File, covariance?: File): Promise<void> {
-    const { app } = this;
-    await app.projects.create({
+    await this.projects.create({
       name: this.freeName(stem(file.name)),
       stations: 8,
       rig: await file.text(),
@@ -178,7 +176,7 @@ export class Opening {
     this.pending = null;
     if (job.state === 'done') {
       app.go(pending.step);
-      if (pending.step === 'inspect') void app.inspecting.run();
+      if (pending.step === 'inspect') void this.inspecting.run();
     } else void app.session.command('discard-project', { name: pending.name }).catch((error) => app.say(error));
   }
 }

@@ -1,5 +1,6 @@
 import { html, type TemplateResult } from 'lit';
-import type { App } from './app';
+import type { Inspecting } from './inspecting';
+import type { Store } from './store';
 import { meshOf } from './arrays';
 import type { Plan } from './inspection_types';
 import { t } from './messages';
@@ -16,7 +17,10 @@ export class Pairing {
   /** How the part is aligned once the places are known. */
   private align: NonNullable<Plan['align']> = 'points';
 
-  constructor(private readonly app: App) {}
+  constructor(
+    private readonly app: Store,
+    private readonly inspecting: Inspecting,
+  ) {}
 
   /** Begins to pick; the alignment is by the pairs alone, or a fit that begins there. */
   async begin(align: NonNullable<Plan['align']>): Promise<void> {
@@ -55,7 +59,7 @@ export class Pairing {
   private finish(): void {
     const { pairs, align, app } = this;
     app.setTool('orbit');
-    void app.inspecting.change({ align, points: pairs });
+    void this.inspecting.change({ align, points: pairs });
   }
   /** Shows the places that were clicked, on what is in the picture. */
   private mark(): void {
@@ -98,7 +102,7 @@ export class Pairing {
               class="btn wide small"
               id="drop-pairs"
               ?disabled=${off}
-              @click=${() => void app.inspecting.change({ points: [] })}
+              @click=${() => void this.inspecting.change({ points: [] })}
             >
               ${t('pair.drop')}
             </button>`

@@ -1,6 +1,6 @@
 import { html, type TemplateResult } from 'lit';
 
-import type { App } from './app';
+import type { App } from './parts';
 import { t } from './messages';
 import { stepWords } from './step_words';
 

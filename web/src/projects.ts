@@ -1,7 +1,10 @@
-import type { App } from './app';
+import type { Store } from './store';
 import { t } from './messages';
-import type { Source } from './steps/project';
 import type { ProjectEntry } from './types';
+
+/** Where the rig of a new project comes from. */
+export const SOURCES = ['kept', 'simulated', 'devices', 'file', 'example'] as const;
+export type Source = (typeof SOURCES)[number];
 
 /** A name that no project has yet: "Bust", "Bust 2", ... */
 export function freeName(wanted: string, taken: readonly string[]): string {
@@ -35,7 +38,7 @@ export class Projects {
   /** Whether the project that opens next was created here. */
   private created = false;
 
-  constructor(private readonly app: App) {}
+  constructor(private readonly app: Store) {}
 
   /** A kept rig, where there is one: most projects use the rig that stands there. */
   get source(): Source {

@@ -1,5 +1,5 @@
 import { html, svg, type TemplateResult } from 'lit';
-import type { App } from './app';
+import type { App } from './parts';
 import { type MessageKey, number, t } from './messages';
 import type { Residuals } from './types';
 import { choice } from './ui';

@@ -1,6 +1,7 @@
 import { html, type TemplateResult } from 'lit';
 import { Plane, Vector3 } from 'three';
-import type { App } from './app';
+import type { Exporting } from './exporting';
+import type { Store } from './store';
 import { icon } from './icons';
 import { number, t } from './messages';
 import type { Section } from './measure_types';
@@ -21,7 +22,10 @@ export class Sectioning {
   private shown = '';
   private asking = false;
 
-  constructor(private readonly app: App) {}
+  constructor(
+    private readonly app: Store,
+    private readonly exporting: Exporting,
+  ) {}
 
   get active(): boolean {
     return this.app.look.axis !== 'off';
@@ -200,7 +204,7 @@ export class Sectioning {
               class="btn small"
               data-section=${format}
               ?disabled=${app.session.watches}
-              @click=${() => void app.exporting.section(format)}
+              @click=${() => this.plane && void this.exporting.section(this.plane, format)}
             >
               ${icon('download')}${format.toUpperCase()}
             </button>`,

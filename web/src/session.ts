@@ -1,4 +1,4 @@
-import type { Lan } from './link_dialog';
+import { number, t } from './messages';
 import type { Section } from './measure_types';
 import type { State, Triple } from './types';
 import type { Hit, Ray } from './viewer';
@@ -20,7 +20,13 @@ const newId = (): string =>
 export type Layer = 'none' | 'camera' | 'phase' | 'modulation' | 'status' | 'depth' | 'points';
 
 /** The largest file that the server takes. */
-export const MOST_BYTES = 512 * 1024 * 1024;
+const MOST_BYTES = 512 * 1024 * 1024;
+
+/** Before anything is read: the server would refuse it at the end. */
+export function requireSendable(bytes: number): void {
+  const MB = 2 ** 20;
+  if (bytes > MOST_BYTES) throw new Error(t('open.large', { size: number(bytes / MB), most: number(MOST_BYTES / MB) }));
+}
 
 /** Status of a refusal because another browser operates. */
 export const CONFLICT = 409;
@@ -44,6 +50,12 @@ async function answerOf(response: Response): Promise<Response> {
     // Not JSON: a proxy between, whose status is all there is.
   }
   throw new Refusal(response.status, sentence);
+}
+
+/** How tablets in the network of the scanner reach it. */
+export interface Lan {
+  addresses: string[];
+  open: { url: string; link: string; password: string } | null;
 }
 
 export type Link = 'connecting' | 'open' | 'lost' | 'refused';

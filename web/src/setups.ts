@@ -1,5 +1,8 @@
-import type { App } from './app';
-import { presentSetup } from './steps/scan_setups';
+import type { Store } from './store';
+import type { Station } from './types';
+
+/** The setup in which the part lies now. */
+export const presentSetup = (stations: readonly Station[]): number => stations.at(-1)?.setup ?? 0;
 
 /** The setups of the part: which one the step Scan shows, and turning the part over. */
 export class Setups {
@@ -7,7 +10,10 @@ export class Setups {
   /** Whether the page guides through turning the part over. */
   turning = false;
 
-  constructor(private readonly app: App) {}
+  constructor(
+    private readonly app: Store,
+    private readonly chosenAnew: () => void,
+  ) {}
 
   forget(): void {
     this.chosen = null;
@@ -19,7 +25,7 @@ export class Setups {
   }
   show(setup: number | null): void {
     this.chosen = setup;
-    this.app.chooseClouds();
+    this.chosenAnew();
     this.app.requestUpdate();
   }
   turn(turning: boolean): void {

@@ -1,10 +1,9 @@
 import { html, type TemplateResult } from 'lit';
 
 import { adviceStep } from './fault_steps';
-import type { App } from './app';
+import type { App } from './parts';
 import { icon, logo } from './icons';
 import { t } from './messages';
-import { reachable } from './step_state';
 import { plain } from './ui';
 
 async function enter(app: App, event: SubmitEvent): Promise<void> {
@@ -42,9 +41,8 @@ export function blankPage(app: App): TemplateResult {
 
 /** What a failure advises, as a button. */
 function advice(app: App): TemplateResult | string {
-  const project = app.state.project;
-  const step = project ? adviceStep(app.problem, app.step) : undefined;
-  if (!step || !reachable(project, step)) return '';
+  const step = app.state.project ? adviceStep(app.problem, app.step) : undefined;
+  if (!step || !app.canOpen(step)) return '';
   return html`<button
     class="btn small"
     id="advice"
@@ -53,13 +51,9 @@ function advice(app: App): TemplateResult | string {
       app.go(step);
     }}
   >
-    ${t('app.next', { step: t(`step.${step}`) })}
+    ${t('app.next', { step: app.titleOf(step) })}
   </button>`;
 }
-
-/** What a browser that watches may not do: all its buttons and fields are disabled there. */
-export const acts = (app: App, content: TemplateResult): TemplateResult =>
-  html`<fieldset class="acts" ?disabled=${app.session.watches}>${content}</fieldset>`;
 
 async function takeOver(app: App): Promise<void> {
   try {

@@ -1,5 +1,5 @@
 import { type MeshArrays, meshOf, unpack } from './arrays';
-import type { StepName } from './app_steps';
+import type { StepName } from './step_names';
 import { Refusal, type Session } from './session';
 import type { Viewer } from './viewer';
 

@@ -1,5 +1,7 @@
 import type { Comparison, Inspection, Plan, SeriesPart } from './inspection_types';
-import type { HandMeasurement } from './measure_types';
+import type { HandMeasurement, Triple } from './measure_types';
+
+export type { Triple };
 
 /** The state that the server sends; docs/service-schema.json describes it. */
 export type JobState = 'waiting' | 'running' | 'done' | 'failed' | 'stopped';
@@ -114,7 +116,6 @@ export interface Fit {
   form_mm: number;
   points: number;
 }
-export type Triple = [number, number, number];
 export interface Optics {
   width_px: number;
   height_px: number;

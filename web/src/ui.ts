@@ -1,6 +1,6 @@
 import { html, type TemplateResult } from 'lit';
-import type { App } from './app';
-import type { StepName } from './app_steps';
+import type { Store } from './store';
+import type { StepName } from './step_names';
 import { worded } from './faults';
 import { icon } from './icons';
 import { t } from './messages';
@@ -26,11 +26,15 @@ export function choice<T extends string>(
   </div>`;
 }
 
+/** What a browser that watches may not do: all its buttons and fields are disabled there. */
+export const acts = (app: Store, content: TemplateResult): TemplateResult =>
+  html`<fieldset class="acts" ?disabled=${app.session.watches}>${content}</fieldset>`;
+
 /** The button that leads to the next step. */
-export const nextStep = (app: App, step: StepName, ready = true): TemplateResult =>
+export const nextStep = (app: Store, step: StepName, ready = true): TemplateResult =>
   html`<section class="group next-step">
     <button class="btn ${ready ? 'primary' : ''} wide" data-next=${step} @click=${() => app.go(step)}>
-      ${t('app.next', { step: t(`step.${step}`) })}${icon('arrow')}
+      ${t('app.next', { step: app.titleOf(step) })}${icon('arrow')}
     </button>
   </section>`;
 

@@ -1,6 +1,5 @@
 import { html, type TemplateResult } from 'lit';
-import type { App } from './app';
-import { ON_SURFACE } from './app_steps';
+import type { App } from './parts';
 import { icon } from './icons';
 import { surfaceLegend } from './legend';
 import { type MessageKey, t } from './messages';
@@ -46,7 +45,7 @@ const chip = (text: string): TemplateResult => html`<div class="chip">${text}</d
 export function viewOverlay(app: App): TemplateResult {
   const { viewer } = app;
   const scene = viewer.supported && !app.showsCamera && !app.showsResiduals;
-  const showsSurface = scene && ON_SURFACE.has(app.step);
+  const showsSurface = scene && app.onSurface;
   return html`<div class="floating">
       ${previewBar(app)} ${viewer.tool === 'section' ? chip(app.sectioning.hint) : ''}
       ${viewer.tool === 'pair' ? chip(app.pairing.hint) : ''}

@@ -9,7 +9,6 @@ export const FRAME = {
   'step.surface': ['Surface', 'Fläche', 'Superficie'],
   'step.edit': ['Edit', 'Bearbeiten', 'Modifica'],
   'step.inspect': ['Inspect', 'Prüfen', 'Ispezione'],
-  'step.export': ['Export', 'Export', 'Esporta'],
   steps: ['Steps', 'Schritte', 'Passi'],
   'did.filled': [
     'Filled {holes} holes with {triangles} triangles',

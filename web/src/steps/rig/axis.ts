@@ -1,0 +1,68 @@
+import { html } from 'lit';
+import type { App } from '../../parts';
+import { number, t } from '../../messages';
+import { axisIsKnown, hasTable } from '../../rig_facts';
+import { boardFields, boardOf } from './board';
+import type { RigStage } from './stages';
+
+/** Finds the axis of the turntable with the board of the calibration. Null without a turntable or a calibration. */
+export function axisStage(app: App): RigStage | null {
+  const { project } = app;
+  if (!project.can_scan || !hasTable(app)) return null;
+  const job = app.job('axis');
+  const found = project.axis;
+  const known = axisIsKnown(app);
+  const ownBoard = project.residuals_s > 0; // that of the calibration here
+  const find = (event: SubmitEvent) => {
+    event.preventDefault();
+    const board = ownBoard ? {} : boardOf(new FormData(event.target as HTMLFormElement));
+    void (async () => {
+      if (!known || (await app.asking.confirm(t('axis.ask'), t('axis.again')))) await app.command('find-axis', board);
+    })();
+  };
+  const body = html`${
+    found
+      ? html`<dl class="figures">
+          <dt>${t('axis.place')}</dt>
+          <dd class="num">± ${number(found.point_sigma_mm, 3)}<span>mm</span></dd>
+          <dt>${t('axis.distance')}</dt>
+          <dd class="num">${number(found.distance_mm, 1)}<span>mm</span></dd>
+          <dt>${t('axis.angles')}</dt>
+          <dd class="num">${number(found.angles_rms_deg, 3)}°</dd>
+          <dt>${t('axis.views')}</dt>
+          <dd class="num">${found.views}</dd>
+        </dl>`
+      : html`<p class="quiet">${t(!project.rig ? 'axis.later' : known ? 'axis.known' : 'axis.unknown')}</p>`
+  }
+  ${
+    !project.rig
+      ? ''
+      : job
+        ? html`<p class="next">${t('axis.turning')}</p>
+            <button class="btn wide" @click=${() => app.command('stop-job', { job: job.number })}>
+              ${t('axis.stop')}
+            </button>`
+        : html`<form class="form-plain" @submit=${find}>
+            ${ownBoard ? '' : html`<div class="four">${boardFields()}</div>`}
+            <button
+              class="btn ${known ? '' : 'primary'} wide"
+              id="find-axis"
+              ?disabled=${app.occupied || app.session.watches || project.scan_begun}
+            >
+              ${t(known ? 'axis.again' : 'axis.find')}
+            </button>
+          </form>`
+  }`;
+  return {
+    name: 'axis',
+    title: t('axis.title'),
+    summary: !project.rig
+      ? ''
+      : found
+        ? `± ${number(found.axis_sigma_deg, 3)}°`
+        : t(known ? 'axis.isKnown' : 'axis.isUnknown'),
+    state: !project.rig ? '' : known ? 'done' : 'bad',
+    due: Boolean(project.rig) && !known,
+    body,
+  };
+}
