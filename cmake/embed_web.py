@@ -1,7 +1,8 @@
 """Builds the front end, and writes a C++ source that holds its files.
 
-    embed_web.py build WEB TREE NODE      type-checks and bundles WEB with the packages in TREE, into TREE/dist
-    embed_web.py embed DIST OUTPUT.cpp    compresses the files of DIST and includes them by the assembler
+    embed_web.py build WEB TREE NODE SCHEMA   type-checks and bundles WEB with the packages in TREE, into TREE/dist; SCHEMA gives
+                                              the types of its messages
+    embed_web.py embed DIST OUTPUT.cpp        compresses the files of DIST and includes them by the assembler
 """
 import gzip
 import pathlib
@@ -20,7 +21,7 @@ TYPES = {
 }
 
 
-def build(web: pathlib.Path, tree: pathlib.Path, node: str) -> None:
+def build(web: pathlib.Path, tree: pathlib.Path, node: str, schema: pathlib.Path) -> None:
     """The bundler looks for packages beside the sources, so that they are copied beside the packages."""
     for name in ("index.html", "vite.config.ts", "tsconfig.json"):
         shutil.copy(web / name, tree / name)
@@ -28,6 +29,8 @@ def build(web: pathlib.Path, tree: pathlib.Path, node: str) -> None:
         shutil.rmtree(tree / name, ignore_errors=True)
         if (web / name).exists():
             shutil.copytree(web / name, tree / name)
+    writer = pathlib.Path(__file__).parent.parent / "tools/schema_types.py"
+    subprocess.run([sys.executable, writer, schema, tree / "src/schema.ts"], check=True)
     modules = tree / "node_modules"
     for script in (
         [modules / "typescript/bin/tsc", "--noEmit"],
@@ -79,6 +82,6 @@ def embed(dist: pathlib.Path, output: pathlib.Path) -> None:
 
 if __name__ == "__main__":
     if sys.argv[1] == "build":
-        build(pathlib.Path(sys.argv[2]), pathlib.Path(sys.argv[3]), sys.argv[4])
+        build(pathlib.Path(sys.argv[2]), pathlib.Path(sys.argv[3]), sys.argv[4], pathlib.Path(sys.argv[5]))
     else:
         embed(pathlib.Path(sys.argv[2]), pathlib.Path(sys.argv[3]))

@@ -26,6 +26,7 @@ function(frangia_web folder output)
   endif()
   find_package(Python3 COMPONENTS Interpreter REQUIRED)
   set(tree ${PROJECT_BINARY_DIR}/web)
+  set(schema ${PROJECT_SOURCE_DIR}/docs/service-schema.json)
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${folder}/src/* ${folder}/public/*)
   list(APPEND sources ${folder}/index.html ${folder}/vite.config.ts ${folder}/tsconfig.json)
   add_custom_command(OUTPUT ${tree}/installed
@@ -36,9 +37,10 @@ function(frangia_web folder output)
     DEPENDS ${folder}/package.json ${folder}/package-lock.json
     COMMENT "Installing the packages of the front end" VERBATIM)
   add_custom_command(OUTPUT ${output}
-    COMMAND Python3::Interpreter ${PROJECT_SOURCE_DIR}/cmake/embed_web.py build ${folder} ${tree} ${NODE}
+    COMMAND Python3::Interpreter ${PROJECT_SOURCE_DIR}/cmake/embed_web.py build ${folder} ${tree} ${NODE} ${schema}
     COMMAND Python3::Interpreter ${PROJECT_SOURCE_DIR}/cmake/embed_web.py embed ${tree}/dist ${output}
-    DEPENDS ${tree}/installed ${sources} ${PROJECT_SOURCE_DIR}/cmake/embed_web.py
+    DEPENDS ${tree}/installed ${sources} ${PROJECT_SOURCE_DIR}/cmake/embed_web.py ${schema}
+      ${PROJECT_SOURCE_DIR}/tools/schema_types.py
     COMMENT "Building the front end" VERBATIM)
   add_custom_target(frangia_web DEPENDS ${output})  # beside the compilation of the modules, not after it
 endfunction()

@@ -1,4 +1,5 @@
 """What the checks of `./run lint quick` refuse and allow: lint_checks_test.py SOURCE_DIR"""
+import json
 import pathlib
 import subprocess
 import sys
@@ -232,6 +233,25 @@ class WebImports(Tree):
         self.assertEqual(code, 1)
         self.assertIn("the step rig has no name in STEP_NAMES", text)
         self.assertIn("the step scan has no folder of steps", text)
+
+
+class SchemaTypes(Tree):
+    def types(self, **definitions):
+        schema = self.write("schema.json", json.dumps({"definitions": definitions}))
+        self.assertEqual(self.answer("schema_types.py", schema, self.root / "schema.ts"), (0, ""))
+        return (self.root / "schema.ts").read_text().split("\n\n", 1)[1]
+
+    def test_write_an_object_with_what_it_may_lack(self):
+        number = {"type": ["integer", "null"], "description": "Of the version."}
+        one = {"type": "object", "required": ["at"], "properties": {"at": number, "by": {"enum": ["a", "b"]}}}
+        lines = '  /** Of the version. */\n  at: number | null;\n  by?: "a" | "b";\n'
+        self.assertEqual(self.types(kept_rig=one), "export type KeptRig = {\n" + lines + "};\n")
+
+    def test_write_tuples_lists_and_references(self):
+        pair = {"type": "array", "items": {"type": "number"}, "minItems": 2, "maxItems": 2}
+        many = {"type": "array", "items": {"anyOf": [{"$ref": "#/definitions/pair"}, {"type": "null"}]}}
+        text = self.types(pair=pair, many=many)
+        self.assertEqual(text, "export type Pair = [number, number];\n\nexport type Many = (Pair | null)[];\n")
 
 
 if __name__ == "__main__":

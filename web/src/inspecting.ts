@@ -3,14 +3,8 @@ import type { Exporting } from './exporting';
 import { formatOf, MESH_FORMATS, REFERENCE_FORMATS } from './file_formats';
 import { t } from './messages';
 import { requireSendable } from './session';
-import type {
-  CharacteristicKind,
-  FoundFeature,
-  Inspection,
-  Plan,
-  PlannedCharacteristic,
-  PlannedFeature,
-} from './inspection_types';
+import type { CharacteristicKind, Plan, PlannedCharacteristic, PlannedFeature } from './inspection_types';
+import type { FoundFeature, Inspection, Triple } from './types';
 
 /** The name of the next part: the number at the end of this one's grows. */
 export function nextName(name: string, taken: readonly string[]): string {
@@ -30,12 +24,14 @@ const USUAL: Plan = {
 };
 
 type Vector = readonly number[];
+/** A place, which the server sends as null where it is not finite. */
+const placed = (at: readonly (number | null)[]): Triple => at.map((one) => one ?? NaN) as Triple;
 const dot = (a: Vector, b: Vector): number => a.reduce((sum, one, i) => sum + one * (b[i] as number), 0);
 
 /** How far a point is from the surface of a feature, mm; infinite where the page does not know its shape. */
 function distanceTo({ kind, at_mm, axis, diameter_mm, half_angle_deg }: FoundFeature, point: Vector): number {
   const from = point.map((one, i) => one - (at_mm[i] as number));
-  const along = dot(from, axis);
+  const along = dot(from, placed(axis));
   const away = Math.hypot(...from);
   const across = Math.sqrt(Math.max(0, away * away - along * along));
   const radius = (diameter_mm ?? 0) / 2;
@@ -159,7 +155,7 @@ export class Inspecting {
     const planned: PlannedFeature = {
       name: this.freeName(t(`inspect.kind.${feature.kind}`)),
       kind: feature.kind,
-      near_mm: feature.near_mm.map((one) => Number(one.toFixed(3))) as [number, number, number],
+      near_mm: placed(feature.near_mm).map((one) => Number(one.toFixed(3))) as [number, number, number],
     };
     if (feature.nominal_mm !== null) planned.diameter_mm = Number(feature.nominal_mm.toFixed(6));
     else if (feature.diameter_mm !== null && feature.kind !== 'line')
@@ -215,8 +211,8 @@ export class Inspecting {
     const feature = this.chosen === null ? undefined : found.features[this.chosen];
     const places = this.placesShown ? found.places : [];
     return [
-      ...places.map(({ at_mm, area_mm2 }) => ({ center_mm: at_mm, size_mm: Math.sqrt(area_mm2) })),
-      ...(feature ? [{ center_mm: feature.at_mm, size_mm: feature.diameter_mm ?? 0 }] : []),
+      ...places.map(({ at_mm, area_mm2 }) => ({ center_mm: placed(at_mm), size_mm: Math.sqrt(area_mm2) })),
+      ...(feature ? [{ center_mm: placed(feature.at_mm), size_mm: feature.diameter_mm ?? 0 }] : []),
     ];
   }
 

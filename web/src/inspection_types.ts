@@ -1,105 +1,7 @@
-/** Deviations of the surface from a reference; shares are of the compared area. */
-export interface Comparison {
-  revision: number;
-  reference: string;
-  reference_triangles: number;
-  best_fit: boolean;
-  /** Of `poses`, from 1. */
-  start: number;
-  /** Poses that fit alike, the best first. */
-  poses: { turned_deg: number; moved_mm: number; overlap: number; rms_mm: number | null }[];
-  tolerance_mm: [number, number];
-  scale_mm: [number, number];
-  histogram: number[];
-  verdict: 'in' | 'out' | 'undecided';
-  /** Shares of the nominal area; they sum to 1. */
-  in_share: number;
-  out_share: number;
-  undecided_share: number;
-  not_measured_share: number;
-  /** Diameter of the patches over which deviations are averaged. */
-  patch_mm: number;
-  rms_mm: number | null;
-  mean_mm: number | null;
-  min_mm: number | null;
-  max_mm: number | null;
-  median_u_mm: number | null;
-  area_mm2: number;
-  overlap: number;
-  fit_rms_mm: number | null;
-  turned_deg: number;
-  moved_mm: number;
-  left_out: number;
-  free_directions: string[];
-}
-/** A row of the table of results. */
-export interface MeasuredRow {
-  name: string;
-  kind: string;
-  feature: string;
-  datum: string;
-  unit: 'mm' | 'degrees';
-  nominal: number | null;
-  /** Of the value; null: none on that side. */
-  limits: [number | null, number | null] | null;
-  value: number | null;
-  u95: number | null;
-  /** Share of the tolerance that is used; above 1 beyond it. */
-  used: number | null;
-  verdict: 'in' | 'out' | 'undecided' | null;
-}
-/** A feature of the surface. `at_mm` and `axis` are in its frame, `near_mm` in that of the reference. */
-export interface FoundFeature {
-  /** In the plan; null: it is not in the plan. */
-  name: string | null;
-  kind: 'plane' | 'line' | 'circle' | 'cylinder' | 'sphere' | 'cone' | 'torus';
-  hole: boolean;
-  diameter_mm: number | null;
-  u95_mm: number | null;
-  form_mm: number | null;
-  near_mm: [number, number, number];
-  at_mm: [number, number, number];
-  axis: [number, number, number];
-  half_angle_deg: number | null;
-  /** Of the CAD reference. */
-  face: number | null;
-  nominal_mm: number | null;
-}
-/** A part of the sentence about a verdict. `text` is English; other languages word it by `id` and `values`. */
-export interface VerdictClause {
-  id: string;
-  values: Record<string, number | string | [number, number, number] | null>;
-  text: string;
-}
-/** What an inspection found. Places are in the frame of the surface. */
-export interface Inspection {
-  revision: number;
-  verdict: 'in' | 'out' | 'undecided';
-  /** Why the verdict is what it is, what decided first. Places in them are in the frame of the reference. */
-  reasons: { about: 'surface' | 'characteristics'; sentence: string; clauses: VerdictClause[] }[];
-  searched: boolean;
-  characteristics: MeasuredRow[];
-  features: FoundFeature[];
-  places: {
-    decision: 'out' | 'near_limit' | 'not_well_measured' | 'not_measured';
-    at_mm: [number, number, number];
-    deviation_mm: number | null;
-    u95_mm: number | null;
-    area_mm2: number;
-    missing: boolean;
-  }[];
-  thickness_mm: [number | null, number | null, number | null] | null;
-}
-/** What was found of a characteristic of an earlier part. */
-export type SeriesRow = Pick<MeasuredRow, 'name' | 'unit' | 'nominal' | 'limits' | 'value' | 'u95' | 'verdict'>;
-/** A part that was inspected by the same plan, in a project of its own. */
-export interface SeriesPart {
-  name: string;
-  serial: string;
-  /** Null: it was not inspected. */
-  verdict: Inspection['verdict'] | null;
-  rows: SeriesRow[];
-}
+import type { Inspection } from './schema';
+
+// The keys of inspection.toml.
+
 export type CharacteristicKind =
   | 'distance'
   | 'angle'
@@ -116,7 +18,7 @@ export type CharacteristicKind =
   | 'thickness';
 export interface PlannedFeature {
   name: string;
-  kind?: FoundFeature['kind'];
+  kind?: Inspection['features'][number]['kind'];
   near_mm?: [number, number, number];
   face?: number;
   diameter_mm?: number | null;

@@ -3,8 +3,7 @@ import type { Exporting } from './exporting';
 import type { Store } from './store';
 import { icon } from './icons';
 import { number, t } from './messages';
-import type { HandMeasurement, Quantity } from './measure_types';
-import type { Triple } from './types';
+import type { HandMeasurement, Quantity, Triple } from './types';
 import { choice } from './ui';
 import type { Hit } from './viewer';
 

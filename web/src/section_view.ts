@@ -1,6 +1,6 @@
 import * as THREE from 'three';
 
-import type { Section } from './measure_types';
+import type { Section } from './types';
 
 const CAP = 0x5d8fd6;
 const LINE = 0xffd166;

@@ -1,6 +1,5 @@
 import { number, t } from './messages';
-import type { Section } from './measure_types';
-import type { State, Triple } from './types';
+import type { Section, State, Triple } from './types';
 import type { Hit, Ray } from './viewer';
 
 const KEY = 'frangia-key';

@@ -1,4 +1,4 @@
-import type { VerdictClause } from './inspection_types';
+import type { VerdictClause } from './types';
 import { isMessage, number, t } from './messages';
 import { capitalized } from './ui';
 

@@ -16,8 +16,7 @@ import { SectionView } from './section_view';
 import { DRAWING, type ModifierKeys, places, PointerStrokes, type Tool } from './pointer_strokes';
 import { smallPicture } from './small_picture';
 import { type SectionLook, type Shading, SurfaceView } from './surface_view';
-import type { Section } from './measure_types';
-import type { RigGeometry, Triple } from './types';
+import type { RigGeometry, Section, Triple } from './types';
 import { ViewCamera } from './view_camera';
 import { ViewMarks } from './view_marks';
 

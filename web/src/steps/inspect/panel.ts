@@ -4,7 +4,8 @@ import type { App } from '../../parts';
 import { accepted, REFERENCE_FORMATS } from '../../file_formats';
 import { icon } from '../../icons';
 import { number, t } from '../../messages';
-import type { Comparison, Inspection, MeasuredRow, Plan } from '../../inspection_types';
+import type { Plan } from '../../inspection_types';
+import type { Comparison, Inspection, MeasuredRow } from '../../types';
 import { choice, nextStep } from '../../ui';
 import { verdictSentence } from '../../verdict_words';
 import { planned } from './plan';
@@ -67,7 +68,7 @@ function verdict(app: App, found: Inspection): TemplateResult | string {
                       >${t(place.missing ? 'inspect.missing' : `inspect.place.${place.decision}`)}
                     </td>
                     <td>${place.deviation_mm === null ? '' : `${signed(place.deviation_mm)} mm`}</td>
-                    <td>${place.at_mm.map((one) => number(one, 1)).join('  ')}</td>
+                    <td>${place.at_mm.map((one) => (one === null ? '·' : number(one, 1))).join('  ')}</td>
                   </tr>`,
               )}
             </tbody>

@@ -3,13 +3,8 @@ import { html, type TemplateResult } from 'lit';
 import type { App } from '../../parts';
 import { icon } from '../../icons';
 import { number, t } from '../../messages';
-import type {
-  CharacteristicKind,
-  FoundFeature,
-  Inspection,
-  PlannedCharacteristic,
-  PlannedFeature,
-} from '../../inspection_types';
+import type { CharacteristicKind, PlannedCharacteristic, PlannedFeature } from '../../inspection_types';
+import type { FoundFeature, Inspection } from '../../types';
 
 /** What can be measured of which kinds of features; the last ones are relative to a datum. */
 const OF_ONE: readonly CharacteristicKind[] = [

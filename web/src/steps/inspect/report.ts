@@ -2,7 +2,7 @@ import { html, type TemplateResult } from 'lit';
 
 import type { App } from '../../parts';
 import { icon } from '../../icons';
-import type { Inspection } from '../../inspection_types';
+import type { Inspection } from '../../types';
 import { t } from '../../messages';
 
 /** What stands at the head of the report, and the files. */

@@ -3,7 +3,7 @@ import { html, svg, type TemplateResult } from 'lit';
 import type { App } from '../../parts';
 import { accepted, MESH_FORMATS } from '../../file_formats';
 import { icon } from '../../icons';
-import type { Inspection, SeriesPart, SeriesRow } from '../../inspection_types';
+import type { Inspection, SeriesPart, SeriesRow } from '../../types';
 import { number, t } from '../../messages';
 
 const DOTS = { in: 'done', out: 'bad', undecided: 'poor' } as const;

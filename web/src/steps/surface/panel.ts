@@ -17,7 +17,7 @@ const um = (value: number | null): TemplateResult =>
 function registrationWords(summary: Summary): string {
   const { turntable, rms_after_mm: rms } = summary;
   const more = plain(summary.registration ?? '');
-  if (!turntable || rms === undefined || !turntable.plain) return more.charAt(0).toUpperCase() + more.slice(1);
+  if (!turntable || rms == null || !turntable.plain) return more.charAt(0).toUpperCase() + more.slice(1);
   const agree = t('surface.agree', { rms: number(1000 * rms, 1), overlap: number(100 * turntable.overlap) });
   const axis = turntable.kept
     ? t('surface.axisKept')
