@@ -156,7 +156,7 @@ export const FAULTS_BUILD = {
   'fault.setupIncomplete': [
     'the present setup is not complete; finish its scan before the part is turned over',
     'die Aufspannung ist nicht vollständig; erst ihren Scan beenden, dann das Teil umdrehen',
-    'il fissaggio non è completo; finirne la scansione prima di girare il pezzo',
+    'il piazzamento non è completo; finirne la scansione prima di girare il pezzo',
   ],
   'fault.noDevices': [
     'this project has no rig with devices; choose them in the step Rig',

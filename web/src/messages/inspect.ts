@@ -41,7 +41,7 @@ export const INSPECT = {
     "Quota minima dell'area nominale, %",
   ],
   'inspect.rule.gap': ['Widest gap, mm', 'Größte Lücke, mm', 'Lacuna più larga, mm'],
-  'inspect.rule.auto': ['chosen by the mesh', 'nach dem Netz gewählt', 'scelto dalla maglia'],
+  'inspect.rule.auto': ['chosen by the mesh', 'nach dem Netz gewählt', 'scelto dalla mesh'],
   'series.title': ['Next part, same plan', 'Nächstes Teil, gleicher Plan', 'Pezzo successivo, stesso piano'],
   'series.lead': [
     'The next part gets a project of its own, with this rig, reference and plan; the parts stand side by side here.',

@@ -90,7 +90,7 @@ export const VERDICT = {
   'clause.no_sigma': [
     'the mesh states no sigma, so that no uncertainty is known and the limits alone decide',
     'das Netz nennt kein Sigma: Die Unsicherheit ist unbekannt, und allein die Grenzen entscheiden',
-    "la maglia non indica sigma: l'incertezza non è nota e decidono solo i limiti",
+    "la mesh non indica sigma: l'incertezza non è nota e decidono solo i limiti",
   ],
   'clause.counts': [
     'Characteristics: {of}, of which {in} in, {out} out, {undecided} undecided',
