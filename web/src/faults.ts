@@ -1,5 +1,5 @@
 import { FAULTS } from './messages/faults';
-import { currentLanguage, t } from './messages';
+import { currentLanguage, decimalMark, t } from './messages';
 
 export type FaultId = keyof typeof FAULTS;
 
@@ -80,10 +80,16 @@ export function partsOf(sentence: string): string[] | undefined {
   return prefix && rest ? [prefix, ': ', rest] : undefined;
 }
 
+/** A value in the language of the reader; what is to be written into a file, such as `white_level = 0.5`, stays. */
+function valueIn(id: FaultId, place: number, value: string): string {
+  if (!/^-?\d+\.\d+$/.test(value)) return worded(value);
+  return new RegExp(`[=[] ?\\{${place}\\}`).test(FAULTS[id][0]) ? value : value.replace('.', decimalMark());
+}
+
 /** A sentence of the server in the language of the reader; as it is where the catalogue has no row for it. */
 export function worded(sentence: string): string {
   if (currentLanguage() === 'en' || !/[a-z]/i.test(sentence)) return sentence;
   const fault = faultOf(sentence);
-  if (fault) return t(fault.id, Object.fromEntries(fault.values.map((value, i) => [i, worded(value)])));
+  if (fault) return t(fault.id, Object.fromEntries(fault.values.map((value, i) => [i, valueIn(fault.id, i, value)])));
   return partsOf(sentence)?.map(worded).join('') ?? sentence;
 }

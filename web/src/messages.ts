@@ -85,6 +85,9 @@ export const moment = (seconds: number): string =>
 export const stageName = (stage: string): string =>
   `stage.${stage}` in CATALOGUE ? t(`stage.${stage}` as MessageKey) : stage;
 
+/** The mark between a number and its decimals. */
+export const decimalMark = (): string => (1.5).toLocaleString(LOCALES[language]).charAt(1);
+
 /** A number as the language writes it; one that rounds to zero has no sign. */
 export const number = (value: number, digits = 0): string =>
   (Math.abs(value) < 0.5 * 10 ** -digits ? 0 : value).toLocaleString(LOCALES[language], {
