@@ -80,6 +80,9 @@ export function partsOf(sentence: string): string[] | undefined {
   return prefix && rest ? [prefix, ': ', rest] : undefined;
 }
 
+/** What was worded before, by language and sentence: the page words all that it shows again at each change. */
+const wordedBefore = new Map<string, string>();
+
 /** A value in the language of the reader; what is to be written into a file, such as `white_level = 0.5`, stays. */
 function valueIn(id: FaultId, place: number, value: string): string {
   if (!/^-?\d+\.\d+$/.test(value)) return worded(value);
@@ -89,6 +92,16 @@ function valueIn(id: FaultId, place: number, value: string): string {
 /** A sentence of the server in the language of the reader; as it is where the catalogue has no row for it. */
 export function worded(sentence: string): string {
   if (currentLanguage() === 'en' || !/[a-z]/i.test(sentence)) return sentence;
+  const key = `${currentLanguage()} ${sentence}`;
+  const known = wordedBefore.get(key);
+  if (known !== undefined) return known;
+  if (wordedBefore.size >= REMEMBERED) wordedBefore.clear();
+  const words = wordsFor(sentence);
+  wordedBefore.set(key, words);
+  return words;
+}
+
+function wordsFor(sentence: string): string {
   const fault = faultOf(sentence);
   if (fault) return t(fault.id, Object.fromEntries(fault.values.map((value, i) => [i, valueIn(fault.id, i, value)])));
   return partsOf(sentence)?.map(worded).join('') ?? sentence;
