@@ -241,6 +241,10 @@ function faultsOfLayout() {
     if (element.children.length === 0 && element.scrollWidth > element.clientWidth + 2 && element.clientWidth > 0 && getComputedStyle(element).textOverflow !== 'ellipsis')
       faults.push(`${words(element)} is cut off`);
   }
+  const ends = [...document.querySelectorAll('.brand > *')].filter(shown).map((one) => one.getBoundingClientRect());
+  const steps = document.querySelector('.steps')?.getBoundingClientRect();
+  for (const { right, top, bottom } of ends)
+    if (steps && right > steps.left + 1 && top < steps.bottom && bottom > steps.top) faults.push('the steps cover what stands before them');
   const primary = [...document.querySelectorAll('.btn.primary')].filter(shown);
   const modal = document.querySelector('dialog[open]');
   if (!modal && primary.length > 1) faults.push(`more than one primary button: ${primary.map(words).join(', ')}`);
