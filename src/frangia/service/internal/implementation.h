@@ -166,7 +166,8 @@ class Service::Implementation {
   ///
   /// @errors   as read_surface_versions
   std::shared_ptr<const SurfaceVersions> versions_of(const ProjectFolder& project);
-  /// The current version, which is read unless it is there. `otherwise` is said when there is none.
+  /// The current version, read from disk unless it is in memory. `otherwise` is the error without
+  /// one.
   const SurfaceModel& model_of(const ProjectFolder& project, const char* otherwise, const Run& run);
   /// Drops the model of another project.
   void use(const ProjectFolder& project);
