@@ -1,10 +1,11 @@
 import type { StepName } from './app_steps';
+import { FAULTS_ACCEPTANCE } from './messages/faults_acceptance';
 import { FAULTS_BUILD } from './messages/faults_build';
 import { FAULTS_CALIBRATION } from './messages/faults_calibration';
 import { FAULTS_CAPTURE } from './messages/faults_capture';
 import { currentLanguage, t } from './messages';
 
-const FAULTS = { ...FAULTS_CAPTURE, ...FAULTS_CALIBRATION, ...FAULTS_BUILD };
+const FAULTS = { ...FAULTS_CAPTURE, ...FAULTS_CALIBRATION, ...FAULTS_BUILD, ...FAULTS_ACCEPTANCE };
 export type FaultId = keyof typeof FAULTS;
 
 /** A sentence of the server as its row and the values in it. */

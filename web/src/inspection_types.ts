@@ -156,3 +156,34 @@ export interface Plan {
   characteristics?: PlannedCharacteristic[];
   report?: Partial<Record<'drawing' | 'order' | 'serial' | 'customer' | 'operator' | 'date' | 'paper', string>>;
 }
+/** An acceptance test of the scanner: the artifact, its limits, and the errors of all arrangements. */
+export interface Acceptance {
+  artifact: {
+    diameters_mm: number[];
+    spacing_mm: number | null;
+    u95_mm: number;
+    form_mm: number;
+    expansion_ppm_per_k: number;
+    certificate: string;
+  };
+  limits: Record<'probing_form_mm' | 'probing_size_mm' | 'sphere_spacing_mm' | 'length_mm', number | null>;
+  volume_mm: [number, number, number] | null;
+  temperature_c: number;
+  temperature_u_k: number;
+  operator: string;
+  /** Each was measured in a project of the series. */
+  arrangements: { name: string; project: string; warnings: string[] }[];
+  /** The worst of all arrangements; none before the first is measured. */
+  quantities: {
+    symbol: 'P_Form.Sph.D95%' | 'PF' | 'P_Size.Sph.All' | 'SD' | 'E';
+    error_mm: number;
+    u95_mm: number;
+    limit_mm: number | null;
+    verdict: 'in' | 'out' | 'undecided' | null;
+    /** Index of the arrangement with this error. */
+    arrangement: number;
+  }[];
+  verdict: 'in' | 'out' | 'undecided' | null;
+  /** What a test after VDI/VDE 2634 part 3 also needs. */
+  incomplete: string[];
+}

@@ -1,6 +1,8 @@
+import { ACCEPT } from './messages/accept';
 import { CHECK } from './messages/check';
 import { EDIT } from './messages/edit';
 import { EXPORT } from './messages/export';
+import { FAULTS_ACCEPTANCE } from './messages/faults_acceptance';
 import { FAULTS_BUILD } from './messages/faults_build';
 import { FAULTS_CALIBRATION } from './messages/faults_calibration';
 import { FAULTS_CAPTURE } from './messages/faults_capture';
@@ -26,11 +28,13 @@ const CATALOGUE = {
   ...MEASURE,
   ...EDIT,
   ...INSPECT,
+  ...ACCEPT,
   ...EXPORT,
   ...VERDICT,
   ...FAULTS_CAPTURE,
   ...FAULTS_CALIBRATION,
   ...FAULTS_BUILD,
+  ...FAULTS_ACCEPTANCE,
 } as const;
 
 export type MessageKey = keyof typeof CATALOGUE;

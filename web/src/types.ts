@@ -1,4 +1,4 @@
-import type { Comparison, Inspection, Plan, SeriesPart } from './inspection_types';
+import type { Acceptance, Comparison, Inspection, Plan, SeriesPart } from './inspection_types';
 import type { HandMeasurement } from './measure_types';
 
 /** The state that the server sends; docs/service-schema.json describes it. */
@@ -362,6 +362,7 @@ export interface Project {
   measurements: HandMeasurement[];
   /** Parts before this one that were inspected by the same plan, the oldest first. */
   series: SeriesPart[];
+  acceptance: Acceptance | null;
   /** That the surface is inspected by; null: none was made. */
   plan: Plan | null;
   plan_fault: string;

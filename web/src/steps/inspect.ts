@@ -9,6 +9,7 @@ import { choice, nextStep } from '../ui';
 import { verdictSentence } from '../verdict_words';
 import { planned } from './inspect_plan';
 import { reporting } from './inspect_report';
+import { accepting } from './inspect_accept';
 import { series } from './inspect_series';
 
 /** With its sign, which a value that rounds to zero does not have. */
@@ -352,5 +353,5 @@ export function inspectStep(app: App): TemplateResult {
   const found = surface?.inspection ?? null;
   return html`${found ? verdict(app, found) : ''} ${reference(app)} ${found ? rows(found) : ''} ${planned(app, found)}
   ${surface?.comparison ? deviations(app, surface.comparison) : ''} ${rule(app)} ${app.measuring.panel()}
-  ${reporting(app, found)} ${series(app, found)} ${nextStep(app, 'export', Boolean(found))}`;
+  ${reporting(app, found)} ${series(app, found)} ${accepting(app)} ${nextStep(app, 'export', Boolean(found))}`;
 }

@@ -113,6 +113,9 @@ class Service::Implementation {
   Json keep_plan(const std::string& text);
   Json start_inspect(CommandArguments& arguments);
   Json start_report(CommandArguments& arguments);
+  Json set_acceptance(CommandArguments& arguments);
+  Json start_measure_arrangement(CommandArguments& arguments);
+  Json start_certificate(CommandArguments& arguments);
   /// Writes a page as a PDF file.
   void print_page(const ProjectFolder& project,
                   const std::string& page,
