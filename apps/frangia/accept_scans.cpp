@@ -10,7 +10,6 @@
 #include "frangia/core/angles.h"
 #include "frangia/core/error.h"
 #include "frangia/core/folder_lock.h"
-#include "frangia/core/sha256.h"
 #include "frangia/rig/read_rig.h"
 #include "frangia/simulate/default_patterns.h"
 #include "frangia/simulate/parts.h"
@@ -124,21 +123,6 @@ fs::path acceptance_scan(const AcceptancePlan& plan,
   options.seed = arrangement + 1;
   static_cast<void>(simulate_scan(placed_artifact(plan, wanted), scan, options, terminal.run()));
   return folder;
-}
-
-std::pair<std::string, std::size_t> checksums_of(const fs::path& scan, const Run& run) {
-  std::vector<fs::path> files;
-  for (const char* file : {"rig.toml", "scan.toml"})
-    if (fs::exists(scan / file)) files.push_back(scan / file);
-  for (const auto& entry : fs::recursive_directory_iterator(scan / "views"))
-    if (entry.is_regular_file()) files.push_back(entry.path());
-  std::sort(files.begin(), files.end());
-  std::string list;
-  for (const fs::path& file : files) {
-    run.check();
-    list += sha256_of_file(file) + "  " + file.lexically_normal().string() + "\n";
-  }
-  return {list, files.size()};
 }
 
 }  // namespace frangia

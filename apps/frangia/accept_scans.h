@@ -2,8 +2,6 @@
 
 #include <cstddef>
 #include <filesystem>
-#include <string>
-#include <utility>
 
 #include "frangia/acceptance/acceptance_plan.h"
 #include "frangia/rig/rig.h"
@@ -27,11 +25,5 @@ namespace frangia {
                                                     std::size_t arrangement,
                                                     const std::filesystem::path& output,
                                                     Terminal& terminal);
-
-/// Checksums of a scan's files in the format of `sha256sum`, and the number of files.
-///
-/// @errors   Error(File) when a file cannot be read
-[[nodiscard]] std::pair<std::string, std::size_t> checksums_of(const std::filesystem::path& scan,
-                                                               const Run& run);
 
 }  // namespace frangia

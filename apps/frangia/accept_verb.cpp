@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <chrono>
 #include <filesystem>
 #include <memory>
@@ -10,9 +11,10 @@
 
 #include "frangia/acceptance/acceptance_result.h"
 #include "frangia/acceptance/certificate.h"
-#include "frangia/core/sha256.h"
+#include "frangia/acceptance/frame_checksums.h"
 #include "frangia/core/write_text_file.h"
 #include "frangia/dataset/scan_folder.h"
+#include "frangia/devices/device_settings.h"
 #include "frangia/files/ply.h"
 #include "frangia/reconstruct/reconstruct.h"
 #include "frangia/report/inspection_report.h"
@@ -132,11 +134,18 @@ ArrangementResult measure_arrangement(const AcceptancePlan& plan,
     if (error.kind() != ErrorKind::Input) throw;
     throw Error(error.kind(), fmt::format("{}: {}", folder.string(), error.what()));
   }
-  const auto [list, files] = checksums_of(folder, run);
-  checksums += list;
-  result.frames = files;
-  result.frames_sha256 = sha256(list);
+  const FrameChecksums frames = frame_checksums(folder, run);
+  checksums += frames.list;
+  result.frames = frames.files;
+  result.frames_sha256 = frames.sha256;
   return result;
+}
+
+bool has_simulated_camera(const fs::path& rig) {
+  std::vector<DeviceSettings> devices = read_device_settings(rig);
+  return std::any_of(devices.begin(), devices.end(), [](DeviceSettings& device) {
+    return device.device() == "camera" && device.text_or("driver", "") == "simulated";
+  });
 }
 
 void accept(const AcceptArguments& arguments, Terminal& terminal) {
@@ -167,6 +176,8 @@ void accept(const AcceptArguments& arguments, Terminal& terminal) {
       fmt::gmtime(std::chrono::system_clock::to_time_t(std::chrono::system_clock::now())));
   facts.version = "Frangia " FRANGIA_VERSION;
   facts.warnings = terminal.warnings();
+  if (plan.source == AcceptanceSource::Devices && has_simulated_camera(plan.rig))
+    facts.warnings.emplace_back(kSimulatedCamera);
   const Json json = json_of_result(result, arrangements, facts);
   const fs::path certificate = arguments.output / "certificate.html";
   write_text_file(arguments.output / "frames.sha256", checksums);

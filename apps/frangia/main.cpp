@@ -75,16 +75,33 @@ bool asks_for_json(int argc, char** argv) {
   });
 }
 
+/// Whether the verb that runs takes a flag; true without a verb.
+bool verb_has_flag(const CLI::App& program, const std::string& flag) {
+  const CLI::App* verb = &program;
+  while (!verb->get_subcommands().empty())
+    verb = verb->get_subcommands().front();
+  if (verb == &program) return true;
+  for (; verb != nullptr; verb = verb->get_parent()) {
+    if (verb->get_option_no_throw(flag) != nullptr) return true;
+  }
+  return false;
+}
+
 /// Prints the error that ended a verb: a sentence, and JSON where that was asked for. A reader of
 /// the output that has ended stops the program without a message, as it does other programs.
-int print_error(Terminal& terminal, const std::string& sentence, int code, const char* kind) {
+int print_error(const CLI::App& program,
+                Terminal& terminal,
+                const std::string& sentence,
+                int code,
+                const char* kind) {
   if (reader_has_ended()) end_by_sigpipe();
   try {
     terminal.release();
     terminal.finish();
   } catch (const std::system_error&) {  // NOLINT(bugprone-empty-catch) of standard error
   }
-  const std::string message = with_flags(sentence);
+  const std::string message =
+      with_flags(sentence, [&](const std::string& flag) { return verb_has_flag(program, flag); });
   try {
     if (terminal.json) {
       nlohmann::ordered_json json;
@@ -151,25 +168,28 @@ int run_program(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return program.exit(error);  // --help and --version
     terminal.json = asks_for_json(argc, argv);
-    return print_error(terminal, usage_sentence(program, error), Usage, "usage");
+    return print_error(program, terminal, usage_sentence(program, error), Usage, "usage");
   } catch (const Error& error) {
-    return print_error(terminal, error.what(), exit_code_of(error.kind()), name_of(error.kind()));
+    return print_error(
+        program, terminal, error.what(), exit_code_of(error.kind()), name_of(error.kind()));
   } catch (const std::bad_alloc&) {
-    return print_error(terminal,
+    return print_error(program,
+                       terminal,
                        "this does not fit into the memory of the machine; set a larger `voxel`",
                        NumericFault,
                        "memory");
   } catch (const std::filesystem::filesystem_error& error) {
-    return print_error(terminal,
+    return print_error(program,
+                       terminal,
                        fmt::format("{}: {}; check the name and its permissions",
                                    error.path1().string(),
                                    error.code().message()),
                        BadInput,
                        "file");
   } catch (const std::system_error& error) {  // of output to standard error
-    return print_error(terminal, error.what(), BadInput, "file");
+    return print_error(program, terminal, error.what(), BadInput, "file");
   } catch (const std::exception& error) {
-    return print_error(terminal, error.what(), NumericFault, "numeric");
+    return print_error(program, terminal, error.what(), NumericFault, "numeric");
   }
   terminal.finish();
   return terminal.exit_code;

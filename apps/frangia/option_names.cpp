@@ -30,7 +30,8 @@ std::string flag_of(std::string_view name) {
 
 }  // namespace
 
-std::string with_flags(const std::string& sentence) {
+std::string with_flags(const std::string& sentence,
+                       const std::function<bool(const std::string&)>& has_flag) {
   std::string out;
   std::size_t begin = 0;
   for (;;) {
@@ -40,11 +41,8 @@ std::string with_flags(const std::string& sentence) {
     const std::string word = sentence.substr(open + 1, close - open - 1);
     out += sentence.substr(begin, open - begin);
     begin = close + 1;
-    if (!is_option_name(word)) {
-      out += '`' + word + '`';
-      continue;
-    }
-    out += flag_of(word);
+    const std::string flag = is_option_name(word) ? flag_of(word) : "";
+    out += flag.empty() || (has_flag && !has_flag(flag)) ? '`' + word + '`' : flag;
   }
 }
 

@@ -40,7 +40,7 @@ TEST(AccessGuard, DelaysAnAddressAfterWrongPasswordsTwiceAsLongEachTime) {
     EXPECT_FALSE(guard.admits("guess", kHere, now));
   }
   EXPECT_TRUE(guard.admits("correct horse", kHere, now + std::chrono::seconds(4)));
-  EXPECT_FALSE(guard.admits("guess", kHere, now + std::chrono::seconds(4))) << "begins anew";
+  EXPECT_FALSE(guard.admits("guess", kHere, now + std::chrono::seconds(4))) << "starts over";
   EXPECT_TRUE(guard.admits("correct horse", kHere, now + std::chrono::seconds(4)));
 }
 

@@ -228,6 +228,17 @@ export class Inspecting {
     }
   }
 
+  /** Writes the certificate of the acceptance test, and downloads it when it is there. */
+  async certify(): Promise<void> {
+    try {
+      const { job } = await this.app.session.command<{ job: number }>('certificate', { format: 'pdf' });
+      this.report = { job, name: `${this.app.project.name} certificate.pdf` };
+      this.follow();
+    } catch (error) {
+      this.app.say(error);
+    }
+  }
+
   private get revision(): number {
     return this.found?.revision ?? -1;
   }

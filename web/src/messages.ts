@@ -1,3 +1,4 @@
+import { ACCEPT } from './messages/accept';
 import { CHECK } from './messages/check';
 import { EDIT } from './messages/edit';
 import { FAULTS } from './messages/faults';
@@ -24,6 +25,7 @@ const CATALOGUE = {
   ...MEASURE,
   ...EDIT,
   ...INSPECT,
+  ...ACCEPT,
   ...VERDICT,
   ...FAULTS,
 } as const;

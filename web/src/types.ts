@@ -52,4 +52,6 @@ export type MeasuredRow = sent.Inspection['characteristics'][number];
 export type FoundFeature = sent.Inspection['features'][number];
 export type VerdictClause = sent.Inspection['reasons'][number]['clauses'][number];
 export type SeriesPart = sent.Project['series'][number];
+/** An acceptance test of the scanner: the artifact, its limits, and the errors of all arrangements. */
+export type Acceptance = NonNullable<sent.Project['acceptance']>;
 export type SeriesRow = SeriesPart['rows'][number];

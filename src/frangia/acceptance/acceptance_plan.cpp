@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "frangia/core/error.h"
+#include "frangia/core/read_text_file.h"
 #include "frangia/rig/toml_reader.h"
 
 namespace frangia {
@@ -105,7 +107,18 @@ std::vector<Arrangement> usual_arrangements(const ReferenceArtifact& artifact) {
 }
 
 AcceptancePlan read_acceptance_plan(const std::filesystem::path& path) {
-  const toml::table table = parse_toml(path, "frangia-acceptance");
+  AcceptancePlan plan = parse_acceptance_plan(read_text_file(path), path);
+  if (plan.arrangements.empty()) {
+    throw Error(ErrorKind::Input,
+                fmt::format("{}: arrangements must name the scans: [[arrangements]] with name and "
+                            "scan",
+                            path.string()));
+  }
+  return plan;
+}
+
+AcceptancePlan parse_acceptance_plan(const std::string& text, const std::filesystem::path& path) {
+  const toml::table table = parse_toml_text_as(text, path, "frangia-acceptance");
   TomlReader top(path, "", table);
   top.ignore("format");
   top.ignore("version");
@@ -122,8 +135,6 @@ AcceptancePlan read_acceptance_plan(const std::filesystem::path& path) {
   }
   if (plan.source == AcceptanceSource::Scans) {
     plan.arrangements = arrangements_of(top, path.parent_path());
-    if (plan.arrangements.empty())
-      top.fail("arrangements", "must name the scans: [[arrangements]] with name and scan");
   } else {
     if (top.has("arrangements"))
       top.fail("arrangements", "is for source = \"scans\"; leave it out, the usual ones are made");

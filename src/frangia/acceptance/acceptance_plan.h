@@ -78,4 +78,9 @@ struct AcceptancePlan {
 /// @errors   Error(Input) that names the file and the key, also one that is unknown
 [[nodiscard]] AcceptancePlan read_acceptance_plan(const std::filesystem::path& path);
 
+/// The same of text; `path` is named in messages, and names of files are relative to its folder. A
+/// plan of scans may name none: they are still to be made.
+[[nodiscard]] AcceptancePlan parse_acceptance_plan(const std::string& text,
+                                                   const std::filesystem::path& path);
+
 }  // namespace frangia

@@ -7,6 +7,10 @@
 
 namespace frangia {
 
+/// The warning of a test whose scans no real camera captured.
+inline constexpr const char* kSimulatedCamera =
+    "the camera of the rig is simulated; the certificate says nothing about a real scanner";
+
 /// What a certificate states beside the results.
 struct CertificateFacts {
   std::string created;                ///< date and time

@@ -20,6 +20,8 @@
 namespace frangia {
 namespace {
 
+constexpr std::array<double, 4> kAzimuths{35.0, 125.0, 215.0, 305.0};  // degrees
+
 /// A place on the part that pictures label.
 struct LabelledPlace {
   PictureLabel label;
@@ -108,6 +110,65 @@ std::vector<LabelledPlace> labelled_places(const Inspection& part) {
   return places;
 }
 
+/// A direction to the viewer.
+struct PicturedFrom {
+  double azimuth_deg = 0.0;
+  double elevation_deg = 0.0;
+};
+
+/// Up to two further directions, from below or from above, that show the most places which no
+/// picture so far labels.
+std::vector<PicturedFrom> views_of_unseen(const RayScene& scene,
+                                          RenderOptions options,
+                                          const std::vector<LabelledPlace>& places,
+                                          const std::vector<ReportPicture>& pictures) {
+  std::set<std::string> labelled;
+  for (const ReportPicture& picture : pictures) {
+    for (const PictureLabel& label : picture.labels)
+      labelled.insert(label.detail + label.text);
+  }
+  std::vector<PicturedPlace> points;
+  std::vector<std::string> names;
+  for (const LabelledPlace& place : places) {
+    const std::string name = place.label.detail + place.label.text;
+    if (labelled.count(name) > 0) continue;
+    points.push_back(place.place);
+    names.push_back(name);
+  }
+  constexpr std::array<double, 3> kElevations{-35.0, 70.0, -80.0};
+  constexpr std::size_t kMost = 2;  // each takes 1.5 s of processor time
+  std::vector<PicturedFrom> chosen;
+  while (chosen.size() < kMost && !points.empty()) {
+    PicturedFrom best;
+    std::set<std::string> shown;
+    for (const double elevation : kElevations) {
+      for (const double azimuth : kAzimuths) {
+        options.azimuth_rad = rad_from_deg(azimuth);
+        options.elevation_rad = rad_from_deg(elevation);
+        const auto positions = picture_positions(scene, options, points);
+        std::set<std::string> seen;
+        for (std::size_t i = 0; i < points.size(); ++i) {
+          if (positions[i]) seen.insert(names[i]);
+        }
+        if (seen.size() <= shown.size()) continue;
+        best = {azimuth, elevation};
+        shown = std::move(seen);
+      }
+    }
+    if (shown.empty()) break;  // deep in a hole
+    chosen.push_back(best);
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      if (shown.count(names[i]) > 0) continue;
+      points[kept] = points[i];
+      names[kept++] = names[i];
+    }
+    points.resize(kept);
+    names.resize(kept);
+  }
+  return chosen;
+}
+
 /// Adds the labels of the places that a picture sees, each text once.
 void add_labels(ReportPicture& picture,
                 const RayScene& scene,
@@ -133,7 +194,6 @@ void add_labels(ReportPicture& picture,
 std::vector<ReportPicture> report_pictures(const Inspection& part,
                                            double scale_mm,
                                            const Run& run) {
-  constexpr std::array<double, 4> kAzimuths{35.0, 125.0, 215.0, 305.0};
   RenderOptions options;
   if (part.surface) options = deviation_picture(part.mesh, *part.surface, scale_mm);
   // More pixels and rays would not be seen, but waited for.
@@ -170,6 +230,10 @@ std::vector<ReportPicture> report_pictures(const Inspection& part,
     add(part.surface ? "deviation, " : "", azimuth, 20.0);
     add_labels(pictures.back(), scene, options, places);
     if (!part.surface && pictures.size() == 2) break;
+  }
+  for (const PicturedFrom& from : views_of_unseen(scene, options, places, pictures)) {
+    add(part.surface ? "deviation, " : "", from.azimuth_deg, from.elevation_deg);
+    add_labels(pictures.back(), scene, options, places);
   }
   // The picture with the worst place stands first.
   if (!places.empty()) {

@@ -13,6 +13,7 @@
 #include "frangia/core/make_folder.h"
 #include "frangia/core/write_text_file.h"
 #include "frangia/inspection/write_inspection_plan.h"
+#include "frangia/service/acceptance_record.h"
 
 namespace frangia {
 namespace {
@@ -138,6 +139,7 @@ void prepare_next_part(const ProjectFolder& before,
   copy_if_there(before.in_folder("true-rig.toml"), next.in_folder("true-rig.toml"));
   copy_if_there(before.capture(), next.capture());
   copy_reference(before, next);
+  copy_acceptance(before, next);
   if (plan) {
     InspectionPlan same = *plan;
     same.report.serial.clear();

@@ -31,9 +31,9 @@ void write_series_results(const ProjectFolder& project,
                           const Inspection& found,
                           const InspectionPlan& plan);
 
-/// Prepares a project for the next part: it gets rig, settings of the capture, reference, plan and
-/// the series of the one before, whose part is added. The serial number is left out of the plan.
-/// `next` is new and empty.
+/// Prepares a project for the next part: it gets rig, settings of the capture, reference, plan,
+/// acceptance test and the series of the one before, whose part is added. The serial number is left
+/// out of the plan. `next` is new and empty.
 ///
 /// @errors   Error(File) when something cannot be copied
 void prepare_next_part(const ProjectFolder& before,

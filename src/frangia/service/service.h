@@ -137,7 +137,7 @@ class Service {
   /// The reference as it is drawn, packed as a level; empty before the command `show-reference`.
   [[nodiscard]] std::string reference_picture() const;
   /// Adds a piece to the file that becomes the reference by the command `set-reference`; at offset
-  /// 0 it begins anew.
+  /// 0 it starts over.
   ///
   /// @errors   Error(Input) when a piece is missing, or beyond 512 MB; Error(File) when it cannot
   ///          be written

@@ -1,3 +1,4 @@
+import { FAULTS_ACCEPTANCE } from './faults_acceptance';
 import { FAULTS_ACQUISITION } from './faults_acquisition';
 import { FAULTS_BUILD } from './faults_build';
 import { FAULTS_CAD } from './faults_cad';
@@ -28,6 +29,7 @@ import { FAULTS_SIMULATE } from './faults_simulate';
 
 /** Sentences of the server: the first column is the sentence as the library writes it. */
 export const FAULTS = {
+  ...FAULTS_ACCEPTANCE,
   ...FAULTS_ACQUISITION,
   ...FAULTS_BUILD,
   ...FAULTS_CAD,

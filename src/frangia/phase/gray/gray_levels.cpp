@@ -100,7 +100,7 @@ Image<float> gray_threshold(const FrameStack& gray,
     }
   });
   if (given) return threshold;
-  // At a border where many bits change, no frame may be fully bright: the pixels beside it tell.
+  // At a border where many bits change, no frame may be fully bright; the neighbouring pixels are.
   constexpr float kLeastOfBeside = 0.7F;
   parallel_rows(height, [&](int y) {
     for (int x = 0; x < width; ++x) {

@@ -19,8 +19,8 @@ namespace frangia {
 [[nodiscard]] std::vector<Target> registered_targets(const ScanTargets& targets,
                                                      const MeasuredSetup& joined);
 
-/// What is said of them. Known distances that were not measured, or that contradict each other, are
-/// warned of.
+/// The report on targets. Warns of known distances that were not measured or that contradict each
+/// other.
 [[nodiscard]] TargetsReport report_targets(const std::vector<Target>& found,
                                            const ScanTargets& targets,
                                            const MeasuredSetup& joined,

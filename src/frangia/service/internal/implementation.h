@@ -113,6 +113,9 @@ class Service::Implementation {
   Json keep_plan(const std::string& text);
   Json start_inspect(CommandArguments& arguments);
   Json start_report(CommandArguments& arguments);
+  Json set_acceptance(CommandArguments& arguments);
+  Json start_measure_arrangement(CommandArguments& arguments);
+  Json start_certificate(CommandArguments& arguments);
   /// Writes a page as a PDF file.
   void print_page(const ProjectFolder& project,
                   const std::string& page,
@@ -166,7 +169,8 @@ class Service::Implementation {
   ///
   /// @errors   as read_surface_versions
   std::shared_ptr<const SurfaceVersions> versions_of(const ProjectFolder& project);
-  /// The current version, which is read unless it is there. `otherwise` is said when there is none.
+  /// The current version, read from disk unless it is in memory. `otherwise` is the error without
+  /// one.
   const SurfaceModel& model_of(const ProjectFolder& project, const char* otherwise, const Run& run);
   /// Drops the model of another project.
   void use(const ProjectFolder& project);

@@ -16,40 +16,12 @@
 #include "frangia/report/qif_results.h"
 #include "frangia/report/write_report.h"
 #include "frangia/service/internal/implementation.h"
+#include "frangia/service/internal/toml_text.h"
 
 namespace frangia {
 namespace {
 
 constexpr std::size_t kMostPlanBytes = 500'000;
-
-/// A value of JSON as TOML writes it.
-std::string toml_of(const nlohmann::json& value) {
-  if (value.is_object()) {
-    std::string inner;
-    for (const auto& [key, one] : value.items()) {
-      if (one.is_null()) continue;
-      inner += (inner.empty() ? "" : ", ") + nlohmann::json(key).dump() + " = " + toml_of(one);
-    }
-    return "{" + inner + "}";
-  }
-  if (value.is_array()) {
-    std::string inner;
-    for (const nlohmann::json& one : value)
-      inner += (inner.empty() ? "" : ", ") + toml_of(one);
-    return "[" + inner + "]";
-  }
-  return value.dump();
-}
-
-/// The plan of the page as the text of an inspection.toml, so that one reader checks it.
-std::string plan_text_of(const nlohmann::json& plan) {
-  std::string text = "format = \"frangia-inspection\"\nversion = 1\n";
-  for (const auto& [key, value] : plan.items()) {
-    if (key == "format" || key == "version" || value.is_null()) continue;
-    text += nlohmann::json(key).dump() + " = " + toml_of(value) + "\n";
-  }
-  return text;
-}
 
 /// A plan without the files that it names: no name that arrives from a page or with a folder is
 /// opened. The reference is the one that was sent.
@@ -107,7 +79,7 @@ void read_plan_of(const ProjectFolder& folder, OpenProject& project) {
 }
 
 nlohmann::ordered_json Service::Implementation::set_plan(CommandArguments& arguments) {
-  const std::string text = plan_text_of(arguments.object("plan"));
+  const std::string text = toml_text(arguments.object("plan"), "frangia-inspection");
   arguments.check_all_read();
   return keep_plan(text);
 }

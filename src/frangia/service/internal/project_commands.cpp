@@ -93,12 +93,15 @@ void read_rig_of(const ProjectFolder& folder, OpenProject& project) {
   }
 }
 
-bool is_adjustable(const OpenProject& project) {
-  const bool simulated =
-      std::any_of(project.devices.begin(), project.devices.end(), [](const ProjectDevice& device) {
+bool is_simulated(const OpenProject& project) {
+  return std::any_of(
+      project.devices.begin(), project.devices.end(), [](const ProjectDevice& device) {
         return device.test.table == "camera" && device.test.driver == "simulated";
       });
-  return simulated && project.rig && !project.rig->calibration;
+}
+
+bool is_adjustable(const OpenProject& project) {
+  return is_simulated(project) && project.rig && !project.rig->calibration;
 }
 
 void Service::Implementation::reload_rig(const ProjectFolder& folder) {
@@ -150,6 +153,7 @@ void Service::Implementation::open(const ProjectFolder& folder) {
   project.reference = reference_of(folder);
   project.measurements = read_hand_measurements(folder);
   project.series = read_series(library_, folder);
+  project.acceptance = read_acceptance(library_, folder);
   read_plan_of(folder, project);
   bool loads = true;
   try {

@@ -198,6 +198,7 @@ Json json_of_project(const OpenProject& project, const CommandLines& commands) {
   }
   json["measurements"] = json_of(project.measurements);
   json["series"] = json_of(project.series);
+  json["acceptance"] = project.acceptance ? json_of(*project.acceptance) : Json();
   json["reference"] = project.reference.name.empty()
                           ? Json()
                           : Json{{"name", project.reference.name},

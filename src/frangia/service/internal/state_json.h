@@ -14,6 +14,7 @@
 #include "frangia/devices/test_devices.h"
 #include "frangia/inspection/inspection_plan.h"
 #include "frangia/rig/rig.h"
+#include "frangia/service/acceptance_record.h"
 #include "frangia/service/calibrate_axis.h"
 #include "frangia/service/calibration_wizard.h"
 #include "frangia/service/capture_settings.h"
@@ -90,13 +91,17 @@ struct OpenProject {
   ProjectReference reference;
   PicturePtr reference_picture;  ///< since it was asked for; null before
   std::vector<HandMeasurement> measurements;
-  std::vector<SeriesPart> series;      ///< parts before this one, the oldest first
-  std::optional<InspectionPlan> plan;  ///< without its reference; none: none was made
-  std::string plan_fault;              ///< why the plan in the folder cannot be read
+  std::vector<SeriesPart> series;              ///< parts before this one, the oldest first
+  std::optional<AcceptanceRecord> acceptance;  ///< of the series; none: nothing is tested
+  std::optional<InspectionPlan> plan;          ///< without its reference; none: none was made
+  std::string plan_fault;                      ///< why the plan in the folder cannot be read
 };
 
 /// Reads the plan of a project into it.
 void read_plan_of(const ProjectFolder& folder, OpenProject& project);
+
+/// Whether its camera is one in software.
+[[nodiscard]] bool is_simulated(const OpenProject& project);
 
 /// Whether the parts of its rig can be moved by hand: they are simulated, and nothing was measured
 /// of them.

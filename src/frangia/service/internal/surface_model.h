@@ -108,8 +108,8 @@ using SurfacePtr = std::shared_ptr<const SurfaceSnapshot>;
 [[nodiscard]] std::string mesh_name(const SurfaceSnapshot& surface);
 
 /// A version of the surface under edit, in memory. Every change is worked out completely as another
-/// model, which shares what is the same and takes the place of this one without failing: whoever
-/// writes it to the disk in between may fail or be stopped. Revisions are those of SurfaceVersions;
+/// model, which shares what is the same and takes the place of this one without failing; writing it
+/// to disk in between may fail or be stopped. Revisions are those of SurfaceVersions;
 /// previews and inspections count on their own.
 class SurfaceModel {
  public:

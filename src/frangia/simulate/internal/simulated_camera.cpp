@@ -131,8 +131,8 @@ class SceneOfSetups {
   /// Moves the projector to where it is at a time of the bench's clock.
   void warm_up(double clock_s) {
     if (warm_up_mm_ == 0.0) return;
-    // In steps that frames hardly show, because the light of each is traced anew. It ends where the
-    // rig states it.
+    // In steps that frames hardly show, because each needs its light traced again. It ends where
+    // the rig states it.
     constexpr double kSteps = 100.0;
     const double done = std::round(kSteps * -std::expm1(-clock_s / warm_up_s_)) / kSteps;
     for (const auto& scene : {first_, later_}) {

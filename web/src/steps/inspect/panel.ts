@@ -8,6 +8,7 @@ import type { Plan } from '../../inspection_types';
 import type { Comparison, Inspection, MeasuredRow } from '../../types';
 import { choice, nextStep } from '../../ui';
 import { verdictSentence } from '../../verdict_words';
+import { accepting } from './accept';
 import { planned } from './plan';
 import { reporting } from './report';
 import { series } from './series';
@@ -353,5 +354,5 @@ export function inspectStep(app: App): TemplateResult {
   const found = surface?.inspection ?? null;
   return html`${found ? verdict(app, found) : ''} ${reference(app)} ${found ? rows(found) : ''} ${planned(app, found)}
   ${surface?.comparison ? deviations(app, surface.comparison) : ''} ${rule(app)} ${app.measuring.panel()}
-  ${reporting(app, found)} ${series(app, found)} ${nextStep(app, 'export', Boolean(found))}`;
+  ${reporting(app, found)} ${series(app, found)} ${accepting(app)} ${nextStep(app, 'export', Boolean(found))}`;
 }
