@@ -22,7 +22,10 @@ class AcceptanceInTheApp : public ServiceTest {
     const auto folder = folder_.path() / "projects" / name;
     std::filesystem::create_directories(folder / "scan" / "views" / "000");
     std::ofstream(folder / "project.json") << "{}";
-    std::ofstream(folder / "scan" / "scan.toml") << "name = \"" << name << "\"\n";
+    std::ofstream(folder / "scan" / "scan.toml")
+        << "format = \"frangia-scan\"\nversion = 1\nname = \"bar\"\n[[pattern]]\nname = \"p20\"\n"
+           "kind = \"fringe\"\nperiod_px = 20\nshifts_deg = [0, 120, 240]\n"
+           "[[view]]\nangle_deg = 0\nfolder = \"views/000\"\n";
     std::ofstream(folder / "scan" / "views" / "000" / "p20-0.png") << name;
     write_mesh(folder / "surface.ply", make_dumbbell({20.0, 20.0}, spacing_mm));
     std::ofstream(folder / "surface.json") << summary.dump();
