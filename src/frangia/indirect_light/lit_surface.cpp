@@ -133,7 +133,7 @@ bool LitSurface::is_on_crease(std::size_t triangle, std::size_t corner) const {
 
 double LitSurface::direct_light(const Eigen::Isometry3d& rig_from_object,
                                 const Vector3d& lamp_mm,
-                                const SurfacePoint& on) const {
+                                const ShadedPoint& on) const {
   const Vector3d to_light = lamp_mm - on.point_mm;
   const double cosine = on.normal.dot(to_light.normalized());
   if (cosine <= 0.0) return 0.0;
@@ -142,7 +142,7 @@ double LitSurface::direct_light(const Eigen::Isometry3d& rig_from_object,
   return cosine / to_light.squaredNorm();
 }
 
-std::optional<SeenPatch> LitSurface::look(const SurfacePoint& from,
+std::optional<SeenPatch> LitSurface::look(const ShadedPoint& from,
                                           const Eigen::Matrix3d& turned,
                                           std::size_t cell) const {
   const Vector3d origin = from.point_mm + step_off_mm_ * from.normal;
@@ -172,7 +172,7 @@ std::optional<SeenPatch> LitSurface::look(const SurfacePoint& from,
   return patch;
 }
 
-std::vector<SeenPatch> LitSurface::look_around(const SurfacePoint& from) const {
+std::vector<SeenPatch> LitSurface::look_around(const ShadedPoint& from) const {
   const Eigen::Matrix3d turned = turn_to(from.normal);
   std::vector<SeenPatch> out;
   for (std::size_t part = 0; part < kParts; ++part) {
@@ -185,7 +185,7 @@ std::vector<SeenPatch> LitSurface::look_around(const SurfacePoint& from) const {
   return out;
 }
 
-bool LitSurface::sees_something(const SurfacePoint& from) const {
+bool LitSurface::sees_something(const ShadedPoint& from) const {
   const Eigen::Matrix3d turned = turn_to(from.normal);
   for (std::size_t i = 0; i < cells().size(); ++i)
     if (part_of(i) == 0 && look(from, turned, i)) return true;
@@ -219,7 +219,7 @@ PointLight LitSurface::light_along(const Eigen::Isometry3d& rig_from_object,
   const auto seen = scene_.first_hit(origin_mm, direction);
   distance = seen ? seen->distance : 0.0;
   if (!seen || seen->normal.dot(direction) >= 0.0) return out;
-  const SurfacePoint to{origin_mm + seen->distance * direction, normal_at(*seen)};
+  const ShadedPoint to{origin_mm + seen->distance * direction, normal_at(*seen)};
   const Vector3d lamp_mm = rig_from_object.inverse() * projector_.position_mm;
   out.direct = direct_light(rig_from_object, lamp_mm, to);
   if (!(out.direct > 0.0)) return out;

@@ -28,7 +28,7 @@ struct PointLight {
 };
 
 /// A point of the surface and its normal, object frame.
-struct SurfacePoint {
+struct ShadedPoint {
   Eigen::Vector3d point_mm;
   Eigen::Vector3d normal;  ///< unit, outward
 };
@@ -36,7 +36,7 @@ struct SurfacePoint {
 /// What a cell of the hemisphere about a point of the surface meets.
 struct SeenPatch {
   RayHit hit;              ///< of the ray through the middle of the cell
-  SurfacePoint at;         ///< there, with the shading normal
+  ShadedPoint at;          ///< there, with the shading normal
   bool is_inside = false;  ///< the ray meets the inside of the surface, through a hole
   /// Where the middles of the cell's sides meet the plane of the hit: across the rings, and along
   /// its ring; NaN where they do not meet it.
@@ -66,13 +66,13 @@ class LitSurface {
 
   /// What the cells of the hemisphere about a point meet, of equal cosine-weighted solid angles.
   /// Where a quarter of them, spread over the hemisphere, meets nothing, the others are not traced.
-  [[nodiscard]] std::vector<SeenPatch> look_around(const SurfacePoint& from) const;
+  [[nodiscard]] std::vector<SeenPatch> look_around(const ShadedPoint& from) const;
   /// Whether a quarter of these directions meet something.
-  [[nodiscard]] bool sees_something(const SurfacePoint& from) const;
+  [[nodiscard]] bool sees_something(const ShadedPoint& from) const;
   /// The direct light of the projector at this place of the object frame; 0 in shadow.
   [[nodiscard]] double direct_light(const Eigen::Isometry3d& rig_from_object,
                                     const Eigen::Vector3d& lamp_mm,
-                                    const SurfacePoint& on) const;
+                                    const ShadedPoint& on) const;
   /// The interpolated normal at a hit; a corner on a crease takes part with the triangle's normal.
   [[nodiscard]] Eigen::Vector3d normal_at(const RayHit& hit) const;
   /// Whether a corner of a triangle lies on a crease, where its vertex has another normal.
@@ -92,7 +92,7 @@ class LitSurface {
   [[nodiscard]] const std::vector<Pattern>& patterns() const { return patterns_; }  ///< as given
 
  private:
-  [[nodiscard]] std::optional<SeenPatch> look(const SurfacePoint& from,
+  [[nodiscard]] std::optional<SeenPatch> look(const ShadedPoint& from,
                                               const Eigen::Matrix3d& turned,
                                               std::size_t cell) const;
 

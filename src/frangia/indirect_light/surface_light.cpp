@@ -69,11 +69,11 @@ SurfaceLight::SurfaceLight(std::shared_ptr<const LitSurface> surface,
 }
 
 /// Places the points at which light is collected.
-std::vector<SurfacePoint> SurfaceLight::place_points() {
+std::vector<ShadedPoint> SurfaceLight::place_points() {
   constexpr double kInset = 0.15;  // of a point on a crease, from its corner to the middle
   const Mesh& mesh = surface_->scene().mesh();
   const double longest_mm = long_edge_mm(mesh);
-  std::vector<SurfacePoint> points;
+  std::vector<ShadedPoint> points;
   std::vector<std::uint32_t> of_vertex(mesh.vertices_mm.size(), kNothing);
   corners_.assign(mesh.triangles.size(), {kNothing, kNothing, kNothing});
   is_long_.assign(mesh.triangles.size(), 0);
@@ -112,7 +112,7 @@ void SurfaceLight::light_vertices(Pose& pose) const {
   pose.phase_rad.assign(mesh.vertices_mm.size(), kMissing);
   parallel_chunks(mesh.vertices_mm.size(), 1024, [&](std::size_t begin, std::size_t end) {
     for (std::size_t v = begin; v < end; ++v) {
-      const SurfacePoint at{mesh.vertices_mm[v].cast<double>(), mesh.normals[v].cast<double>()};
+      const ShadedPoint at{mesh.vertices_mm[v].cast<double>(), mesh.normals[v].cast<double>()};
       pose.lit[v] =
           surface_->direct_light(pose.rig_from_object, pose.lamp_mm, at) > 0.0 ? 1.0F : 0.0F;
       pose.phase_rad[v] = phase_at(
@@ -122,7 +122,7 @@ void SurfaceLight::light_vertices(Pose& pose) const {
 }
 
 /// Finds what the points see; those that see something become receivers, and collect its light.
-void SurfaceLight::collect(const std::vector<SurfacePoint>& points) {
+void SurfaceLight::collect(const std::vector<ShadedPoint>& points) {
   constexpr std::size_t kChunk = 64;
   std::vector<std::vector<SeenPatch>> seen(std::min<std::size_t>(points.size(), 64 * kChunk));
   std::vector<std::uint32_t> receivers(points.size(), kNothing);
@@ -151,7 +151,7 @@ void SurfaceLight::collect(const std::vector<SurfacePoint>& points) {
 }
 
 void SurfaceLight::collect_at(std::size_t receiver,
-                              const SurfacePoint& point,
+                              const ShadedPoint& point,
                               const std::vector<SeenPatch>& patches) {
   const Mesh& mesh = surface_->scene().mesh();
   std::vector<Emitter> emitters;
@@ -226,7 +226,7 @@ PointLight SurfaceLight::light_along(std::size_t pose_index,
   out.fringes.assign(surface_->patterns().size(), 0.0);
   distance = seen ? seen->distance : 0.0;
   if (!seen || seen->normal.dot(direction) >= 0.0) return out;
-  const SurfacePoint to{origin_mm + seen->distance * direction, surface_->normal_at(*seen)};
+  const ShadedPoint to{origin_mm + seen->distance * direction, surface_->normal_at(*seen)};
   out.direct = surface_->direct_light(pose.rig_from_object, pose.lamp_mm, to);
   if (!(out.direct > 0.0)) return out;
   double weights = 0.0;

@@ -48,11 +48,11 @@ class SurfaceLight {
   };
   static constexpr std::uint32_t kNothing = UINT32_MAX;  ///< no receiver
 
-  [[nodiscard]] std::vector<SurfacePoint> place_points();
+  [[nodiscard]] std::vector<ShadedPoint> place_points();
   void light_vertices(Pose& pose) const;
-  void collect(const std::vector<SurfacePoint>& points);
+  void collect(const std::vector<ShadedPoint>& points);
   void collect_at(std::size_t receiver,
-                  const SurfacePoint& point,
+                  const ShadedPoint& point,
                   const std::vector<SeenPatch>& patches);
   [[nodiscard]] std::size_t values() const { return 2 + 2 * surface_->patterns().size(); }
 
