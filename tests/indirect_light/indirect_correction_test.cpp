@@ -64,7 +64,9 @@ View corrected(double sign, int first, int last) {
   const auto surface = std::make_shared<const LitSurface>(
       testing::two_walls(40.0, 40, sign), testing::far_projector(kProjector_mm), coarse_fringes());
   View view = view_with_gap(rays, sign, first, last);
-  IndirectCorrection(surface, 0.8, PhaseSource::Finest, true, rays).correct(view);
+  const std::vector<Eigen::Isometry3d> no_poses;  // each pixel is traced
+  const auto collected = std::make_shared<const SurfaceLight>(surface, no_poses);
+  IndirectCorrection(collected, 0.8, PhaseSource::Finest, true).correct(view, rays);
   return view;
 }
 

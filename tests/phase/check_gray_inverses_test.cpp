@@ -13,12 +13,13 @@
 namespace frangia {
 namespace {
 
-FrameStack code_and_inverses() {
+/// A code with bright stripes of up to `bright` counts.
+FrameStack code_and_inverses(double bright_counts = 180.0, double sigma_counts = 1.5) {
   FrameStack stack;
   stack.pattern = {.name = "gray", .kind = PatternKind::Gray, .bits = 6, .stripe_px = 10.0};
   stack.pattern.inverted = InvertedFrames::After;
   std::mt19937 generator(4);
-  std::normal_distribution<double> noise(0.0, 1.5);
+  std::normal_distribution<double> noise(0.0, sigma_counts);
   for (const bool inverted : {false, true}) {
     for (int bit = 0; bit < 6; ++bit) {
       Image<std::uint8_t> image(200, 120);
@@ -29,7 +30,7 @@ FrameStack code_and_inverses() {
           const bool bright = ((code >> static_cast<unsigned>(5 - bit)) % 2 == 1) != inverted;
           const double albedo = 0.7 + 0.3 * std::sin(0.1 * x + 0.2 * y);
           image(x, y) = static_cast<std::uint8_t>(
-              std::lround(20.0 + (bright ? 180.0 * albedo : 0.0) + noise(generator)));
+              std::lround(20.0 + (bright ? bright_counts * albedo : 0.0) + noise(generator)));
         }
       }
       stack.frames.emplace_back(std::move(image));
@@ -63,6 +64,20 @@ TEST(CheckGrayInverses, NamesBothFramesThatAreExchanged) {
   std::swap(stack.frames[4], stack.frames[5]);
   EXPECT_NE(check_gray_inverses(stack).finding.find("frames 4, 5 and their inverses"),
             std::string::npos);
+}
+
+TEST(CheckGrayInverses, NamesAFrameAtHalfTheLightOfADimCode) {
+  constexpr double kBright_counts = 9.0;
+  constexpr double kSigma_counts = 0.4;
+  const FrameStack sound = code_and_inverses(kBright_counts, kSigma_counts);
+  EXPECT_TRUE(check_gray_inverses(sound).decided);
+  EXPECT_TRUE(check_gray_inverses(sound).consistent);
+  FrameStack half = sound;
+  for (std::uint8_t& counts : std::get<Image<std::uint8_t>>(half.frames[9]).pixels())
+    counts = static_cast<std::uint8_t>((counts + 1) / 2);
+  EXPECT_FALSE(check_gray_inverses(half).consistent);
+  // Bright stripes within the noise say nothing.
+  EXPECT_FALSE(check_gray_inverses(code_and_inverses(1.0, kSigma_counts)).decided);
 }
 
 }  // namespace

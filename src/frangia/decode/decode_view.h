@@ -26,9 +26,13 @@ namespace frangia {
 
 /// One direction of fringes of a view: its phase and the intermediate results.
 struct DecodedDirection {
-  NoiseModel noise;                          ///< of the camera: from rig.toml, survey or frames
-  Pattern coarsest;                          ///< the coarsest fringe pattern
-  std::vector<WrappedPhase> wrapped;         ///< coarse to fine; empty unless `keep_maps`
+  NoiseModel noise;                   ///< of the camera: from rig.toml, survey or frames
+  Pattern coarsest;                   ///< the coarsest fringe pattern
+  std::vector<WrappedPhase> wrapped;  ///< coarse to fine; empty unless `keep_maps`
+  /// The wrapped maps at every `thinning_px`-th pixel along both axes, beginning with pixel (0, 0),
+  /// coarse to fine. They are kept always.
+  std::vector<WrappedPhase> thinned;
+  int thinning_px = 4;                       ///< pixels from one of `thinned` to the next
   std::vector<FrameAssessment> assessments;  ///< one per fringe pattern, in the same order
   std::optional<RelativePhase> relative;     ///< of a spatially unwrapped scan
   std::vector<ProfilePoint> profile;         ///< of the laser sheet, where the scan has one

@@ -26,9 +26,9 @@ bool is_inside(const Image<float>& depth_mm, int x, int y) {
 
 }  // namespace
 
-void IndirectCorrection::correct(View& view) const {
+void IndirectCorrection::correct(View& view, const Image<Eigen::Vector2f>& rays) const {
   if (!moves_points_ || view.range.phase_rad.empty()) return;
-  const ViewLight light(*surface_, view, rays_, LightUse::Correction, &sight_);
+  const ViewLight light(collected_->surface(), view, rays, LightUse::Correction, collected_.get());
   const Image<float> before_mm = view.range.depth_mm;
   parallel_rows(before_mm.height(), [&](int y) {
     for (int x = 0; x < before_mm.width(); ++x) {
@@ -56,8 +56,9 @@ bool IndirectCorrection::is_lit_indirectly(const ViewLight& light, const RangePi
   return albedo_ * std::abs(share.fringes.back()) > kMatters_rad;
 }
 
-Image<float> IndirectCorrection::systematic_mm(const View& view) const {
-  const ViewLight light(*surface_, view, rays_, LightUse::Uncertainty, &sight_);
+Image<float> IndirectCorrection::systematic_mm(const View& view,
+                                               const Image<Eigen::Vector2f>& rays) const {
+  const ViewLight light(collected_->surface(), view, rays, LightUse::Uncertainty, collected_.get());
   const Image<float>& depth_mm = view.range.depth_mm;
   Image<float> out(depth_mm.width(), depth_mm.height(), kMissing);
   parallel_rows(depth_mm.height(), [&](int y) {
@@ -69,9 +70,10 @@ Image<float> IndirectCorrection::systematic_mm(const View& view) const {
   return out;
 }
 
-Image<float> IndirectCorrection::largest_shifts_mm(const View& view) const {
+Image<float> IndirectCorrection::largest_shifts_mm(const View& view,
+                                                   const Image<Eigen::Vector2f>& rays) const {
   constexpr double kMatters = 2.0;  // sigma of noise
-  const ViewLight light(*surface_, view, rays_, LightUse::Uncertainty, &sight_);
+  const ViewLight light(collected_->surface(), view, rays, LightUse::Uncertainty, collected_.get());
   const Image<float>& depth_mm = view.range.depth_mm;
   Image<float> out(depth_mm.width(), depth_mm.height(), kMissing);
   std::vector<float> sigmas_mm;
@@ -89,19 +91,20 @@ Image<float> IndirectCorrection::largest_shifts_mm(const View& view) const {
         continue;
       }
       constexpr double kMost_rad = 2.0;  // the indirect fringes may be the stronger ones
-      out(x, y) = static_cast<float>(kMost_rad * ray_mm_per_rad(at));
+      out(x, y) = static_cast<float>(kMost_rad * ray_mm_per_rad(light, at));
     }
   });
   return out;
 }
 
 /// Change of a point along its ray with the phase.
-double IndirectCorrection::ray_mm_per_rad(const RangePixel& at) const {
-  const Eigen::Vector2d ray = rays_(at.x, at.y).cast<double>();
-  const Pattern& finest = surface_->patterns().back();
-  const double phase =
-      phase_at(static_cast<double>(at.depth_mm) * ray.homogeneous(), finest, surface_->projector());
-  const RayDepth slope = intersect_fringe(ray, phase, finest, surface_->projector());
+double IndirectCorrection::ray_mm_per_rad(const ViewLight& light, const RangePixel& at) const {
+  const Eigen::Vector2d ray = light.rays()(at.x, at.y).cast<double>();
+  const Pattern& finest = patterns().back();
+  const double phase = phase_at(static_cast<double>(at.depth_mm) * ray.homogeneous(),
+                                finest,
+                                collected_->surface().projector());
+  const RayDepth slope = intersect_fringe(ray, phase, finest, collected_->surface().projector());
   return std::abs(slope.mm_per_rad) * std::sqrt(1.0 + ray.squaredNorm());
 }
 
@@ -109,10 +112,10 @@ double IndirectCorrection::sigma_mm(const ViewLight& light, const RangePixel& at
   const auto depth = static_cast<double>(at.depth_mm);
   const IndirectShare share = light.at(at.x, at.y, depth);
   if (share.mean + share.unknown <= 0.0) return 0.0;
-  const IndirectPhase found = indirect_phase(share, albedo_, surface_->patterns(), source_);
+  const IndirectPhase found = indirect_phase(share, albedo_, patterns(), source_);
   const double sigma_rad =
       moves_points_ ? found.sigma_rad : std::hypot(found.sigma_rad, found.error_rad);
-  const double mm = ray_mm_per_rad(at) * sigma_rad;
+  const double mm = ray_mm_per_rad(light, at) * sigma_rad;
   return std::isfinite(mm) ? mm : 0.0;
 }
 
@@ -120,14 +123,16 @@ double IndirectCorrection::sigma_mm(const ViewLight& light, const RangePixel& at
 bool IndirectCorrection::move(const ViewLight& light, RangePixel& at) const {
   IndirectShare share = light.at(at.x, at.y, static_cast<double>(at.depth_mm));
   if (share.mean <= 0.0 || std::isnan(at.phase_rad)) return true;
-  const Pattern& finest = surface_->patterns().back();
-  const Eigen::Vector2d ray = rays_(at.x, at.y).cast<double>();
-  const double phase =
-      phase_at(static_cast<double>(at.depth_mm) * ray.homogeneous(), finest, surface_->projector());
-  const SolvedPhase solved = direct_phase(
-      share, phase, static_cast<double>(at.phase_rad), albedo_, surface_->patterns(), source_);
+  const Pattern& finest = patterns().back();
+  const Eigen::Vector2d ray = light.rays()(at.x, at.y).cast<double>();
+  const double phase = phase_at(static_cast<double>(at.depth_mm) * ray.homogeneous(),
+                                finest,
+                                collected_->surface().projector());
+  const SolvedPhase solved =
+      direct_phase(share, phase, static_cast<double>(at.phase_rad), albedo_, patterns(), source_);
   if (solved.wrong_order) return false;
-  const RayDepth moved = intersect_fringe(ray, solved.phase_rad, finest, surface_->projector());
+  const RayDepth moved =
+      intersect_fringe(ray, solved.phase_rad, finest, collected_->surface().projector());
   if (!std::isnan(moved.depth_mm)) at.depth_mm = static_cast<float>(moved.depth_mm);
   return true;
 }

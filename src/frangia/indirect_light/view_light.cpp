@@ -33,9 +33,10 @@ ViewLight::ViewLight(const LitSurface& surface,
                      const View& view,
                      const Image<Eigen::Vector2f>& rays,
                      LightUse use,
-                     const SurfaceSight* sight)
+                     const SurfaceLight* collected)
     : surface_(surface),
-      sight_(sight),
+      collected_(collected),
+      pose_(collected != nullptr ? collected->pose_of(view.rig_from_object) : std::nullopt),
       rig_from_object_(view.rig_from_object),
       object_from_rig_(view.rig_from_object.inverse()),
       rays_(rays),
@@ -100,12 +101,11 @@ bool ViewLight::Grid::touches_varying(int x, int y) const {
 
 ViewLight::Node ViewLight::trace(int x, int y) const {
   const Eigen::Vector2d ray = rays_(x, y).cast<double>();
+  const Eigen::Vector3d origin_mm = object_from_rig_.translation();
+  const Eigen::Vector3d direction = object_from_rig_.linear() * ray.homogeneous();
   Node node;
-  node.light = surface_.light_along(rig_from_object_,
-                                    object_from_rig_.translation(),
-                                    object_from_rig_.linear() * ray.homogeneous(),
-                                    node.depth_mm,
-                                    sight_);
+  node.light = pose_ ? collected_->light_along(*pose_, origin_mm, direction, node.depth_mm)
+                     : surface_.light_along(rig_from_object_, origin_mm, direction, node.depth_mm);
   return node;
 }
 

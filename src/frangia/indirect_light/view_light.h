@@ -1,12 +1,15 @@
 #pragma once
 
 #include <complex>
+#include <cstddef>
+#include <optional>
 #include <vector>
 
 #include <Eigen/Core>
 
 #include "frangia/core/image.h"
 #include "frangia/indirect_light/lit_surface.h"
+#include "frangia/indirect_light/surface_light.h"
 #include "frangia/views/view.h"
 
 namespace frangia {
@@ -35,14 +38,15 @@ enum class LightUse {
 /// fringes varies slowly, so the nodes may be farther apart than a fringe.
 class ViewLight {
  public:
-  /// `surface` and `rays` must outlive it.
+  /// `surface`, `rays` and `collected` must outlive it. With `collected`, light is interpolated in
+  /// the poses that it knows.
   ///
   /// @shape    `view.range` and `rays` w x h
   ViewLight(const LitSurface& surface,
             const View& view,
             const Image<Eigen::Vector2f>& rays,
             LightUse use,
-            const SurfaceSight* sight = nullptr);
+            const SurfaceLight* collected = nullptr);
 
   /// The indirect light of the point of a pixel at this depth.
   ///
@@ -53,6 +57,8 @@ class ViewLight {
   ///
   /// @missing  zero for a point with none of them within 8 pixels
   [[nodiscard]] IndirectShare near(int x, int y, double depth_mm) const;
+
+  [[nodiscard]] const Image<Eigen::Vector2f>& rays() const { return rays_; }  ///< as given
 
  private:
   struct Node {
@@ -84,7 +90,8 @@ class ViewLight {
   [[nodiscard]] bool differ(const Grid& grid, std::size_t cell) const;
 
   const LitSurface& surface_;
-  const SurfaceSight* sight_;  ///< null: every point may get indirect light
+  const SurfaceLight* collected_;
+  std::optional<std::size_t> pose_;  ///< of the view in `collected_`; none: each node is traced
   Eigen::Isometry3d rig_from_object_;
   Eigen::Isometry3d object_from_rig_;
   const Image<Eigen::Vector2f>& rays_;

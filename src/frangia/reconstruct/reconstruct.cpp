@@ -12,7 +12,6 @@
 
 #include "frangia/core/missing.h"
 #include "frangia/core/release_cached_pixels.h"
-#include "frangia/decode/scan_decoding.h"
 #include "frangia/fusion/color_vertices.h"
 #include "frangia/geometry/vertex_data.h"
 #include "frangia/reconstruct/capabilities.h"
@@ -134,14 +133,14 @@ std::optional<ScanTargets> targets_of(const Scan& scan,
 /// Removes what is not the part from the views of one setup, corrects them for indirect light, and
 /// registers them on the turntable.
 EarlyIndirectLight register_setup(MeasuredSetup& setup,
-                                  const ScanDecoding& decoding,
+                                  const LitScan& lit,
                                   const Capabilities& can,
                                   const ReconstructOptions& options,
                                   std::optional<ScanTargets>& targets,
                                   double& turntable_top_height_mm,
                                   const Run& run) {
   MeasuredViews& measured = setup.measured;
-  const Scan& scan = decoding.scan;
+  const Scan& scan = lit.scan;
   const CameraModel& camera = scan.rig.reference().model;
   EarlyIndirectLight indirect_light;
   if (measured.points == 0) return indirect_light;
@@ -150,7 +149,7 @@ EarlyIndirectLight register_setup(MeasuredSetup& setup,
     turntable_top_height_mm = remove_turntable_top(measured, scan.rig, options.turntable_top, run);
   if (can.registers_views) {
     if (can.corrects_before_registration)
-      indirect_light = correct_before_registration(measured, decoding, options.fusion, run);
+      indirect_light = correct_before_registration(measured, lit, options.fusion, run);
     TurntableStations given = stations_of(scan.rig, measured);
     std::vector<PointTie> ties;
     if (targets) ties = target_ties(*targets, measured);
@@ -232,29 +231,28 @@ struct RegisteredViews {
 
 /// Views -> one surface, with its points and colors.
 FusedSurface fuse_registered(RegisteredViews& registered,
-                             const ScanDecoding& decoding,
+                             const LitScan& lit,
                              const Capabilities& can,
                              const ReconstructOptions& options,
                              Reconstruction& out,
                              const Run& run) {
   run.stage("surface");
-  const Scan& scan = decoding.scan;
+  const Scan& scan = lit.scan;
   MeasuredSetup& joined = registered.joined;
   const MeasuredViews& all = joined.measured;
   FusionOptions fusion = options.fusion;
   const Rig rig = joined.registration
                       ? with_open_parameters(scan.rig, joined.registration->rig_open)
                       : scan.rig;
-  fusion.terms = calibration_part(all.reference(), rig, all.coarsest, decoding.rays);
+  fusion.terms = calibration_part(all.reference(), rig, all.coarsest, lit.rays);
   const std::vector<CameraViews> cameras = views_of_cameras(all, scan.rig);
-  FusedSurface fused = fuse_with_weights(cameras, fusion, run);
   if (can.indirect_light != IndirectLightUse::Ignored && registered.indirect_light.found) {
     out.indirect_light =
         cameras.size() == 1
-            ? correct_indirect_light(
-                  fused, joined.measured, decoding, registered.indirect_light, fusion, run)
-            : count_indirect_light(fused, joined.measured, decoding, fusion, run);
+            ? correct_indirect_light(joined.measured, lit, registered.indirect_light, fusion, run)
+            : count_indirect_light(joined.measured, lit, fusion, run);
   }
+  FusedSurface fused = fuse_with_weights(cameras, fusion, run);
   const ViewMotions motions = motions_of_views(joined, scan.rig, options, run);
   const bool turntable_counts = add_turntable_part(fused, motions, run);
   if (options.keep_raw) {
@@ -294,7 +292,6 @@ Reconstruction reconstruct(const Scan& scan, const ReconstructOptions& given, co
   const Capabilities can = capabilities_of(scan.rig, plan, options);
   report(can, run);
   const auto rays = rays_of(scan.rig.reference().model);
-  const ScanDecoding decoding{scan, rays, options.decode, plan};
   Reconstruction out;
   out.cameras = scan.rig.cameras.size();
 
@@ -307,6 +304,8 @@ Reconstruction reconstruct(const Scan& scan, const ReconstructOptions& given, co
   out.views = measured.stations.size();
   out.view_summaries = std::move(measured.summaries);
   out.agreements = agreements_of(measured, scan.rig);
+  const std::vector<FringesOfViews> fringes = std::move(measured.fringes);
+  const LitScan lit{scan, rays, plan, fringes};
 
   // Fringe orders from the other views, and registration, setup by setup.
   run.stage("views");
@@ -323,8 +322,9 @@ Reconstruction reconstruct(const Scan& scan, const ReconstructOptions& given, co
     unresolved += resolve_fringe_orders(
         setup.measured, scan.rig, rays, options.resolve_by_views, correction, run);
     const EarlyIndirectLight early =
-        register_setup(setup, decoding, can, options, targets, out.turntable_top_height_mm, run);
+        register_setup(setup, lit, can, options, targets, out.turntable_top_height_mm, run);
     indirect_light.found = indirect_light.found || early.found;
+    indirect_light.corrected = indirect_light.corrected || early.corrected;
     indirect_light.corrects = indirect_light.corrects && early.corrects;
     out.points += setup.measured.points;
     add_outliers(outliers, setup);
@@ -356,7 +356,7 @@ Reconstruction reconstruct(const Scan& scan, const ReconstructOptions& given, co
         mask_targets(stickers, targets->set, registered.joined.measured, scan.rig);
     run.note(out.targets->text());
   }
-  FusedSurface fused = fuse_registered(registered, decoding, can, options, out, run);
+  FusedSurface fused = fuse_registered(registered, lit, can, options, out, run);
   if (options.fill_targets)
     out.targets->filled = fill_targets(stickers, targets->set, fused.mesh, run);
   FinishedMesh finished = finish_mesh(std::move(fused.mesh), options.finish, run);

@@ -1,23 +1,13 @@
 #include "frangia/views/subsample.h"
 
 #include "frangia/core/error.h"
-#include "frangia/core/parallel.h"
+#include "frangia/core/every_nth_pixel.h"
 
 namespace frangia {
 namespace {
 
 int subsampled_size(int pixels, int step) {
   return (pixels + step - 1) / step;
-}
-
-Image<float> subsample(const Image<float>& image, int step) {
-  Image<float> out(
-      subsampled_size(image.width(), step), subsampled_size(image.height(), step), Uninitialized{});
-  parallel_rows(out.height(), [&](int y) {
-    for (int x = 0; x < out.width(); ++x)
-      out(x, y) = image(x * step, y * step);
-  });
-  return out;
 }
 
 }  // namespace
@@ -36,11 +26,12 @@ View subsample(const View& view, int step) {
   require(step >= 1, "subsample: the step must be at least one pixel");
   View out;
   out.rig_from_object = view.rig_from_object;
-  out.range.depth_mm = subsample(view.range.depth_mm, step);
-  out.range.sigma_mm = subsample(view.range.sigma_mm, step);
-  if (!view.range.phase_rad.empty()) out.range.phase_rad = subsample(view.range.phase_rad, step);
+  out.range.depth_mm = every_nth_pixel(view.range.depth_mm, step);
+  out.range.sigma_mm = every_nth_pixel(view.range.sigma_mm, step);
+  if (!view.range.phase_rad.empty())
+    out.range.phase_rad = every_nth_pixel(view.range.phase_rad, step);
   if (!view.range.systematic_mm.empty())
-    out.range.systematic_mm = subsample(view.range.systematic_mm, step);
+    out.range.systematic_mm = every_nth_pixel(view.range.systematic_mm, step);
   return out;
 }
 

@@ -385,8 +385,12 @@ DecodedDirection decode_direction(const DirectionInput& all) {
   }
   view.frames = std::move(judged.verdicts);
   view.check = report_frames(view.frames, std::move(view.check), all.run);
-  if (!all.options.own.any())
-    view.check = report_uncertain_phase(view.phase, std::move(view.check));
+  if (all.options.own.any()) return view;
+  view.check = report_uncertain_phase(view.phase, std::move(view.check));
+  const bool by_maps = std::holds_alternative<FromCoarserMaps>(all.plan.orders) ||
+                       std::holds_alternative<FromSlope>(all.plan.orders);
+  if (by_maps && is_absolute(view.coarsest, all.rig.projector))
+    view.check = report_orders_by_chance(view, std::move(view.check));
   return view;
 }
 

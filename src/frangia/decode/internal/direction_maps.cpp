@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "frangia/core/error.h"
+#include "frangia/core/every_nth_pixel.h"
 #include "frangia/decode/explain/explain_predicted_frames.h"
 #include "frangia/decode/internal/wrap_pattern.h"
 #include "frangia/decode/select_stacks.h"
@@ -41,6 +42,30 @@ SystematicPhase sequence_systematic(const DirectionMaps& maps) {
   }
   if (square == 0.0) return {};
   return {std::sqrt(square) / weights, differing / square};
+}
+
+/// Every how many pixels of an image the maps are kept: a multiple of four, so that views of every
+/// second or fourth pixel hold the same ones.
+int thinning_px(const FrameStack& stack) {
+  constexpr double kPixels = 20'000.0;  // show what the fringes of a view do on the whole
+  constexpr int kMultiple = 4;
+  const double all = static_cast<double>(width_of(stack.frames.front())) *
+                     static_cast<double>(height_of(stack.frames.front()));
+  return kMultiple * std::max(1, static_cast<int>(std::sqrt(all / kPixels) / kMultiple));
+}
+
+WrappedPhase thinned(const WrappedPhase& map, int step_px) {
+  WrappedPhase out{.pattern = map.pattern,
+                   .phase_rad = every_nth_pixel(map.phase_rad, step_px),
+                   .sigma_rad = every_nth_pixel(map.sigma_rad, step_px),
+                   .modulation_counts = every_nth_pixel(map.modulation_counts, step_px),
+                   .mean_counts = every_nth_pixel(map.mean_counts, step_px),
+                   .status = every_nth_pixel(map.status, step_px),
+                   .systematic_rad = {},
+                   .differing_share = map.differing_share};
+  if (!map.systematic_rad.empty())
+    out.systematic_rad = every_nth_pixel(map.systematic_rad, step_px);
+  return out;
 }
 
 std::vector<SequenceFrames> frames_of(const DirectionInput& input, const DirectionMaps& maps) {
@@ -129,9 +154,11 @@ DirectionMaps wrap_maps(const DirectionInput& input, DirectionMaps fitted, Wrapp
   DirectionMaps out = std::move(fitted);
   const DecodeOptions& options = input.options;
   check_maps(input, out);
+  out.view.thinning_px = thinning_px(*out.fringes.front());
   for (std::size_t m = 0; m < out.fringes.size(); ++m) {
     input.run.check();
     wrap_pattern(*out.fringes[m], out.fits[m], options, input.run, out.view);
+    out.view.thinned.push_back(thinned(out.view.wrapped.back(), out.view.thinning_px));
     if (parts == WrappedParts::All || options.keep_maps || options.own.any()) continue;
     out.view.wrapped.back().modulation_counts = {};
     out.view.wrapped.back().mean_counts = {};
@@ -181,10 +208,15 @@ DirectionMaps decode_in_one_pass(const DirectionInput& input, DirectionMaps fitt
   DecodedDirection& view = out.view;
   const DecodeOptions& options = input.options;
   check_maps(input, out);
+  view.thinning_px = thinning_px(*out.fringes.front());
   for (std::size_t m = 0; m < out.fringes.size(); ++m) {
     const FrameStack some = sample_rows(*out.fringes[m], kAssessedPixels);
     const WrappedPhase map = wrap_phase(some, out.fits[m].algorithm, view.noise, options.wrap);
     view.assessments.push_back(assess_frames(some, out.fits[m], map, view.noise));
+    view.thinned.push_back(wrap_phase(sample_grid(*out.fringes[m], view.thinning_px),
+                                      out.fits[m].algorithm,
+                                      view.noise,
+                                      options.wrap));
   }
   view.phase = decode_sequence(
       frames_of(input, out), view.noise, input.rig.projector, {options.wrap, options.temporal});

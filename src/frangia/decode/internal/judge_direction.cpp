@@ -170,4 +170,50 @@ std::optional<SequenceCheck> report_uncertain_phase(const AbsolutePhase& phase,
   return check;
 }
 
+std::optional<SequenceCheck> report_orders_by_chance(const DecodedDirection& view,
+                                                     std::optional<SequenceCheck> check) {
+  constexpr double kFar_rad = 0.5 * kPi;  // half of what the nearest order leaves at most
+  constexpr double kMostFar = 0.25;       // of the pixels; by chance it is half of them
+  constexpr double kMostSigma_rad = 0.4;  // of a pixel that says something: a quarter of that
+  constexpr std::size_t kLeast = 300;     // pixels; fewer decide nothing
+  if (!check || !check->consistent) return check;
+  const Image<float>& absolute_rad = view.phase.phase_rad;
+  const double finest = view.phase.pattern.fringes_per_unit();
+  for (std::size_t m = 0; m + 1 < view.thinned.size(); ++m) {
+    const WrappedPhase& coarse = view.thinned[m];
+    const WrappedPhase& fine = view.thinned[m + 1];
+    const double ratio = fine.pattern.fringes_per_unit() / coarse.pattern.fringes_per_unit();
+    std::size_t compared = 0;
+    std::size_t far = 0;
+    for (int y = 0; y < coarse.phase_rad.height(); ++y) {
+      for (int x = 0; x < coarse.phase_rad.width(); ++x) {
+        const double known_rad = absolute_rad(x * view.thinning_px, y * view.thinning_px);
+        const double sigma_rad = std::hypot(ratio * coarse.sigma_rad(x, y), fine.sigma_rad(x, y));
+        if (std::isnan(known_rad) || !(sigma_rad < kMostSigma_rad)) continue;
+        // How far each map is from the place that all of them gave.
+        const auto off_rad = [&](const WrappedPhase& map) {
+          return wrap_rad(static_cast<double>(map.phase_rad(x, y)) -
+                          map.pattern.fringes_per_unit() / finest * known_rad);
+        };
+        ++compared;
+        if (std::abs(ratio * off_rad(coarse) - off_rad(fine)) > kFar_rad) ++far;
+      }
+    }
+    const double share =
+        static_cast<double>(far) / static_cast<double>(std::max<std::size_t>(1, compared));
+    if (compared < kLeast || share <= kMostFar) continue;
+    check = SequenceCheck{.decided = true, .consistent = false};
+    check->patterns = {coarse.pattern.name};
+    check->finding = fmt::format(
+        "pattern \"{}\": at {:.0f} % of the pixels its phase is off by more than a quarter of a "
+        "fringe of pattern \"{}\", so that the fringe orders are little better than chance; check "
+        "that they are its frames, in the order of its shifts",
+        coarse.pattern.name,
+        100.0 * share,
+        fine.pattern.name);
+    return check;
+  }
+  return check;
+}
+
 }  // namespace frangia

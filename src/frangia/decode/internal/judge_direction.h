@@ -39,4 +39,10 @@ struct JudgedFrames {
 [[nodiscard]] std::optional<SequenceCheck> report_uncertain_phase(
     const AbsolutePhase& phase, std::optional<SequenceCheck> check);
 
+/// The check of a direction whose orders come from a pattern of one fringe, which orders by chance
+/// make inconsistent: the phase of a pattern is unrelated to that of the next finer one, of which
+/// some order agrees with any phase.
+[[nodiscard]] std::optional<SequenceCheck> report_orders_by_chance(
+    const DecodedDirection& view, std::optional<SequenceCheck> check);
+
 }  // namespace frangia

@@ -18,17 +18,37 @@ namespace {
 
 constexpr int kMinBits = 3;        ///< of two that differ, none is at fault
 constexpr double kLitShare = 0.2;  ///< least contrast of a lit pixel over that of bright ones
-constexpr double kMinLitContrast = 10.0;  ///< counts: less may be noise
-constexpr std::size_t kMinLit = 300;      ///< pixels; fewer decide nothing
-constexpr double kOff = 0.5;              ///< of the contrast: a wrong stripe is off by all of it
-constexpr double kMaxWrongShare = 0.05;   ///< of the lit pixels: edges of stripes and highlights
-constexpr double kPixels = 60'000.0;      ///< that are looked at, on a grid
+/// Least contrast over the standard deviation of the sum of two frames: half of it is then four of
+/// them.
+constexpr double kMinLitSigmas = 8.0;
+constexpr double kRoundingOfSum =
+    0.41;                             ///< counts: standard deviation of the sum of two whole ones
+constexpr std::size_t kMinLit = 300;  ///< pixels; fewer decide nothing
+constexpr double kOff = 0.5;          ///< of the contrast: a wrong stripe is off by all of it
+constexpr double kMaxWrongShare = 0.05;  ///< of the lit pixels: edges of stripes and highlights
+constexpr double kPixels = 60'000.0;     ///< that are looked at, on a grid
 
 /// Light of a bit and its inverse at one pixel: sum and difference of each bit.
 struct BitLight {
   std::vector<double> sums;
   double contrast = 0.0;  ///< median over the bits
 };
+
+/// The standard deviation of a sum, by how the sums of the bits differ at the pixels with at least
+/// this contrast. A bit of several that is at fault does not change their median.
+double sigma_of_sum(const std::vector<BitLight>& pixels, double least_contrast) {
+  constexpr double kSigmaOfMedian = 0.6745;  // median of the absolute values of normal errors
+  std::vector<double> off;
+  for (const BitLight& pixel : pixels) {
+    if (pixel.contrast < least_contrast) continue;
+    std::vector<double> ordered = pixel.sums;
+    const double sum = median_in_place(std::span(ordered));
+    for (const double one : pixel.sums)
+      off.push_back(std::abs(one - sum));
+  }
+  if (off.empty()) return kRoundingOfSum;
+  return std::max(kRoundingOfSum, median_in_place(std::span(off)) / kSigmaOfMedian);
+}
 
 }  // namespace
 
@@ -64,7 +84,8 @@ SequenceCheck check_gray_inverses(const FrameStack& gray) {
   }
   std::sort(contrasts.begin(), contrasts.end());
   const double bright = contrasts[contrasts.size() * 99 / 100];
-  const double least = std::max(kMinLitContrast, kLitShare * bright);
+  const double of_bright = kLitShare * bright;
+  const double least = std::max(kMinLitSigmas * sigma_of_sum(pixels, of_bright), of_bright);
   std::vector<double> wrong(static_cast<std::size_t>(code.bits));
   std::size_t lit = 0;
   for (const BitLight& pixel : pixels) {

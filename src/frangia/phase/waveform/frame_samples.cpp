@@ -6,6 +6,8 @@
 #include <type_traits>
 #include <utility>
 
+#include "frangia/core/every_nth_pixel.h"
+
 namespace frangia {
 
 Eigen::ArrayXXf sample_frames(const FrameStack& stack, std::size_t wanted) {
@@ -88,6 +90,17 @@ FrameStack sample_pixels(const FrameStack& stack, std::span<const std::uint32_t>
         },
         frame);
   }
+  return out;
+}
+
+FrameStack sample_grid(const FrameStack& stack, int step) {
+  FrameStack out{.pattern = stack.pattern,
+                 .frames = {},
+                 .white_level = stack.white_level,
+                 .exposure = stack.exposure};
+  for (const Frame& frame : stack.frames)
+    std::visit([&](const auto& image) { out.frames.emplace_back(every_nth_pixel(image, step)); },
+               frame);
   return out;
 }
 

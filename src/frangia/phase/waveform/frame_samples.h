@@ -26,4 +26,9 @@ namespace frangia {
 [[nodiscard]] FrameStack sample_pixels(const FrameStack& stack,
                                        std::span<const std::uint32_t> pixels);
 
+/// Samples every `step`-th pixel along both axes, beginning with pixel (0, 0).
+///
+/// @errors   Error(Input) when the step is less than one pixel
+[[nodiscard]] FrameStack sample_grid(const FrameStack& stack, int step);
+
 }  // namespace frangia

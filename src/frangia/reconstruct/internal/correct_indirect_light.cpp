@@ -16,7 +16,6 @@
 #include "frangia/indirect_light/extrapolate_faces.h"
 #include "frangia/reconstruct/internal/indirect_part.h"
 #include "frangia/rig/camera_model.h"
-#include "frangia/views/subsample.h"
 
 namespace frangia {
 namespace {
@@ -52,63 +51,23 @@ void continue_faces(View& view,
 /// measured one is shifted by millimetres or missing, so that its own prediction is wrong there.
 ///
 /// @errors   as fuse_views
-Mesh continued_surface(const MeasuredViews& measured,
+Mesh continued_surface(const ThinnedViews& thinned,
                        const IndirectPart& indirect,
-                       const CameraModel& camera,
-                       const Image<Eigen::Vector2f>& rays,
                        const FusionOptions& fusion,
                        const Run& run) {
   ViewStore continued;
-  for (std::size_t i = 0; i < measured.reference().size(); ++i) {
+  for (std::size_t i = 0; i < thinned.views.size(); ++i) {
     run.check();
-    View view = measured.reference().load_points(i);
-    continue_faces(view, indirect.largest_shifts_mm(view), rays);
+    View view = thinned.views.load_points(i);
+    continue_faces(view, indirect.correction->largest_shifts_mm(view, thinned.rays), thinned.rays);
     continued.add(view);
   }
-  Run quiet;
-  quiet.stop = run.stop;
-  return fuse_views(continued, camera, fusion, quiet);
-}
-
-/// Options for a surface of one and a half pixels between samples, as fine as a crease needs,
-/// without systematic parts.
-FusionOptions coarse_fusion(const MeasuredViews& measured,
-                            const Image<Eigen::Vector2f>& rays,
-                            FusionOptions options) {
-  constexpr double kVoxel_px = 1.5;
-  const auto px = static_cast<double>((rays(1, 0) - rays(0, 0)).norm());
-  for (std::size_t i = 0; i < measured.reference().size(); ++i) {
-    const float depth_mm = median_of_known(measured.reference().load_depth_mm(i));
-    if (std::isnan(depth_mm)) continue;
-    options.voxel_mm = kVoxel_px * px * static_cast<double>(depth_mm);
-    break;
-  }
-  options.terms.clear();
-  return options;
+  return fuse_views(continued, thinned.camera, fusion, run);
 }
 
 /// Two directions of fringes determine a point together.
 ShiftedPoints shifted_points(const DecodePlan& plan) {
   return plan.directions.size() == 1 ? ShiftedPoints::Moved : ShiftedPoints::Kept;
-}
-
-/// What a prediction is made from, beside the surface.
-struct Lighting {
-  const ScanDecoding& decoding;
-  ShiftedPoints points = ShiftedPoints::Moved;
-  ShownFringes& shown;
-};
-
-std::optional<IndirectPart> part_of(const MeasuredViews& measured,
-                                    const Mesh& surface,
-                                    const Lighting& lighting,
-                                    const Run& run) {
-  return indirect_part(lighting.decoding,
-                       lit_views(measured, lighting.decoding.scan),
-                       surface,
-                       lighting.points,
-                       lighting.shown,
-                       run);
 }
 
 /// What a correction did to all views.
@@ -157,19 +116,20 @@ ViewStore copy_of(const ViewStore& views) {
   return copy;
 }
 
-/// Corrects all views; `measured_views` are those to compare with.
-Corrected correct_all(MeasuredViews& measured,
-                      const ViewStore& measured_views,
+/// Corrects all views, of which `before` are copies.
+Corrected correct_all(ViewStore& views,
+                      const ViewStore& before,
+                      const Image<Eigen::Vector2f>& rays,
                       const IndirectPart& indirect,
                       const Run& run) {
   Corrected out;
   double points = 0.0;
-  for (std::size_t i = 0; i < measured.reference().size(); ++i) {
+  for (std::size_t i = 0; i < views.size(); ++i) {
     run.check();
-    View view = measured.reference().load(i);
-    indirect.correct(view);
-    measured.reference().replace(i, view);
-    compare(measured_views.load_points(i).range, view.range, out, points);
+    View view = views.load(i);
+    indirect.correction->correct(view, rays);
+    views.replace(i, view);
+    compare(before.load_points(i).range, view.range, out, points);
   }
   out.moved /= std::max(1.0, points);
   return out;
@@ -187,134 +147,133 @@ Mesh surface_or_none(const Make& make) {
   }
 }
 
-/// Every how many pixels a surface still shows whether there is indirect light.
-int thinning_px(const MeasuredViews& measured) {
-  constexpr double kPoints = 100'000.0;  // of a view: with fewer, narrow grooves would be lost
-  constexpr int kMost_px = 4;            // 1.5 pixels to a voxel of the first pass, as in others
-  const auto views = static_cast<double>(std::max<std::size_t>(1, measured.reference().size()));
-  const double points = static_cast<double>(measured.points) / views;
-  return std::clamp(static_cast<int>(std::sqrt(points / kPoints)), 1, kMost_px);
-}
+/// How coarse surfaces are, pixels of the camera. The first is smoother where indirect light has
+/// torn the points apart; the others show creases.
+constexpr double kFirstVoxel_px = 6.0;
+constexpr double kFirstVoxel_thinned_px = 2.0;
+constexpr double kVoxel_px = 1.5;
 
 /// Whether the views show indirect light, as a surface of every few pixels predicts it. Most scans
-/// show none, which this finds out at a fraction of the cost of a first pass.
+/// show none, which this finds out at a fraction of the cost of a prediction.
 bool shows_indirect_light(const MeasuredViews& measured,
-                          int step_px,
-                          const Lighting& lighting,
+                          const LitScan& lit,
                           const FusionOptions& fusion,
                           const Run& run) {
-  const CameraModel camera = subsample(lighting.decoding.scan.rig.reference().model, step_px);
-  ViewStore thinned;
-  for (std::size_t i = 0; i < measured.reference().size(); ++i) {
-    run.check();
-    thinned.add(subsample(measured.reference().load_points(i), step_px));
-  }
-  const Mesh surface = surface_or_none([&] { return fuse_views(thinned, camera, fusion, run); });
-  return part_of(measured, surface, lighting, run).has_value();
+  const ThinnedViews thinned(
+      measured, 0, lit.scan.rig.reference().model, thinning_px(measured), run);
+  const FusionOptions coarse = thinned.coarse_fusion(
+      std::max(kFirstVoxel_px, kFirstVoxel_thinned_px * thinned.step_px), fusion);
+  const Mesh surface =
+      surface_or_none([&] { return fuse_views(thinned.views, thinned.camera, coarse, run); });
+  return may_light_itself(lit_views(thinned, lit, lit.scan.rig.projector), surface, run);
 }
 
-/// The prediction of a surface, made better by the surface that continues its reliable faces.
-std::optional<IndirectPart> predict(const MeasuredViews& measured,
-                                    const Mesh& surface,
-                                    const Lighting& lighting,
-                                    const FusionOptions& coarse,
+/// The prediction of the surface of some views, made better by the surface that continues its
+/// reliable faces.
+std::optional<IndirectPart> predict(const ThinnedViews& copies,
+                                    const LitScan& lit,
+                                    const FusionOptions& fusion,
+                                    double voxel_px,
+                                    ShiftedPoints points,
                                     const Run& run) {
-  auto first = part_of(measured, surface, lighting, run);
+  const LitViews views = lit_views(copies, lit, lit.scan.rig.projector);
+  const FusionOptions coarse = copies.coarse_fusion(voxel_px, fusion);
+  const FusionOptions fine = copies.coarse_fusion(kVoxel_px, fusion);
+  const Mesh surface =
+      surface_or_none([&] { return fuse_views(copies.views, copies.camera, coarse, run); });
+  auto first = indirect_part(views, surface, points, run);
   if (!first) return first;
-  const ScanDecoding& decoding = lighting.decoding;
-  const CameraModel& camera = decoding.scan.rig.reference().model;
-  const Mesh continued = surface_or_none(
-      [&] { return continued_surface(measured, *first, camera, decoding.rays, coarse, run); });
-  auto second = part_of(measured, continued, lighting, run);
+  const Mesh continued =
+      surface_or_none([&] { return continued_surface(copies, *first, fine, run); });
+  auto second = indirect_part(views, continued, points, run);
   // The frames decide which surface predicts what they show; alike, the one without gaps.
   constexpr double kAlike = 1.1;
   const bool better = second && second->unexplained < kAlike * first->unexplained;
   return better ? second : first;
 }
 
+/// Which surfaces predict the light of views.
+enum class Predictions {
+  OfMeasuredViews,   ///< first a smooth one, then that of the views that it corrects
+  OfCorrectedViews,  ///< that of views that were corrected before
+};
+
+/// The last prediction. Copies of the views are corrected for it, which stay as they are.
+std::optional<IndirectPart> predict_light(const MeasuredViews& measured,
+                                          const LitScan& lit,
+                                          const FusionOptions& fusion,
+                                          Predictions predictions,
+                                          ShiftedPoints points,
+                                          const Run& run) {
+  constexpr double kFew = 0.001;  // share of the points that the first correction moves
+  Run quiet;
+  quiet.stop = run.stop;
+  if (predictions == Predictions::OfMeasuredViews &&
+      !shows_indirect_light(measured, lit, fusion, quiet))
+    return std::nullopt;
+  ThinnedViews copies(measured, 0, lit.scan.rig.reference().model, 1, quiet);
+  if (predictions == Predictions::OfCorrectedViews)
+    return predict(copies, lit, fusion, kVoxel_px, points, quiet);
+  auto first = predict(copies, lit, fusion, kFirstVoxel_px, points, quiet);
+  if (!first || points == ShiftedPoints::Kept) return first;
+  const ViewStore before = copy_of(copies.views);
+  if (correct_all(copies.views, before, copies.rays, *first, quiet).moved < kFew) return first;
+  auto second = predict(copies, lit, fusion, kVoxel_px, points, quiet);
+  return second ? second : first;
+}
+
+/// Corrects all views by a prediction; false, and nothing is changed, where that makes them
+/// rougher.
+bool correct_views(MeasuredViews& measured,
+                   const Image<Eigen::Vector2f>& rays,
+                   const IndirectPart& indirect,
+                   const Run& run) {
+  ViewStore as_measured = copy_of(measured.reference());
+  if (!correct_all(measured.reference(), as_measured, rays, indirect, run).is_rougher())
+    return true;
+  measured.reference() = std::move(as_measured);
+  return false;
+}
+
 }  // namespace
 
 EarlyIndirectLight correct_before_registration(MeasuredViews& measured,
-                                               const ScanDecoding& decoding,
-                                               FusionOptions coarse,
+                                               const LitScan& lit,
+                                               const FusionOptions& fusion,
                                                const Run& run) {
-  constexpr int kPasses = 2;
   if (measured.points == 0) return {.found = false};
-  coarse = coarse_fusion(measured, decoding.rays, std::move(coarse));
-  const CameraModel& camera = decoding.scan.rig.reference().model;
-  Run quiet;
-  quiet.stop = run.stop;
-  // A coarser surface is smoother where indirect light has torn the points apart.
-  FusionOptions first = coarse;
-  first.voxel_mm *= 4.0;
-  const int step_px = thinning_px(measured);
-  ShownFringes shown;
-  const Lighting lighting{decoding, shifted_points(decoding.plan), shown};
-  if (step_px > 1 && !shows_indirect_light(measured, step_px, lighting, first, quiet))
-    return {.found = false};
-  ViewStore as_measured;
-  for (int pass = 0; pass < kPasses; ++pass) {
-    const FusionOptions& fusion = pass == 0 ? first : coarse;
-    const Mesh surface =
-        surface_or_none([&] { return fuse_views(measured.reference(), camera, fusion, quiet); });
-    const auto indirect = predict(measured, surface, lighting, coarse, quiet);
-    if (!indirect) return {.found = pass > 0};
-    if (pass == 0) as_measured = copy_of(measured.reference());
-    if (correct_all(measured, as_measured, *indirect, run).is_rougher()) {
-      measured.reference() = std::move(as_measured);
-      return {.found = true, .corrects = false};
-    }
-  }
-  return {};
+  const ShiftedPoints points = shifted_points(lit.plan);
+  const auto indirect =
+      predict_light(measured, lit, fusion, Predictions::OfMeasuredViews, points, run);
+  if (!indirect) return {.found = false};
+  if (points == ShiftedPoints::Kept) return {};
+  const bool corrects = correct_views(measured, lit.rays, *indirect, run);
+  return {.found = true, .corrected = corrects, .corrects = corrects};
 }
 
-std::optional<IndirectLightReport> correct_indirect_light(FusedSurface& fused,
-                                                          MeasuredViews& measured,
-                                                          const ScanDecoding& decoding,
+std::optional<IndirectLightReport> correct_indirect_light(MeasuredViews& measured,
+                                                          const LitScan& lit,
                                                           const EarlyIndirectLight& before,
                                                           FusionOptions& fusion,
                                                           const Run& run) {
-  constexpr int kPasses = 2;
-  constexpr double kFew = 0.001;  // share of the points whose correction a second pass changes
-  const std::vector<SigmaTerm> others = fusion.terms;
-  ShownFringes shown;
-  Lighting lighting{
-      decoding, before.corrects ? shifted_points(decoding.plan) : ShiftedPoints::Kept, shown};
-  std::optional<IndirectLightReport> report;
-  ViewStore uncorrected;  // but for the correction before the registration
-  for (int pass = 0; pass < kPasses; ++pass) {
-    const FusionOptions coarse = coarse_fusion(measured, decoding.rays, fusion);
-    auto indirect = predict(measured, fused.mesh, lighting, coarse, run);
-    if (!indirect) break;
-    double moved = 0.0;
-    if (lighting.points == ShiftedPoints::Moved) {
-      if (pass == 0) uncorrected = copy_of(measured.reference());
-      const Corrected done = correct_all(measured, uncorrected, *indirect, run);
-      moved = done.moved;
-      if (done.is_rougher()) {
-        measured.reference() = std::move(uncorrected);
-        lighting.points = ShiftedPoints::Kept;
-        indirect = part_of(measured, fused.mesh, lighting, run);
-        moved = 0.0;
-      }
-    }
-    fusion.terms = others;
-    report.reset();
-    if (indirect) {
-      report = indirect->report;
-      fusion.terms.push_back(
-          {UncertaintyTerm::IndirectLight,
-           [part = indirect->systematic_mm](const View& view, std::size_t /*camera*/) {
-             return part(view);
-           }});
-    }
-    const CameraViews one{measured.reference(), decoding.scan.rig.reference().model};
-    fused = fuse_with_weights({&one, 1}, fusion, run);
-    if (!indirect || moved < kFew) break;
+  const Predictions predictions =
+      before.corrected ? Predictions::OfCorrectedViews : Predictions::OfMeasuredViews;
+  ShiftedPoints points = before.corrects ? shifted_points(lit.plan) : ShiftedPoints::Kept;
+  auto indirect = predict_light(measured, lit, fusion, predictions, points, run);
+  if (!indirect) return std::nullopt;
+  if (points == ShiftedPoints::Moved && !correct_views(measured, lit.rays, *indirect, run)) {
+    points = ShiftedPoints::Kept;
+    indirect = predict_light(measured, lit, fusion, predictions, points, run);
+    if (!indirect) return std::nullopt;
   }
-  if (!report) return report;
-  report->corrected = lighting.points == ShiftedPoints::Moved;
-  announce(*report, run);
+  fusion.terms.push_back({UncertaintyTerm::IndirectLight,
+                          [correction = indirect->correction, &rays = lit.rays](
+                              const View& view, std::size_t /*camera*/) {
+                            return correction->systematic_mm(view, rays);
+                          }});
+  IndirectLightReport report = indirect->report;
+  report.corrected = points == ShiftedPoints::Moved;
+  announce(report, run);
   return report;
 }
 

@@ -5,13 +5,11 @@
 #include <vector>
 
 #include "frangia/dataset/scan_of_camera.h"
-#include "frangia/reconstruct/internal/indirect_part.h"
-#include "frangia/reconstruct/internal/tie_cameras.h"
 
 namespace frangia {
 namespace {
 
-/// Indirect light in the views of one camera, which holds on to the rays of its pixels.
+/// Indirect light in the views of one camera, and the rays of its pixels.
 struct CameraPart {
   Image<Eigen::Vector2f> rays;
   std::optional<IndirectPart> part;
@@ -19,24 +17,30 @@ struct CameraPart {
 
 }  // namespace
 
-std::optional<IndirectLightReport> count_indirect_light(FusedSurface& fused,
-                                                        const MeasuredViews& measured,
-                                                        const ScanDecoding& decoding,
+std::optional<IndirectLightReport> count_indirect_light(const MeasuredViews& measured,
+                                                        const LitScan& lit,
                                                         FusionOptions& fusion,
                                                         const Run& run) {
-  const auto parts = std::make_shared<std::vector<CameraPart>>(decoding.scan.rig.cameras.size());
+  constexpr double kVoxel_px = 3.0;
+  Run quiet;
+  quiet.stop = run.stop;
+  const auto& cameras = lit.scan.rig.cameras;
+  std::vector<std::unique_ptr<const ThinnedViews>> thinned;
+  std::vector<CameraViews> views;
+  for (std::size_t camera = 0; camera < cameras.size(); ++camera) {
+    thinned.push_back(std::make_unique<const ThinnedViews>(
+        measured, camera, cameras[camera].camera.model, 1, quiet));
+    views.push_back({thinned.back()->views, thinned.back()->camera});
+  }
+  const Mesh surface = fuse_views(views, thinned.front()->coarse_fusion(kVoxel_px, fusion), quiet);
+  const auto parts = std::make_shared<std::vector<CameraPart>>(cameras.size());
   std::optional<IndirectLightReport> report;
   for (std::size_t camera = 0; camera < parts->size(); ++camera) {
     CameraPart& own = (*parts)[camera];
-    const Scan scan = scan_of_camera(decoding.scan, camera);
+    const Scan scan = scan_of_camera(lit.scan, camera);
     own.rays = rays_of(scan.rig.reference().model);
-    ShownFringes shown;
-    own.part = indirect_part({scan, own.rays, decoding.options, decoding.plan},
-                             lit_views(measured, decoding.scan, camera),
-                             fused.mesh,
-                             ShiftedPoints::Kept,
-                             shown,
-                             run);
+    own.part = indirect_part(
+        lit_views(*thinned[camera], lit, scan.rig.projector), surface, ShiftedPoints::Kept, run);
     if (own.part && (!report || own.part->report.largest_mm > report->largest_mm))
       report = own.part->report;
   }
@@ -44,10 +48,9 @@ std::optional<IndirectLightReport> count_indirect_light(FusedSurface& fused,
   report->corrected = false;
   fusion.terms.push_back(
       {UncertaintyTerm::IndirectLight, [parts](const View& view, std::size_t camera) {
-         const auto& part = parts->at(camera).part;
-         return part ? part->systematic_mm(view) : Image<float>();
+         const CameraPart& own = parts->at(camera);
+         return own.part ? own.part->correction->systematic_mm(view, own.rays) : Image<float>();
        }});
-  fused = fuse_with_weights(views_of_cameras(measured, decoding.scan.rig), fusion, run);
   announce(*report, run);
   return report;
 }

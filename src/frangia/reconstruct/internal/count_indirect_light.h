@@ -3,24 +3,22 @@
 #include <optional>
 
 #include "frangia/core/run.h"
-#include "frangia/decode/scan_decoding.h"
 #include "frangia/fusion/fuse_views.h"
 #include "frangia/geometry/mesh.h"
 #include "frangia/indirect_light/indirect_light_report.h"
+#include "frangia/reconstruct/internal/indirect_part.h"
 #include "frangia/reconstruct/internal/measure_views.h"
 
 namespace frangia {
 
-/// Counts the indirect light that the fused surface of several cameras predicts in the sigma of the
-/// points of every camera, and fuses the views again. Points stay where they are, because the
-/// phases of several cameras determine them: the whole predicted error enters sigma. `fusion` gets
-/// this systematic part. Warns where indirect light matters; returns nothing where there is none.
+/// Counts the indirect light that a coarse surface of the views of several cameras predicts in the
+/// sigma of the points of every camera. Points stay where they are, because the phases of several
+/// cameras determine them: the whole predicted error enters sigma. `fusion` gets this systematic
+/// part. Warns where indirect light matters; returns nothing where there is none.
 ///
-/// @shape    `decoding`: of the reference camera, with a scan of all cameras
-/// @errors   as fuse_views and indirect_part
-[[nodiscard]] std::optional<IndirectLightReport> count_indirect_light(FusedSurface& fused,
-                                                                      const MeasuredViews& measured,
-                                                                      const ScanDecoding& decoding,
+/// @errors   as indirect_part
+[[nodiscard]] std::optional<IndirectLightReport> count_indirect_light(const MeasuredViews& measured,
+                                                                      const LitScan& lit,
                                                                       FusionOptions& fusion,
                                                                       const Run& run);
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
+#include <span>
 #include <string>
 #include <utility>
 #include <variant>
@@ -10,16 +10,17 @@
 
 #include "frangia/core/median.h"
 #include "frangia/core/parallel.h"
-#include "frangia/dataset/read_frames.h"
 #include "frangia/indirect_light/estimate_albedo.h"
-#include "frangia/indirect_light/indirect_correction.h"
 #include "frangia/indirect_light/indirect_phase.h"
 #include "frangia/indirect_light/lit_surface.h"
 #include "frangia/indirect_light/view_light.h"
 #include "frangia/range/fringe_ray.h"
+#include "frangia/views/subsample.h"
 
 namespace frangia {
 namespace {
+
+constexpr double kMaterial = 0.01;  ///< share of the points that see light, of those looked at
 
 /// Pixels on a regular grid, about `count` of those of a view that have a point.
 std::vector<Eigen::Vector2i> sampled_pixels(const Image<float>& depth_mm, std::size_t count) {
@@ -35,6 +36,27 @@ std::vector<Eigen::Vector2i> sampled_pixels(const Image<float>& depth_mm, std::s
     }
   }
   return out;
+}
+
+/// Whether some points of a surface see other parts of it, wherever the light is.
+bool sees_itself(const LitSurface& surface) {
+  constexpr std::size_t kPoints = 600;
+  const Mesh& mesh = surface.scene().mesh();
+  const std::size_t every = mesh.triangles.size() / kPoints + 1;
+  const std::size_t count = (mesh.triangles.size() + every - 1) / every;
+  std::vector<char> sees(count);
+  parallel_chunks(count, 16, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const auto& corners = mesh.triangles[i * every];
+      const Eigen::Vector3d a = mesh.vertices_mm[corners[0]].cast<double>();
+      const Eigen::Vector3d b = mesh.vertices_mm[corners[1]].cast<double>();
+      const Eigen::Vector3d c = mesh.vertices_mm[corners[2]].cast<double>();
+      const Eigen::Vector3d normal = (b - a).cross(c - a).normalized();
+      if (normal.allFinite()) sees[i] = surface.sees_something({(a + b + c) / 3.0, normal}) ? 1 : 0;
+    }
+  });
+  const auto seeing = static_cast<double>(std::count(sees.begin(), sees.end(), 1));
+  return seeing > kMaterial * static_cast<double>(count);
 }
 
 /// Whether a view sees indirect light, by the surface alone.
@@ -58,7 +80,7 @@ ViewExposure exposure_of(std::size_t index,
                          const ViewStore& views,
                          const LitSurface& surface,
                          const Image<Eigen::Vector2f>& rays) {
-  constexpr std::size_t kSamples = 150;
+  constexpr std::size_t kSamples = 100;
   const View view = views.load_points(index);
   const auto pixels = sampled_pixels(view.range.depth_mm, kSamples);
   const Eigen::Isometry3d& pose = views.rig_from_object(index);
@@ -86,59 +108,34 @@ ViewExposure exposure_of(std::size_t index,
   return out;
 }
 
-/// What the frames of a decoded view show at some pixels that have a point.
-std::vector<ShownFringes::AtPixel> fringes_of(const DecodedView& decoded,
-                                              const std::vector<Pattern>& patterns,
-                                              const Image<float>& depth_mm) {
-  constexpr std::size_t kSamples = 2500;
-  const auto lit = std::ranges::find(
-      decoded.directions, patterns.back().direction, [](const DecodedDirection& one) {
-        return one.phase.pattern.direction;
-      });
-  if (lit == decoded.directions.end()) return {};
-  std::vector<const WrappedPhase*> maps;
-  for (const Pattern& pattern : patterns) {
-    for (const WrappedPhase& map : lit->wrapped) {
-      if (map.pattern.name == pattern.name) maps.push_back(&map);
-    }
-  }
-  if (maps.size() != patterns.size()) return {};
-  const AbsolutePhase& absolute = lit->phase;
-  std::vector<ShownFringes::AtPixel> out;
-  for (const Eigen::Vector2i& at : sampled_pixels(depth_mm, kSamples)) {
-    const int x = at.x();
-    const int y = at.y();
-    if (std::isnan(absolute.phase_rad(x, y))) continue;
-    ShownFringes::AtPixel sample{x, y, {}};
-    for (const WrappedPhase* map : maps) {
-      const float modulation = map->modulation_counts(x, y);
-      if (std::isnan(map->phase_rad(x, y)) || !(modulation > 0.0F)) break;
-      const double ratio = map->pattern.fringes_per_unit() / absolute.pattern.fringes_per_unit();
-      sample.measured.push_back(
-          {map->mean_counts(x, y) / modulation,
-           1.0F / modulation,
-           map->sigma_rad(x, y),
-           static_cast<float>(map->phase_rad(x, y) - ratio * absolute.phase_rad(x, y))});
-    }
-    if (sample.measured.size() == maps.size()) out.push_back(std::move(sample));
-  }
-  return out;
-}
-
-/// Adds what the frames of a view show, with what the surface predicts there.
-void add_samples(const std::vector<ShownFringes::AtPixel>& shown,
-                 const View& view,
+/// Adds what the frames of a view show at about `count` pixels, with what the surface predicts
+/// there.
+void add_samples(const LitViews& lit,
+                 std::size_t index,
                  const LitSurface& surface,
-                 const Image<Eigen::Vector2f>& rays,
+                 std::size_t count,
+                 const SurfaceLight* collected,
                  std::vector<AlbedoSample>& out) {
-  const ViewLight light(surface, view, rays, LightUse::FewPixels);
-  for (const ShownFringes::AtPixel& at : shown) {
-    const float depth_mm = view.range.depth_mm(at.x, at.y);
-    if (std::isnan(depth_mm)) continue;
-    AlbedoSample sample{light.at(at.x, at.y, static_cast<double>(depth_mm)), at.measured};
-    constexpr double kMost = 1.0;  // at grazing light the prediction is too sensitive
-    if (sample.predicted.mean < kMost) out.push_back(std::move(sample));
-  }
+  constexpr double kMost = 1.0;  // at grazing light the prediction is too sensitive
+  if (lit.of_scan[index] >= lit.fringes.size()) return;
+  const std::vector<ShownFringes>& shown = lit.fringes[lit.of_scan[index]];
+  const View view = lit.views.load_points(index);
+  const ViewLight light(surface, view, lit.rays, LightUse::FewPixels, collected);
+  const std::size_t every = std::max<std::size_t>(1, shown.size() / count);
+  const std::size_t sampled = (shown.size() + every - 1) / every;
+  std::vector<AlbedoSample> samples(sampled);
+  parallel_chunks(sampled, 16, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const ShownFringes& at = shown[i * every];
+      const int x = at.x / lit.step_px;
+      const int y = at.y / lit.step_px;
+      const float depth_mm = view.range.depth_mm(x, y);
+      if (!std::isnan(depth_mm))
+        samples[i] = {light.at(x, y, static_cast<double>(depth_mm)), at.measured};
+    }
+  });
+  for (AlbedoSample& sample : samples)
+    if (!sample.measured.empty() && sample.predicted.mean < kMost) out.push_back(std::move(sample));
 }
 
 /// What the phase of a direction is computed from.
@@ -148,12 +145,11 @@ PhaseSource source_of(const DirectionPlan& plan) {
 
 /// Summarizes what is added to the points of the view that sees most of it.
 IndirectLightReport report_of(const View& view,
-                              const LitSurface& surface,
                               const IndirectCorrection& correction,
                               double albedo,
                               const Image<Eigen::Vector2f>& rays) {
   constexpr std::size_t kSamples = 4000;
-  const ViewLight light(surface, view, rays, LightUse::FewPixels);
+  const ViewLight light = correction.light_of(view, rays);
   std::vector<float> added;
   std::vector<float> noise;
   double affected = 0.0;
@@ -180,110 +176,142 @@ std::size_t index_in_scan(const Scan& scan, const std::string& folder) {
   return scan.views.size();
 }
 
-/// Adds what the frames of some views show.
-void add_views(const ScanDecoding& decoding,
-               const LitViews& lit,
-               std::span<const ViewExposure> exposures,
-               const DirectionPlan& plan,
-               const LitSurface& surface,
-               ShownFringes& shown,
-               const Run& run,
-               std::vector<AlbedoSample>& samples) {
+/// The reflectance that explains what some views show at about `count` pixels each.
+AlbedoEstimate albedo_of(const LitViews& lit,
+                         std::span<const ViewExposure> exposures,
+                         const LitSurface& surface,
+                         std::size_t count,
+                         const SurfaceLight* collected,
+                         const Run& run) {
+  std::vector<AlbedoSample> samples;
   for (const ViewExposure& exposure : exposures) {
     run.check();
-    const std::size_t index = lit.of_scan[exposure.view];
-    if (index == decoding.scan.views.size()) continue;
-    const View view = lit.views.load_points(exposure.view);
-    add_samples(shown.of_view(decoding, index, plan, view.range.depth_mm, run),
-                view,
-                surface,
-                decoding.rays,
-                samples);
+    add_samples(lit, exposure.view, surface, count, collected, samples);
   }
+  return estimate_albedo(samples, surface.patterns());
 }
 
-}  // namespace
-
-const std::vector<ShownFringes::AtPixel>& ShownFringes::of_view(const ScanDecoding& decoding,
-                                                                std::size_t index,
-                                                                const DirectionPlan& plan,
-                                                                const Image<float>& depth_mm,
-                                                                const Run& run) {
-  const auto known = views_.find(index);
-  if (known != views_.end()) return known->second;
-  DecodeOptions options = decoding.options;
-  options.keep_maps = true;
-  Run quiet = run;
-  quiet.on_note = nullptr;
-  quiet.on_warning = nullptr;
-  const DecodedView decoded = decode_view(read_frames(decoding.scan, index, run),
-                                          decoding.plan,
-                                          decoding.scan.rig,
-                                          decoding.rays,
-                                          options_of_view(options, index),
-                                          quiet);
-  return views_.emplace(index, fringes_of(decoded, plan.maps, depth_mm)).first->second;
-}
-
-LitViews lit_views(const MeasuredViews& measured, const Scan& scan, std::size_t camera) {
-  LitViews out{measured.cameras.at(camera), {}, measured.coarsest.direction};
-  for (const Station& station : measured.stations)
-    out.of_scan.push_back(index_in_scan(scan, station.name));
+std::vector<Eigen::Isometry3d> poses_of(const ViewStore& views) {
+  std::vector<Eigen::Isometry3d> out;
+  for (std::size_t i = 0; i < views.size(); ++i)
+    out.push_back(views.rig_from_object(i));
   return out;
 }
 
-std::optional<IndirectPart> indirect_part(const ScanDecoding& decoding,
-                                          const LitViews& lit,
-                                          const Mesh& surface,
-                                          ShiftedPoints points,
-                                          ShownFringes& shown,
-                                          const Run& run) {
-  constexpr double kMaterial = 0.01;   // share of the points of a view
-  constexpr std::size_t kDecoded = 3;  // views whose frames determine the reflectance
-  const Scan& scan = decoding.scan;
-  const Image<Eigen::Vector2f>& rays = decoding.rays;
-  const auto& directions = decoding.plan.directions;
-  const auto plan = std::ranges::find(directions, lit.direction, &DirectionPlan::direction);
-  if (plan == directions.end() || plan->maps.empty() || surface.empty()) return std::nullopt;
+/// A surface under the projector; null where nothing predicts light.
+std::shared_ptr<const LitSurface> lit_surface(const LitViews& lit, const Mesh& surface) {
+  if (lit.plan == nullptr || surface.empty()) return nullptr;
   Mesh shape;
   shape.vertices_mm = surface.vertices_mm;
   shape.triangles = surface.triangles;
   shape.normals = surface.normals;
-  const auto source =
-      std::make_shared<const LitSurface>(std::move(shape), scan.rig.projector, plan->maps);
+  return std::make_shared<const LitSurface>(std::move(shape), lit.projector, lit.plan->maps);
+}
+
+/// The views that see indirect light, those first that see most; none where a few pixels of the
+/// first one show none, as in most scans.
+std::vector<ViewExposure> exposures_of(const LitViews& lit,
+                                       const LitSurface& surface,
+                                       const Run& run) {
+  constexpr std::size_t kFew = 400;
+  if (!sees_itself(surface)) return {};
   std::vector<ViewExposure> exposures;
   for (std::size_t i = 0; i < lit.views.size(); ++i) {
     run.check();
-    exposures.push_back(exposure_of(i, lit.views, *source, rays));
+    exposures.push_back(exposure_of(i, lit.views, surface, lit.rays));
   }
   std::erase_if(exposures, [](const ViewExposure& one) { return one.affected < kMaterial; });
-  if (exposures.empty()) return std::nullopt;
+  if (exposures.empty()) return {};
   std::stable_sort(exposures.begin(), exposures.end(), [](const auto& a, const auto& b) {
     return a.indirect > b.indirect;
   });
+  const bool shown =
+      albedo_of(lit, std::span(exposures).first(1), surface, kFew, nullptr, run).significant;
+  return shown ? exposures : std::vector<ViewExposure>();
+}
 
-  // The view that sees most of it decides whether to look further, which most parts do not need.
-  std::vector<AlbedoSample> samples;
-  AlbedoEstimate found;
-  const std::size_t most = std::min(kDecoded, exposures.size());
-  for (const auto& [begin, end] : {std::pair<std::size_t, std::size_t>{0, 1}, {1, most}}) {
-    if (begin == end) break;
-    const auto views = std::span(exposures).subspan(begin, end - begin);
-    add_views(decoding, lit, views, *plan, *source, shown, run, samples);
-    found = estimate_albedo(samples, plan->maps);
-    if (!found.significant) return std::nullopt;
+}  // namespace
+
+int thinning_px(const MeasuredViews& measured) {
+  constexpr double kPoints = 15'000.0;  // of a view: with fewer, narrow grooves would be lost
+  const auto views = static_cast<double>(std::max<std::size_t>(1, measured.stations.size()));
+  const double step = std::sqrt(static_cast<double>(measured.points) / views / kPoints);
+  return step < 2.0 ? 1 : step < 4.0 ? 2 : 4;
+}
+
+ThinnedViews::ThinnedViews(const MeasuredViews& all,
+                           std::size_t camera_number,
+                           const CameraModel& model,
+                           int step,
+                           const Run& run)
+    : measured(all),
+      camera_index(camera_number),
+      step_px(step),
+      camera(subsample(model, step_px)),
+      rays(rays_of(camera)) {
+  const ViewStore& from = all.cameras.at(camera_number);
+  for (std::size_t i = 0; i < from.size(); ++i) {
+    run.check();
+    views.add(subsample(from.load(i), step_px));
   }
-  const auto correction = std::make_shared<const IndirectCorrection>(
-      source, found.albedo, source_of(*plan), points == ShiftedPoints::Moved, rays);
+}
+
+FusionOptions ThinnedViews::coarse_fusion(double voxel_px, FusionOptions options) const {
+  constexpr double kLeastVoxel_px = 1.5;  // of the thinned views
+  const auto px = static_cast<double>((rays(1, 0) - rays(0, 0)).norm());
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    std::vector<float> depths_mm;
+    for (const float depth : views.load_depth_mm(i).pixels())
+      if (!std::isnan(depth)) depths_mm.push_back(depth);
+    if (depths_mm.empty()) continue;
+    options.voxel_mm = std::max(voxel_px / step_px, kLeastVoxel_px) * px *
+                       static_cast<double>(median(std::move(depths_mm)));
+    break;
+  }
+  options.terms.clear();
+  return options;
+}
+
+LitViews lit_views(const ThinnedViews& thinned, const LitScan& lit, const Projector& projector) {
+  LitViews out{.views = thinned.views,
+               .rays = thinned.rays,
+               .step_px = thinned.step_px,
+               .projector = projector,
+               .fringes = lit.fringes.at(thinned.camera_index)};
+  for (const Station& station : thinned.measured.stations)
+    out.of_scan.push_back(index_in_scan(lit.scan, station.name));
+  const auto& directions = lit.plan.directions;
+  const auto plan =
+      std::ranges::find(directions, thinned.measured.coarsest.direction, &DirectionPlan::direction);
+  if (plan != directions.end() && !plan->maps.empty()) out.plan = &*plan;
+  return out;
+}
+
+bool may_light_itself(const LitViews& lit, const Mesh& surface, const Run& run) {
+  const auto source = lit_surface(lit, surface);
+  return source != nullptr && !exposures_of(lit, *source, run).empty();
+}
+
+std::optional<IndirectPart> indirect_part(const LitViews& lit,
+                                          const Mesh& surface,
+                                          ShiftedPoints points,
+                                          const Run& run) {
+  constexpr std::size_t kMany = 2500;
+  constexpr std::size_t kViews = 3;  // whose frames determine the reflectance
+  const auto source = lit_surface(lit, surface);
+  if (source == nullptr) return std::nullopt;
+  const std::vector<ViewExposure> exposures = exposures_of(lit, *source, run);
+  if (exposures.empty()) return std::nullopt;
+  const auto collected = std::make_shared<const SurfaceLight>(source, poses_of(lit.views));
+  const auto views = std::span(exposures).first(std::min(kViews, exposures.size()));
+  const AlbedoEstimate found = albedo_of(lit, views, *source, kMany, collected.get(), run);
+  if (!found.significant) return std::nullopt;
   IndirectPart out;
+  out.correction = std::make_shared<const IndirectCorrection>(
+      collected, found.albedo, source_of(*lit.plan), points == ShiftedPoints::Moved);
   out.report = report_of(
-      lit.views.load_points(exposures.front().view), *source, *correction, found.albedo, rays);
+      lit.views.load_points(exposures.front().view), *out.correction, found.albedo, lit.rays);
   out.unexplained = found.unexplained;
-  out.correct = [correction](View& view) { correction->correct(view); };
-  out.largest_shifts_mm = [correction](const View& view) {
-    return correction->largest_shifts_mm(view);
-  };
-  out.systematic_mm = [correction](const View& view) { return correction->systematic_mm(view); };
   return out;
 }
 

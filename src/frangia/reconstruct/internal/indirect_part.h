@@ -1,55 +1,70 @@
 #pragma once
 
 #include <cstddef>
-#include <functional>
-#include <map>
+#include <memory>
 #include <optional>
 #include <vector>
 
 #include "frangia/core/image.h"
 #include "frangia/core/run.h"
-#include "frangia/decode/scan_decoding.h"
+#include "frangia/dataset/scan_folder.h"
+#include "frangia/decode/plan_decoding.h"
+#include "frangia/fusion/fuse_views.h"
 #include "frangia/geometry/mesh.h"
-#include "frangia/indirect_light/estimate_albedo.h"
+#include "frangia/indirect_light/indirect_correction.h"
 #include "frangia/indirect_light/indirect_light_report.h"
 #include "frangia/reconstruct/internal/measure_views.h"
+#include "frangia/rig/camera_model.h"
 
 namespace frangia {
 
+/// A scan in which indirect light is looked for. The references must outlive it.
+struct LitScan {
+  const Scan& scan;                            ///< of all cameras
+  const Image<Eigen::Vector2f>& rays;          ///< of the reference camera
+  const DecodePlan& plan;                      ///< of the scan's patterns
+  const std::vector<FringesOfViews>& fringes;  ///< what the frames of each camera show
+};
+
+/// Copies of the views of a camera, or of every few pixels of them: their surface shows where
+/// indirect light comes from.
+struct ThinnedViews {
+  ViewStore views;                ///< with phases
+  const MeasuredViews& measured;  ///< from which they are taken
+  std::size_t camera_index;
+  int step_px;                  ///< one, two or four
+  CameraModel camera;           ///< of every `step_px`-th pixel
+  Image<Eigen::Vector2f> rays;  ///< of its pixels
+
+  /// `all` must outlive it.
+  ThinnedViews(const MeasuredViews& all,
+               std::size_t camera_number,
+               const CameraModel& model,
+               int step,
+               const Run& run);
+  /// Options for a surface with this many pixels of the whole camera between samples, at least one
+  /// and a half of the thinned views, without systematic parts.
+  [[nodiscard]] FusionOptions coarse_fusion(double voxel_px, FusionOptions options) const;
+};
+
+/// Every how many pixels of the views still show whether there is indirect light.
+[[nodiscard]] int thinning_px(const MeasuredViews& measured);
+
 /// The views of a camera in which indirect light is looked for.
 struct LitViews {
-  const ViewStore& views;
-  std::vector<std::size_t> of_scan;  ///< the view of the scan that each one is
-  FringeDirection direction;         ///< of the fringes of which the points have a phase
+  const ViewStore& views;               ///< every `step_px`-th pixel of the camera
+  const Image<Eigen::Vector2f>& rays;   ///< of their pixels
+  int step_px = 1;                      ///< one, two or four
+  std::vector<std::size_t> of_scan{};   ///< the view of the scan that each one is
+  const Projector& projector;           ///< in the frame of the camera
+  const DirectionPlan* plan = nullptr;  ///< of the points' direction; null: no fringes
+  const FringesOfViews& fringes;        ///< what their frames show
 };
 
-/// The views of the reference camera, or of a further one.
-[[nodiscard]] LitViews lit_views(const MeasuredViews& measured,
-                                 const Scan& scan,
-                                 std::size_t camera = 0);
-
-/// What the frames of views show at some pixels. The views that several predictions ask for are
-/// decoded once.
-class ShownFringes {
- public:
-  /// A pixel and what was measured there.
-  struct AtPixel {
-    int x = 0;
-    int y = 0;
-    std::vector<MeasuredFringe> measured;  ///< coarse to fine
-  };
-  /// Those of view `index` of the scan, of the fringes of a direction.
-  ///
-  /// @errors   as read_frames and decode_view
-  [[nodiscard]] const std::vector<AtPixel>& of_view(const ScanDecoding& decoding,
-                                                    std::size_t index,
-                                                    const DirectionPlan& plan,
-                                                    const Image<float>& depth_mm,
-                                                    const Run& run);
-
- private:
-  std::map<std::size_t, std::vector<AtPixel>> views_;  ///< by their index in the scan
-};
+/// Thinned views, and the projector in the frame of their camera.
+[[nodiscard]] LitViews lit_views(const ThinnedViews& thinned,
+                                 const LitScan& lit,
+                                 const Projector& projector);
 
 /// What becomes of the points that indirect light shifts.
 enum class ShiftedPoints {
@@ -59,32 +74,31 @@ enum class ShiftedPoints {
 
 /// Indirect light that was found in the views of a camera.
 struct IndirectPart {
-  /// Moves the points of a view to where they are without the predicted error of their phase, and
-  /// removes those whose fringe order indirect light makes wrong; nothing where points are kept.
-  /// Correcting a view again replaces the correction.
-  std::function<void(View&)> correct;
-  /// Uncertainty of the prediction for each point of a view.
-  std::function<Image<float>(const View&)> systematic_mm;
-  /// Largest shift of each point's depth that indirect light can cause; see IndirectCorrection.
-  std::function<Image<float>(const View&)> largest_shifts_mm;
+  /// Of points; nothing moves where they are kept.
+  std::shared_ptr<const IndirectCorrection> correction;
   double unexplained = 1.0;  ///< of the frames' indirect light; see AlbedoEstimate
   IndirectLightReport report;
 };
 
-/// Finds out whether a surface lights itself, and by how much.
+/// Whether a surface may light itself, as a few pixels of the view that sees most of it show.
 ///
-/// The measured surface predicts where indirect light arrives, and which fringes it carries. Where
-/// that is material, frames of up to three views are decoded again: contrast and phases give the
-/// reflectance (`estimate_albedo`). Nothing is returned when they show no indirect light.
+/// First some points of the surface look whether they see other parts of it, then some pixels of
+/// each view whether that is lit, and then contrast and phases give a reflectance
+/// (`estimate_albedo`) or not.
 ///
-/// @shape    `shown`: of the same camera; `surface` is the fused mesh of the views, object frame;
-/// `decoding`: of their camera
-/// @errors   as read_frames and decode_view; Error(Cancelled)
-[[nodiscard]] std::optional<IndirectPart> indirect_part(const ScanDecoding& decoding,
-                                                        const LitViews& lit,
+/// @shape    `surface` is the fused mesh of the views, object frame
+/// @errors   Error(Cancelled)
+[[nodiscard]] bool may_light_itself(const LitViews& lit, const Mesh& surface, const Run& run);
+
+/// Finds out whether a surface lights itself, and by how much: where it may, light is collected all
+/// over it, and what up to three views show decides. Nothing is returned when they show no
+/// indirect light.
+///
+/// @shape    as above
+/// @errors   Error(Cancelled)
+[[nodiscard]] std::optional<IndirectPart> indirect_part(const LitViews& lit,
                                                         const Mesh& surface,
                                                         ShiftedPoints points,
-                                                        ShownFringes& shown,
                                                         const Run& run);
 
 }  // namespace frangia

@@ -177,6 +177,45 @@ std::size_t count_points(const MeasuredView& measured) {
   return points;
 }
 
+/// What the fringes of a direction show at about 2500 of the pixels that have a point: every pixel,
+/// or every few pixels, of the thinned maps.
+std::vector<ShownFringes> shown_fringes(const DecodedDirection& direction,
+                                        const Image<float>& depth_mm) {
+  constexpr double kSamples = 2500.0;
+  const std::vector<WrappedPhase>& maps = direction.thinned;
+  if (maps.empty()) return {};
+  const Image<float>& grid = maps.front().phase_rad;
+  std::vector<Eigen::Vector2i> with_point;
+  for (int y = 0; y < grid.height(); ++y) {
+    for (int x = 0; x < grid.width(); ++x) {
+      if (!std::isnan(depth_mm(x * direction.thinning_px, y * direction.thinning_px)))
+        with_point.emplace_back(x, y);
+    }
+  }
+  const int every =
+      std::max(1, static_cast<int>(std::sqrt(static_cast<double>(with_point.size()) / kSamples)));
+  std::vector<ShownFringes> out;
+  for (const Eigen::Vector2i& at : with_point) {
+    if (at.x() % every != 0 || at.y() % every != 0) continue;
+    ShownFringes shown{direction.thinning_px * at.x(), direction.thinning_px * at.y(), {}};
+    const float absolute_rad = direction.phase.phase_rad(shown.x, shown.y);
+    if (std::isnan(absolute_rad)) continue;
+    for (const WrappedPhase& map : maps) {
+      const float modulation = map.modulation_counts(at.x(), at.y());
+      const float phase_rad = map.phase_rad(at.x(), at.y());
+      if (std::isnan(phase_rad) || !(modulation > 0.0F)) break;
+      const double ratio =
+          map.pattern.fringes_per_unit() / direction.phase.pattern.fringes_per_unit();
+      shown.measured.push_back({map.mean_counts(at.x(), at.y()) / modulation,
+                                1.0F / modulation,
+                                map.sigma_rad(at.x(), at.y()),
+                                static_cast<float>(phase_rad - ratio * absolute_rad)});
+    }
+    if (shown.measured.size() == maps.size()) out.push_back(std::move(shown));
+  }
+  return out;
+}
+
 /// A number that differs between images unless they are equal to the last bit.
 std::size_t fingerprint(const Image<float>& image) {
   const std::span<const float> pixels = image.pixels();
@@ -204,6 +243,7 @@ MeasuredViews measure_views(const Scan& scan,
   std::map<std::size_t, std::string> names;  // of the views, by the fingerprint of their phase
   MeasuredViews all;
   all.cameras.resize(cameras.size());
+  all.fringes.assign(cameras.size(), FringesOfViews(scan.views.size()));
   for (std::size_t i = 0; i < scan.views.size(); ++i) {
     run.report(static_cast<double>(i) / static_cast<double>(scan.views.size()));
     std::vector<DecodedCamera> decoded;
@@ -253,6 +293,10 @@ MeasuredViews measure_views(const Scan& scan,
     const Eigen::Isometry3d rig_from_object = scan.rig.rig_from_object(scan.views[i].angle_rad);
     for (std::size_t camera = 0; camera < cameras.size(); ++camera) {
       MeasuredCamera& seen = measured.cameras[camera];
+      for (const DecodedDirection& direction : decoded[camera].decoded.directions) {
+        if (direction.coarsest.direction == all.coarsest.direction)
+          all.fringes[camera][i] = shown_fringes(direction, seen.range.depth_mm);
+      }
       all.cameras[camera].add({std::move(seen.range),
                                scan.rig.cameras[camera].camera_from_rig() * rig_from_object,
                                std::move(seen.edge_pixels),

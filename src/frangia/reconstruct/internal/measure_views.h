@@ -14,6 +14,7 @@
 #include "frangia/decode/decoded_views.h"
 #include "frangia/decode/view_summary.h"
 #include "frangia/fringe_order/resolve_by_views.h"
+#include "frangia/indirect_light/estimate_albedo.h"
 #include "frangia/pattern/pattern.h"
 #include "frangia/range/depth_agreement.h"
 #include "frangia/range/remove_mixed_pixels.h"
@@ -21,6 +22,16 @@
 #include "frangia/views/view_store.h"
 
 namespace frangia {
+
+/// A pixel with a point, and what the frames of each fringe pattern measured there.
+struct ShownFringes {
+  int x = 0;
+  int y = 0;
+  std::vector<MeasuredFringe> measured;  ///< coarse to fine, of the direction of `coarsest`
+};
+
+/// Of one camera: some pixels of each view of the scan; none of a view without points.
+using FringesOfViews = std::vector<std::vector<ShownFringes>>;
 
 /// The range grids of all views of a scan.
 struct MeasuredViews {
@@ -39,6 +50,7 @@ struct MeasuredViews {
   Pattern second;
   std::vector<std::string> corrections;  ///< of the phase of the first view, a clause for each
   std::vector<ViewSummary> summaries;    ///< of all views of the scan, also of those left out
+  std::vector<FringesOfViews> fringes;   ///< by camera
 
   [[nodiscard]] const ViewStore& reference() const { return cameras.front(); }  ///< camera 0
   [[nodiscard]] ViewStore& reference() { return cameras.front(); }              ///< camera 0

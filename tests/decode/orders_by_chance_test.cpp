@@ -1,0 +1,68 @@
+// Three steps at three periods, of which a frame of the coarsest pattern is inverted.
+#include <cmath>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "frangia/core/angles.h"
+#include "frangia/decode/decode_view.h"
+
+#include "support/synthetic_fringes.h"
+
+namespace frangia {
+namespace {
+
+constexpr int kAcross_px = 320;
+constexpr int kDown_px = 80;
+constexpr double kMean_counts = 110.0;
+
+std::vector<FrameStack> three_patterns() {
+  std::vector<FrameStack> stacks;
+  const testing::Scene scene{.width = kAcross_px,
+                             .height = kDown_px,
+                             .mean_counts = kMean_counts,
+                             .modulation_counts = 70.0,
+                             .noise_counts = 0.6,
+                             .white_level = 255};
+  for (const double period_px : {1280.0, 80.0, 16.0}) {
+    const Pattern pattern{.name = "f" + std::to_string(static_cast<int>(period_px)),
+                          .period_px = period_px,
+                          .shifts_rad = testing::equal_shifts(3, kTwoPi / 3.0)};
+    stacks.push_back(testing::render_frames(scene, pattern, [&](int x, int y) {
+      const double column = 100.0 + 3.1 * x + 12.0 * std::sin(0.03 * x + 0.1 * y);
+      return kTwoPi * column / period_px;
+    }));
+  }
+  return stacks;
+}
+
+SequenceCheck check_of(const std::vector<FrameStack>& stacks, bool keep_maps) {
+  Rig rig;
+  rig.reference().model.width_px = kAcross_px;
+  rig.reference().model.height_px = kDown_px;
+  rig.reference().noise = NoiseModel{0.4, 0.0};
+  rig.projector.model = CameraModel{.width_px = 1280, .height_px = 800};
+  const DecodedView view = decode_view(stacks, rig, {}, {.keep_maps = keep_maps});
+  return view.directions.front().check.value();
+}
+
+TEST(OrdersByChance, AreRefused) {
+  std::vector<FrameStack> stacks = three_patterns();
+  for (const bool keep_maps : {true, false})
+    EXPECT_TRUE(check_of(stacks, keep_maps).consistent);
+  for (std::uint16_t& counts : std::get<Image<std::uint16_t>>(stacks[0].frames[1]).pixels())
+    counts = static_cast<std::uint16_t>(2.0 * kMean_counts - counts);
+  for (const bool keep_maps : {true, false}) {
+    const SequenceCheck check = check_of(stacks, keep_maps);
+    EXPECT_FALSE(check.consistent);
+    EXPECT_EQ(check.patterns, std::vector<std::string>{"f1280"});
+    EXPECT_NE(describe(check).find("the fringe orders are little better than chance"),
+              std::string::npos)
+        << describe(check);
+  }
+}
+
+}  // namespace
+}  // namespace frangia
