@@ -135,5 +135,5 @@ export const FAULTS_ACCEPTANCE = {
     'keine Anordnung des Prüfkörpers wurde gemessen',
     'nessuna disposizione del campione è stata misurata',
   ],
-  'fault.aboveZero': ['must be above 0', 'muss größer als 0 sein', 'deve essere maggiore di 0'],
+  'fault.sizeAboveZero': ['must be above 0', 'muss größer als 0 sein', 'deve essere maggiore di 0'],
 } as const satisfies Rows;
