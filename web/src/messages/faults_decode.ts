@@ -250,4 +250,9 @@ export const FAULTS_DECODE = {
     "pattern «{0}»: errore medio di passo {1} % su {2} viste; il {3} % è l'errore di guadagno dello sfasatore ed è corretto, il resto è dispersione",
   ],
   'fault.same': [', or which is the same, ', ', oder, was dasselbe ist, ', ', o, che è lo stesso, '],
+  'fault.ordersByChance': [
+    'pattern "{0}": at {1} % of the pixels its phase is off by more than a quarter of a fringe of pattern "{2}", so that the fringe orders are little better than chance; check that they are its frames, in the order of its shifts',
+    'Muster „{0}“: bei {1} % der Pixel weicht seine Phase um mehr als ein Viertel eines Streifens des Musters „{2}“ ab, sodass die Streifenordnungen kaum besser als Zufall sind; prüfen Sie, ob es seine Bilder sind, in der Reihenfolge seiner Verschiebungen',
+    "motivo «{0}»: nel {1} % dei pixel la sua fase si scosta di più di un quarto di frangia del motivo «{2}», per cui gli ordini di frangia sono poco meglio del caso; verificate che siano le sue immagini, nell'ordine dei suoi sfasamenti",
+  ],
 } as const satisfies Rows;
