@@ -1,5 +1,6 @@
 #include "frangia/registration/explain/internal/cause_motions.h"
 
+#include "frangia/registration/explain/internal/moved_rig.h"
 #include "frangia/registration/explain/internal/time_profiles.h"
 
 namespace frangia {
@@ -121,6 +122,11 @@ Eigen::MatrixXd unit_motions(PoseCause cause,
     }
     case PoseCause::Rig:
       return of_rig(Eigen::VectorXd::Ones(views), setting, unknowns);
+    case PoseCause::TableMoved:
+      return motions_in_rig(setting, from_on(at[0], setting.views), unknowns).leftCols<6>();
+    case PoseCause::RigMoved:
+      return motions_in_rig(setting, from_on(at[0], setting.views), unknowns) *
+             motions_of_knock(static_cast<MovedRig>(profile));
     case PoseCause::RigDrift: {
       // The rig may be as stated at the beginning, at the end or between: its mean change is half
       // of its drift.
