@@ -128,6 +128,7 @@ ExplainedPoses explain(RegistrationReport& report,
                        const TurntableStations& given,
                        std::size_t dense) {
   std::optional<ExplainedAngles> angles = explain_angles(work);
+  if (!angles) angles = explain_turns(work);
   for (;;) {
     if (angles) {
       report.explanation = std::move(angles->explanation);

@@ -238,6 +238,15 @@ void add_several_views(CauseScores& scores, const PartEquations& part, double di
   const std::size_t views = part.views();
   const std::size_t most = views / 2;
   if (most < 2) return;
+  // Each number of views is as probable, and so are all choices of that many. The odds of a cause
+  // are the mean over its hypotheses, which a scan of few views has several times: found from each
+  // of their views.
+  const double listed = views > kFewViews ? static_cast<double>(most - 1)
+                                          : static_cast<double>(views * (views - 1 + most - 2));
+  const auto log_weight = [&](std::size_t some) {
+    const double times = views > kFewViews ? 1.0 : static_cast<double>(some);
+    return std::log(listed / (times * static_cast<double>(most - 1))) - log_choices(views, some);
+  };
   for (const double share : kMotions) {
     const double scale = share * distance_mm;
     NormalEquations all = part.of_views();
@@ -253,7 +262,7 @@ void add_several_views(CauseScores& scores, const PartEquations& part, double di
       CauseHypothesis several{PoseCause::ViewsMoved, {first}, scale, 0.0, part.slides()};
       const auto add = [&](const CauseHypothesis& some, double odds) {
         CauseHypothesis sorted = some;
-        sorted.log_odds = odds - log_choices(views, some.views.size());
+        sorted.log_odds = odds + log_weight(some.views.size());
         std::sort(sorted.views.begin(), sorted.views.end());
         scores.add(std::move(sorted));
       };

@@ -71,16 +71,24 @@ class ViewsAlone {
 /// The probability of each cause or hypothesis of a round by the logarithm of its odds.
 class Probabilities {
  public:
-  explicit Probabilities(const PoseRound& scored) : most_(scored.causes.front().log_odds) {
+  explicit Probabilities(const PoseRound& scored, double share = 1.0)
+      : most_(scored.causes.front().log_odds), share_(share) {
     for (const ScoredCause& cause : scored.causes)
-      sum_ += std::exp(cause.log_odds - most_);
+      sum_ += std::exp(share_ * (cause.log_odds - most_));
   }
-  [[nodiscard]] double of(double log_odds) const { return std::exp(log_odds - most_) / sum_; }
+  [[nodiscard]] double of(double log_odds) const {
+    return std::exp(share_ * (log_odds - most_)) / sum_;
+  }
 
  private:
   double most_;
+  double share_;  ///< of the logarithms that counts
   double sum_ = 0.0;
 };
+
+/// Share of the evidence that counts between faults: errors that surfaces have in common count as
+/// evidence, too, and odds of 100 : 1 between two faults are wrong more than once in a hundred.
+constexpr double kOfEvidence = 0.4;
 
 /// Causes that are less probable leave nothing open.
 constexpr double kLeastProbable = 1e-3;
@@ -126,7 +134,7 @@ PoseSpread spread_of_causes(const PoseRound& scored,
   const auto views = static_cast<Eigen::Index>(6 * work.surfels.size());
   const ViewsAlone alone(scored, work);
   Eigen::MatrixXd columns(views, 0);
-  const Probabilities probability(scored);
+  const Probabilities probability(scored, winner.cause == PoseCause::AsStated ? 1.0 : kOfEvidence);
   const auto add = [&](double share, const CauseHypothesis& hypothesis) {
     if (share < kLeastProbable) return;
     const PosePosterior other = scored.posterior(hypothesis);
@@ -169,7 +177,7 @@ RigCovariance open_rig(const PoseRound& scored,
       changes += mean[i] * motions.middleRows(views + count * i, count);
     return changes;
   };
-  const Probabilities probability(scored);
+  const Probabilities probability(scored, kOfEvidence);
   Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(count, count);
   for (const ScoredCause& cause : scored.causes) {
     const double share = probability.of(cause.log_odds);
@@ -177,7 +185,7 @@ RigCovariance open_rig(const PoseRound& scored,
     const PosePosterior found = scored.posterior(cause.best);
     // Sound views have small errors in common, which some rig far off explains. Their evidence is
     // none about the rig, least of all about changes that no overlap shows.
-    if (scored.effect_mm(found.motion - scored.stated()) < noticeable_mm(scored)) continue;
+    if (scored.effect_mm(found.motion - scored.stated()) < scored.noise.shared_mm) continue;
     const Eigen::MatrixXd open = mean_of_views(found.factor);
     covariance += share * open * open.transpose();
     if (applied == cause.cause) continue;
