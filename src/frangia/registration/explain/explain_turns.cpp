@@ -177,18 +177,22 @@ std::optional<ExplainedAngles> explain_turns(const Registration& work) {
   constexpr double kSuspicious = 0.0005;  // share of points in front of what another view measured
   constexpr double kBetter = 25.0;        // gain of the fit, in pairs, which edges do not reach
   constexpr double kShare = 0.1;          // of the fit that is reached
+  constexpr double kRemaining = 0.4;      // of the contradictions
   constexpr double kAlike = 0.1;          // of the gain
   const std::vector<double>& given = work.bundle.given.angles_rad;
   if (!work.bundle.given.part_poses.empty() || given.size() < 3) return std::nullopt;
-  if (free_space_violation(sum(work.bundle, work.surfels)) < kSuspicious) return std::nullopt;
+  Bundle bundle = work.bundle;
+  const double violation = free_space_violation(sum(bundle, work.surfels));
+  if (violation < kSuspicious) return std::nullopt;
   const TurnSearch search(work);
   const double range_rad = search.range_rad();
+  if (!(range_rad > kMostTurned_rad)) return std::nullopt;
   std::vector<Turns> all{search.best_of(kMostTurned_rad / range_rad,
                                         kStep_rad / range_rad,
                                         [&](double by) { return search.scaled(by); })};
   for (std::size_t view = 1; view < search.views(); ++view)
     all.push_back(search.best_of(
-        0.5 * kMostTurned_rad, kStep_rad, [&](double by) { return search.turned(view, by); }));
+        kMostTurned_rad, kStep_rad, [&](double by) { return search.turned(view, by); }));
   Turns best = *std::max_element(
       all.begin(), all.end(), [](const Turns& a, const Turns& b) { return a.fit < b.fit; });
   PoseExplanation& found = best.as;
@@ -196,8 +200,8 @@ std::optional<ExplainedAngles> explain_turns(const Registration& work) {
                                 ? std::abs(found.scale - 1.0) * range_rad
                                 : std::abs(found.turned_rad);
   const double gain = best.fit - search.fit_as_refined();
-  if (turned_rad < kLeast_rad || gain < kBetter || gain < kShare * std::abs(best.fit))
-    return std::nullopt;
+  if (turned_rad < kLeast_rad || turned_rad > kMostTurned_rad - kLeast_rad) return std::nullopt;
+  if (gain < kBetter || gain < kShare * std::abs(best.fit)) return std::nullopt;
   for (const Turns& other : all) {
     if (other.fit < best.fit - kAlike * gain ||
         (other.as.best == found.best && other.as.views == found.views))
@@ -205,9 +209,11 @@ std::optional<ExplainedAngles> explain_turns(const Registration& work) {
     found.decided = false;
     found.second = other.as.best;
   }
-  std::vector<double> angles_rad = work.bundle.state.angles_rad;
+  std::vector<double>& angles_rad = bundle.state.angles_rad;
   for (std::size_t view = 0; view < angles_rad.size(); ++view)
     angles_rad[view] += best.turned_rad[view];
+  // Better angles than those stated may still be far from the right ones.
+  if (free_space_violation(sum(bundle, work.surfels)) > kRemaining * violation) return std::nullopt;
   ExplainedAngles explained{std::move(angles_rad), std::move(found)};
   PoseExplanation& as = explained.explanation;
   as.text = describe(as, [&](std::size_t view) { return work.name_of(view); });

@@ -24,9 +24,9 @@ struct ExplainedAngles {
 ///           or no such angles fit better
 [[nodiscard]] std::optional<ExplainedAngles> explain_angles(const Registration& work);
 
-/// Looks for angles off by up to 6 degrees from one view on, or by up to 12 degrees over the turn
-/// in proportion, about the axis to which the table was refined: those with which few points
-/// contradict another view, and most surfaces fit that show how the part turned.
+/// Looks for angles off by up to 11 degrees from one view on, or over the turn in proportion, about
+/// the axis to which the table was refined: those with which few points contradict another view,
+/// and most surfaces fit that show how the part turned.
 ///
 /// @missing  none where hardly any point contradicts another view, no such angles fit much better,
 ///           or there are several setups

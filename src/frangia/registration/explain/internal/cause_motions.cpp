@@ -133,7 +133,7 @@ Eigen::MatrixXd unit_motions(PoseCause cause,
       const Eigen::MatrixXd drift = time_profile(profile, setting.times);
       // No drift is exactly of one course.
       constexpr double kOffCourse = 0.02;
-      const Eigen::MatrixXd& any = setting.rig_basis;
+      const Eigen::MatrixXd any = basis_of_profiles(setting.times);
       Eigen::MatrixXd functions(views, 1 + drift.cols() + any.cols());
       functions << Eigen::VectorXd::Constant(views, 0.5), drift, kOffCourse * any;
       return of_rig(functions, setting, unknowns);

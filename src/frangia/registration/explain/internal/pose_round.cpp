@@ -141,7 +141,7 @@ PoseChart make_chart(const Bundle& bundle,
   setting.views = bundle.maps.size();
   setting.angles_rad = bundle.given.angles_rad;
   setting.times = times;
-  setting.rig_basis = basis_of_profiles(times);
+  setting.rig_basis = basis_of_rigs(times);
   setting.distance_mm = bundle.prior_sigma[2] / options.relative_shift_sigma;
   measure_part(setting, surfels, chart.from);
   constexpr double kTilt_rad = rad_from_deg(0.1);  // as `RefineRigOptions` has them of a drift
