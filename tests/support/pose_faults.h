@@ -130,6 +130,21 @@ struct FaultyScan {
       return 1.0 - std::exp(-static_cast<double>(view) / constant_views);
     });
   }
+  /// From view `before` on the projector, the table or both, which the camera then sees, are
+  /// elsewhere in the rig's frame, by a rotation about the camera and a shift.
+  void knock(std::size_t before, double turn_rad, double shift_mm, bool projector, bool table) {
+    const Eigen::Isometry3d by =
+        Eigen::Translation3d(shift_mm * Eigen::Vector3d(0.6, -0.5, 0.62)) *
+        Eigen::AngleAxisd(turn_rad, Eigen::Vector3d(0.3, 1.0, 0.1).normalized());
+    const Eigen::Isometry3d rig_from_object = stated.rig_from_object(0.0);
+    for (std::size_t i = before; i < views.size(); ++i) {
+      if (table) views[i].wobble = rig_from_object.inverse() * by * rig_from_object;
+      if (!projector) continue;
+      Projector& own = views[i].rig.projector;
+      own.rotation = (own.rotation * by.linear().transpose()).eval();
+      own.position_mm = by * own.position_mm;
+    }
+  }
   /// The table's top tilts and shifts at random in each view.
   void wobble(double tilt_rad, double shift_mm) {
     std::mt19937 random(seed + 99);

@@ -128,6 +128,7 @@ ExplainedPoses explain(RegistrationReport& report,
                        const TurntableStations& given,
                        std::size_t dense) {
   std::optional<ExplainedAngles> angles = explain_angles(work);
+  if (!angles) angles = explain_turns(work);
   for (;;) {
     if (angles) {
       report.explanation = std::move(angles->explanation);
@@ -182,6 +183,23 @@ void add_motions(ViewMotions& motions, const ViewMotions& more) {
     both << motions[view], more[view];
     motions[view] = std::move(both);
   }
+}
+
+/// Explains what the views still disagree about once their points are those of the rigs that were
+/// found: what moved the camera moved it against the table, too.
+void explain_rest(RegistrationReport& report,
+                  ExplainedPoses& found,
+                  const TurntableStations& given,
+                  const Registration& work,
+                  std::size_t dense) {
+  ExplainedPoses rest = explain_poses(work, {given.table, given.stations}, dense);
+  if (rest.explanation.best == PoseCause::Unexplained) report.explanation = rest.explanation;
+  if (rest.corrected) {
+    add_motions(rest.corrected->motions, found.spread);
+  } else {
+    add_motions(found.spread, rest.spread);
+  }
+  found.corrected = std::move(rest.corrected);
 }
 
 /// Whether the table alone does not explain the places of the views, which are then corrected.
@@ -273,7 +291,10 @@ RegistrationReport register_views(ViewStore& views,
   ExplainedPoses explained = explain(report, work, given, many_surfels);
   report.rig_open = std::move(explained.rig_open);
   const PoseExplanation& explanation = report.explanation;
-  if (!explained.rigs.empty()) correct_drift(work, given, explained.rigs);
+  if (!explained.rigs.empty()) {
+    correct_drift(work, given, explained.rigs);
+    explain_rest(report, explained, given, work, many_surfels);
+  }
   // A view that moved is reported when it is left out, and `untrusted_reason` reports Unexplained.
   const bool is_reported = explanation.best == PoseCause::Unexplained ||
                            (explanation.best == PoseCause::ViewMoved && !report.outliers.empty());

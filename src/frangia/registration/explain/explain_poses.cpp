@@ -15,6 +15,7 @@
 #include "frangia/registration/explain/internal/spread_of_causes.h"
 #include "frangia/registration/explain/internal/time_profiles.h"
 #include "frangia/registration/internal/assess_fit.h"
+#include "frangia/registration/internal/state_motions.h"
 #include "frangia/registration/refine_rig.h"
 
 namespace frangia {
@@ -31,7 +32,9 @@ void score_pairs(PoseRound& round,
   if (model) {
     round.rig_at = rig_at;
     round.rig = rig_changes(*model, *given.pattern, round.chart.setting.rig_basis, rig_at);
-    round.chart.setting.rig_changes = model->count();
+    PoseSetting& setting = round.chart.setting;
+    setting.rig_changes = model->count();
+    setting.projector_moves = model->by_motions_of_projector(setting.tilt_rad, setting.shift_mm);
   }
   const RigChanges* rig = round.rig ? &*round.rig : nullptr;
   round.sums = sum_poses(round.bundle, surfels, {round.poses, rig});
@@ -86,18 +89,24 @@ const ScoredCause& as_stated(const PoseRound& round) {
 }
 
 /// Views as the table places them that was refined with their points as rigs of their own measure
-/// them.
+/// them, or as the table and a knock do.
 struct PlacedViews {
   Eigen::VectorXd rig_at;  ///< changes of the rig, as `changes_of_views` has them
   Bundle bundle;
   SurfelLists surfels;
+  std::vector<Eigen::Isometry3d> object_from_rig{};  ///< of each view
   double apart_mm = 0.0;  ///< median distance of the pairs within the reach
   std::size_t pairs = 0;
 
+  void place_by_table() {
+    object_from_rig.clear();
+    for (const Eigen::Isometry3d& pose : object_poses(bundle.state))
+      object_from_rig.push_back(pose.inverse());
+  }
   void compare(double reach_mm) {
     Bundle open = bundle;
     open.gate_mm = reach_mm;
-    const BundleSums sums = sum(open, surfels);
+    const BundleSums sums = sum_poses(open, surfels, {object_from_rig, nullptr}).fit;
     apart_mm = static_cast<double>(median(sums.distances_mm));
     pairs = sums.distances_mm.size();
   }
@@ -105,22 +114,33 @@ struct PlacedViews {
 
 PlacedViews placed_as_stated(const Registration& work, Eigen::VectorXd rig_at) {
   PlacedViews placed{std::move(rig_at), work.bundle, work.surfels};
+  placed.place_by_table();
   placed.compare(work.reach_mm);
   return placed;
 }
 
+/// By a cause of a round that changes the rig.
 PlacedViews placed_by(const Registration& work,
                       const TurntableStations& given,
                       const DriftModel& model,
-                      Eigen::VectorXd rig_at) {
-  PlacedViews placed{std::move(rig_at), work.bundle, {}};
+                      const PoseRound& round,
+                      std::size_t cause) {
+  const Eigen::VectorXd& motion = round.motions[cause];
+  PlacedViews placed{motion.tail(round.rig_at.size()), work.bundle, {}};
   const Eigen::MatrixXd basis = basis_of_profiles(times_of(work.stations));
   displace_views(
       placed.bundle.maps, *given.rig, rigs_of_views(model, basis, placed.rig_at), *given.pattern);
   placed.surfels = pick_all_surfels(placed.bundle.maps, surfels_to_explain(work.views.size()));
-  placed.bundle.state = placed.bundle.given;
   placed.bundle.gate_mm = work.reach_mm;
-  optimize_bundle(placed.bundle, placed.surfels, work.options.max_iterations, work.run);
+  if (round.causes[cause].cause == PoseCause::RigMoved) {
+    const PosePosterior found = round.posterior(round.causes[cause].best);
+    placed.bundle.state = round.chart.table_at(work.bundle.given, found.table);
+    placed.object_from_rig = round.chart.poses_at(motion);
+  } else {
+    placed.bundle.state = placed.bundle.given;
+    optimize_bundle(placed.bundle, placed.surfels, work.options.max_iterations, work.run);
+    placed.place_by_table();
+  }
   placed.compare(work.reach_mm);
   return placed;
 }
@@ -139,7 +159,7 @@ PoseRound scored_round(const Registration& work,
                        ScoredPoses poses) {
   const PoseChart chart = make_chart(
       placed.bundle, placed.surfels, placed.bundle.state, times_of(work.stations), work.options);
-  PoseRound round{.bundle = placed.bundle, .chart = chart, .poses = chart.from};
+  PoseRound round{.bundle = placed.bundle, .chart = chart, .poses = placed.object_from_rig};
   round.bundle.gate_mm = work.reach_mm;
   if (poses == ScoredPoses::Free)
     free_poses(round.bundle, placed.surfels, round.poses, round.chart, work.options, work.run);
@@ -161,7 +181,7 @@ std::optional<PlacedViews> best_placed(const Registration& work,
   double least_mm = kBetter * before.apart_mm;
   for (std::size_t i = 0; i < round.causes.size(); ++i) {
     if (!changes_rig(round.causes[i].cause) || round.causes[i].log_odds < 0.0) continue;
-    PlacedViews placed = placed_by(work, given, model, round.motions[i].tail(before.rig_at.size()));
+    PlacedViews placed = placed_by(work, given, model, round, i);
     const auto fewest = static_cast<std::size_t>(kAsMany * static_cast<double>(before.pairs));
     if (placed.apart_mm > least_mm || placed.pairs < fewest) continue;
     least_mm = placed.apart_mm;
@@ -277,8 +297,8 @@ ExplainedPoses explain_poses(const Registration& work,
   if (changes_rig(winner.cause)) {
     const Eigen::VectorXd of_rig = round.motions[first].tail(round.rig_at.size());
     const Eigen::MatrixXd changes = changes_of_views(of_rig, round.rig->basis);
-    const bool drifts = winner.cause == PoseCause::RigDrift;
-    explanation.terms = terms_of(*model, changes, drifts);
+    const bool drifts = winner.cause != PoseCause::Rig;
+    if (winner.cause != PoseCause::RigMoved) explanation.terms = terms_of(*model, changes, drifts);
     if (drifts && explanation.decided) {
       all.rigs = rigs_of_views(*model, round.rig->basis, of_rig);
       const PoseSpread own = spread_of_winner(round, round.posterior(winner.best), work);

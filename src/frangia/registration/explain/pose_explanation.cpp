@@ -28,6 +28,10 @@ const char* name_of(PoseCause cause) {
       return "rig";
     case PoseCause::RigDrift:
       return "rig-drift";
+    case PoseCause::TableMoved:
+      return "table-moved";
+    case PoseCause::RigMoved:
+      return "rig-moved";
     case PoseCause::Unexplained:
       break;
   }

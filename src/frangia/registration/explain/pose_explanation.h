@@ -23,6 +23,8 @@ enum class PoseCause : std::uint8_t {
   Wobble,      ///< table or part move at random from view to view
   Rig,         ///< projector or camera are not where the rig states, all through the scan
   RigDrift,    ///< projector or camera drift with time
+  TableMoved,  ///< the table moved between two views, or camera and projector together
+  RigMoved,    ///< projector or camera moved between two views
   Unexplained  ///< every view is elsewhere
 };
 

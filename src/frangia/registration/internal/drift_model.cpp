@@ -6,6 +6,7 @@
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
+#include <Eigen/QR>
 
 #include "frangia/core/symmetric_eigen.h"
 #include "frangia/range/fringe_ray.h"
@@ -113,6 +114,20 @@ DriftModel::DriftModel(const Rig& given,
   RigCovariance both{parameters_, drift_};
   add_covariance(both.covariance, parameters_, known.covariance, known.parameters);
   factor_ = covariance_factor(both);
+}
+
+Eigen::MatrixXd DriftModel::by_motions_of_projector(double tilt_rad, double shift_mm) const {
+  const Projector& projector = given_.projector;
+  Eigen::Matrix<double, 6, 6> own = Eigen::Matrix<double, 6, 6>::Zero();
+  for (int i = 0; i < 3; ++i) {
+    const Eigen::Vector3d axis = Eigen::Vector3d::Unit(i);
+    own.block<3, 1>(0, i) = -tilt_rad * (projector.rotation * axis);
+    own.block<3, 1>(3, i) = tilt_rad * axis.cross(projector.position_mm);
+    own(3 + i, 3 + i) = shift_mm;
+  }
+  Eigen::MatrixXd changes = Eigen::MatrixXd::Zero(factor_.rows(), 6);
+  changes.bottomRows<6>() = pose_by_drift(projector) * own;
+  return factor_.colPivHouseholderQr().solve(changes);
 }
 
 Rig DriftModel::rig_at(const Eigen::VectorXd& w) const {

@@ -28,6 +28,11 @@ class DriftModel {
   [[nodiscard]] Eigen::Index count() const { return factor_.cols(); }
   /// Parameters that change together, by their indices: those of a lens or of the pose.
   [[nodiscard]] const std::vector<std::vector<Eigen::Index>>& groups() const { return groups_; }
+  /// The changes by small motions of the projector in the rig's frame: rotations about the
+  /// camera by an angle, then shifts.
+  ///
+  /// @shape    count x 6
+  [[nodiscard]] Eigen::MatrixXd by_motions_of_projector(double tilt_rad, double shift_mm) const;
   /// The rig after a change.
   [[nodiscard]] Rig rig_at(const Eigen::VectorXd& w) const;
   /// The covariance of all known parameters after a measurement of w.

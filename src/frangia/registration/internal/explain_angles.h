@@ -24,6 +24,14 @@ struct ExplainedAngles {
 ///           or no such angles fit better
 [[nodiscard]] std::optional<ExplainedAngles> explain_angles(const Registration& work);
 
+/// Looks for angles off by up to 11 degrees from one view on, or over the turn in proportion, about
+/// the axis to which the table was refined: those with which few points contradict another view,
+/// and most surfaces fit that show how the part turned.
+///
+/// @missing  none where hardly any point contradicts another view, no such angles fit much better,
+///           or there are several setups
+[[nodiscard]] std::optional<ExplainedAngles> explain_turns(const Registration& work);
+
 /// Looks for angles of the table that place the views as they fit by themselves: in proportion to
 /// those commanded, or off by the same from one view on. Such angles are far from what the other
 /// causes are linearized about.

@@ -1,5 +1,6 @@
 #include "frangia/registration/explain/internal/cause_motions.h"
 
+#include "frangia/registration/explain/internal/moved_rig.h"
 #include "frangia/registration/explain/internal/time_profiles.h"
 
 namespace frangia {
@@ -121,13 +122,18 @@ Eigen::MatrixXd unit_motions(PoseCause cause,
     }
     case PoseCause::Rig:
       return of_rig(Eigen::VectorXd::Ones(views), setting, unknowns);
+    case PoseCause::TableMoved:
+      return motions_in_rig(setting, from_on(at[0], setting.views), unknowns).leftCols<6>();
+    case PoseCause::RigMoved:
+      return motions_in_rig(setting, from_on(at[0], setting.views), unknowns) *
+             motions_of_knock(static_cast<MovedRig>(profile));
     case PoseCause::RigDrift: {
       // The rig may be as stated at the beginning, at the end or between: its mean change is half
       // of its drift.
       const Eigen::MatrixXd drift = time_profile(profile, setting.times);
       // No drift is exactly of one course.
       constexpr double kOffCourse = 0.02;
-      const Eigen::MatrixXd& any = setting.rig_basis;
+      const Eigen::MatrixXd any = basis_of_profiles(setting.times);
       Eigen::MatrixXd functions(views, 1 + drift.cols() + any.cols());
       functions << Eigen::VectorXd::Constant(views, 0.5), drift, kOffCourse * any;
       return of_rig(functions, setting, unknowns);

@@ -61,6 +61,7 @@ bool moves_views(PoseCause cause) {
     case PoseCause::PartMovedTwice:
     case PoseCause::ViewsMoved:
     case PoseCause::PartDrift:
+    case PoseCause::TableMoved:
     case PoseCause::Wobble:
     case PoseCause::Unexplained:
       return true;

@@ -91,6 +91,15 @@ std::string cause_text(PoseCause cause, const PoseExplanation& found, const View
                          std::isnan(found.time_constant) ? "" : " ever more slowly",
                          fmt::join(found.terms, ", "),
                          assumed_times(found));
+    case PoseCause::TableMoved:
+      return fmt::format("the table moved by {}, or camera and projector together, {}",
+                         text_of_motion(found),
+                         between(found.views.front(), names));
+    case PoseCause::RigMoved:
+      return fmt::format("the {} moved against the rest of the rig by {} at the part {}",
+                         fmt::join(found.terms, " "),
+                         text_of_motion(found),
+                         between(found.views.front(), names));
     case PoseCause::Unexplained:
       break;
   }
@@ -124,6 +133,10 @@ const char* words_of(PoseCause cause) {
       return "a rig that is not as stated";
     case PoseCause::RigDrift:
       return "a drift of projector or camera";
+    case PoseCause::TableMoved:
+      return "a table that was knocked";
+    case PoseCause::RigMoved:
+      return "a camera or projector that was knocked";
     case PoseCause::Unexplained:
       break;
   }
@@ -164,6 +177,8 @@ std::string describe(const PoseExplanation& found, const ViewNames& names) {
     case PoseCause::PartDrift:
     case PoseCause::Wobble:
     case PoseCause::RigDrift:
+    case PoseCause::TableMoved:
+    case PoseCause::RigMoved:
       return words + "; the views were corrected for it";
     case PoseCause::ViewMoved:
       return words + "; it is left out";
@@ -195,6 +210,10 @@ std::string remedy_of(const PoseExplanation& found, WrongRig wrong_rig) {
                  : "refine the rig by `refine_rig`, or calibrate it";
     case PoseCause::RigDrift:
       return "let the projector warm up before a scan";
+    case PoseCause::TableMoved:
+      return "fix the table against the rig";
+    case PoseCause::RigMoved:
+      return "fix camera and projector, and calibrate the rig again";
     default:
       return {};
   }

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "frangia/registration/explain/internal/displace_views.h"
+#include "frangia/registration/explain/internal/moved_rig.h"
 #include "frangia/registration/explain/internal/time_profiles.h"
 
 namespace frangia {
@@ -35,6 +36,35 @@ void measure_motion(PoseExplanation& explanation,
     explanation.turned_rad = turned ? arc.norm() / radius_mm : kMissing;
     explanation.turned_sigma_rad = turned ? arc_sigma_mm / radius_mm : kMissing;
   }
+}
+
+/// What was knocked, by how much the part moved with it in the rig's frame, or would have, and how
+/// far it turned.
+void measure_knock(PoseExplanation& explanation,
+                   const PosePosterior& found,
+                   const CauseHypothesis& cause,
+                   const PoseSetting& setting) {
+  const bool is_rig = cause.cause == PoseCause::RigMoved;
+  if (is_rig) {
+    explanation.terms = {static_cast<MovedRig>(cause.profile) == MovedRig::Camera ? "camera"
+                                                                                  : "projector"};
+  }
+  const Eigen::Vector3d center = setting.object_from_rig.front().inverse() * setting.center_mm;
+  // Of the six own motions: rotations about the camera, then the motion of the part's centre.
+  Eigen::Matrix<double, 6, 6> by = Eigen::Matrix<double, 6, 6>::Zero();
+  for (int i = 0; i < 3; ++i) {
+    by(i, i) = setting.tilt_rad;
+    by.block<3, 1>(3, i) = setting.tilt_rad * Eigen::Vector3d::Unit(i).cross(center);
+    by(3 + i, 3 + i) = setting.shift_mm;
+  }
+  by *= cause.scale;
+  const Eigen::Matrix<double, 6, 1> motion = by * found.changes.head<6>();
+  const Eigen::Matrix<double, 6, 1> variances =
+      (by * found.changes_covariance.topLeftCorner<6, 6>() * by.transpose()).diagonal();
+  explanation.moved_mm = motion.tail<3>().norm();
+  explanation.moved_sigma_mm = std::sqrt(variances.tail<3>().sum());
+  explanation.turned_rad = motion.head<3>().norm();
+  explanation.turned_sigma_rad = std::sqrt(variances.head<3>().sum());
 }
 
 /// What the winner found, in numbers.
@@ -69,6 +99,10 @@ PoseExplanation measured(const PoseRound& round,
     case PoseCause::ViewsMoved:
     case PoseCause::PartDrift:
       measure_motion(explanation, found, winner.best, round.chart.setting.radius_mm);
+      break;
+    case PoseCause::TableMoved:
+    case PoseCause::RigMoved:
+      measure_knock(explanation, found, winner.best, round.chart.setting);
       break;
     case PoseCause::Wobble:
       explanation.scale = scale;

@@ -11,6 +11,7 @@
 
 #include "frangia/core/symmetric_eigen.h"
 #include "frangia/registration/explain/internal/cause_motions.h"
+#include "frangia/registration/explain/internal/moved_rig.h"
 #include "frangia/registration/explain/internal/time_profiles.h"
 
 namespace frangia {
@@ -30,6 +31,8 @@ constexpr std::array<double, 3> kAngleScales{1e-3, 1e-2, 1e-1};
 constexpr std::array<double, 3> kRigs{1.0, 3.0, 10.0};
 /// Of the drift during a scan, over that since the calibration.
 constexpr std::array<double, 3> kDrifts{0.1, 0.3, 1.0};
+/// Of a knock, in units of the setting: 0.003 to 0.3 degrees, and 15 um to 1.5 mm at 500 mm.
+constexpr std::array<double, 5> kKnocks{0.03, 0.1, 0.3, 1.0, 3.0};
 
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 
@@ -116,6 +119,19 @@ NormalEquations project(const NormalEquations& data, const Eigen::MatrixXd& moti
   return {motions.transpose() * data.hessian * motions, motions.transpose() * data.gradient};
 }
 
+/// Equations in unknowns that all views from one on share, from those of each view: the blocks
+/// (a, b) are sums over the views from a on, and from b on.
+NormalEquations summed_from_on(NormalEquations of_views, Eigen::Index size) {
+  NormalEquations& all = of_views;
+  for (Eigen::Index view = all.gradient.size() - 2 * size; view >= 0; view -= size) {
+    all.hessian.middleRows(view, size) += all.hessian.middleRows(view + size, size);
+    all.gradient.segment(view, size) += all.gradient.segment(view + size, size);
+  }
+  for (Eigen::Index view = all.gradient.size() - 2 * size; view >= 0; view -= size)
+    all.hessian.middleCols(view, size) += all.hessian.middleCols(view + size, size);
+  return of_views;
+}
+
 /// Equations in motions of the part that some views share, from those of each view.
 class PartEquations {
  public:
@@ -125,14 +141,7 @@ class PartEquations {
     const Eigen::MatrixXd motions = unit_motions(PoseCause::Wobble, {}, setting, n) *
                                     shares_of_motion(slides).replicate(n / 6, 1).asDiagonal();
     of_views_ = project({data.hessian.topLeftCorner(n, n), data.gradient.head(n)}, motions);
-    // later(a, b): sum over the views from a on, and from b on.
-    later_ = of_views_;
-    for (Eigen::Index view = n - 12; view >= 0; view -= 6) {
-      later_.hessian.middleRows(view, 6) += later_.hessian.middleRows(view + 6, 6);
-      later_.gradient.segment<6>(view) += later_.gradient.segment<6>(view + 6);
-    }
-    for (Eigen::Index view = n - 12; view >= 0; view -= 6)
-      later_.hessian.middleCols(view, 6) += later_.hessian.middleCols(view + 6, 6);
+    later_ = summed_from_on(of_views_, 6);
   }
 
   [[nodiscard]] const NormalEquations& of_views() const { return of_views_; }
@@ -229,6 +238,15 @@ void add_several_views(CauseScores& scores, const PartEquations& part, double di
   const std::size_t views = part.views();
   const std::size_t most = views / 2;
   if (most < 2) return;
+  // Each number of views is as probable, and so are all choices of that many. The odds of a cause
+  // are the mean over its hypotheses, which a scan of few views has several times: found from each
+  // of their views.
+  const double listed = views > kFewViews ? static_cast<double>(most - 1)
+                                          : static_cast<double>(views * (views - 1 + most - 2));
+  const auto log_weight = [&](std::size_t some) {
+    const double times = views > kFewViews ? 1.0 : static_cast<double>(some);
+    return std::log(listed / (times * static_cast<double>(most - 1))) - log_choices(views, some);
+  };
   for (const double share : kMotions) {
     const double scale = share * distance_mm;
     NormalEquations all = part.of_views();
@@ -244,7 +262,7 @@ void add_several_views(CauseScores& scores, const PartEquations& part, double di
       CauseHypothesis several{PoseCause::ViewsMoved, {first}, scale, 0.0, part.slides()};
       const auto add = [&](const CauseHypothesis& some, double odds) {
         CauseHypothesis sorted = some;
-        sorted.log_odds = odds - log_choices(views, some.views.size());
+        sorted.log_odds = odds + log_weight(some.views.size());
         std::sort(sorted.views.begin(), sorted.views.end());
         scores.add(std::move(sorted));
       };
@@ -288,6 +306,38 @@ void add_independent(CauseScores& scores, const PartEquations& part, double dist
     scores.add({PoseCause::Unexplained, {}, share * distance_mm, log_odds(share * distance_mm)});
 }
 
+/// A table or a rig that is knocked between two views.
+void add_knocks(CauseScores& scores, const NormalEquations& data, const PoseSetting& setting) {
+  if (setting.object_from_rig.size() != setting.views) return;
+  const auto views = static_cast<Eigen::Index>(setting.views);
+  const Eigen::Index size = knows_each_view(setting) ? 12 : 6;
+  Eigen::MatrixXd motions(data.gradient.size(), size * views);
+  for (Eigen::Index view = 0; view < views; ++view) {
+    motions.middleCols(size * view, size) =
+        motions_in_rig(setting, Eigen::VectorXd::Unit(views, view), data.gradient.size());
+  }
+  const NormalEquations later = summed_from_on(project(data, motions), size);
+  for (Eigen::Index view = 1; view < views; ++view) {
+    const NormalEquations from{later.hessian.block(size * view, size * view, size, size),
+                               later.gradient.segment(size * view, size)};
+    const std::vector<std::size_t> at{static_cast<std::size_t>(view)};
+    scores.add_scales(PoseCause::TableMoved,
+                      at,
+                      {from.hessian.topLeftCorner<6, 6>(), from.gradient.head<6>()},
+                      kKnocks,
+                      1.0);
+    for (std::size_t moved = 0; size == 12 && moved < kMovedRigs; ++moved) {
+      scores.add_scales(PoseCause::RigMoved,
+                        at,
+                        project(from, motions_of_knock(static_cast<MovedRig>(moved))),
+                        kKnocks,
+                        1.0,
+                        false,
+                        moved);
+    }
+  }
+}
+
 }  // namespace
 
 std::vector<ScoredCause> score_causes(const PoseEvidence& evidence, const PoseSetting& setting) {
@@ -322,6 +372,7 @@ std::vector<ScoredCause> score_causes(const PoseEvidence& evidence, const PoseSe
     add_several_views(scores, part, setting.distance_mm);
     if (!slides) add_independent(scores, part, setting.distance_mm);
   }
+  add_knocks(scores, data, setting);
   if (setting.rig_changes > 0) {
     scores.add_scales(PoseCause::Rig, {}, of(PoseCause::Rig, {}), kRigs, 1.0);
     add_drifts(PoseCause::RigDrift, kTimeProfiles, kDrifts, 1.0);

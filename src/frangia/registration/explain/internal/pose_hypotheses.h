@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <vector>
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 
 #include "frangia/registration/explain/internal/pose_evidence.h"
 #include "frangia/registration/explain/pose_explanation.h"
@@ -22,6 +22,11 @@ struct PoseSetting {
                                    ///< stated; empty: nothing is stated
   Eigen::Index rig_changes = 0;    ///< terms of the rig; 0: it has no unknowns
   Eigen::MatrixXd rig_basis;       ///< functions of time that its changes consist of
+  std::vector<Eigen::Isometry3d> object_from_rig;  ///< of each view: how a moved table shows
+  double tilt_rad = 1e-3;  ///< unit of rotations of a table or projector that is knocked
+  double shift_mm = 0.5;   ///< unit of their shifts
+  /// Changes of the rig by a motion of the projector, by each unit; terms x 6. Empty: none.
+  Eigen::MatrixXd projector_moves;
 };
 
 /// One hypothesis, with its odds.
@@ -32,7 +37,7 @@ struct CauseHypothesis {
   double log_odds = 0.0;           ///< against what is stated
   bool slides = false;             ///< the part stays on the table; else it may tip or rise, too
   bool exact_table = false;        ///< axis and angles are nearly those of the rig
-  std::size_t profile = 0;         ///< of `time_profile`, where something drifts
+  std::size_t profile = 0;         ///< of `time_profile`, where something drifts; a `MovedRig`
 };
 
 /// Standard deviations of the motions of a part in units of the scale of a hypothesis: three

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "frangia/core/angles.h"
 #include "frangia/core/median.h"
 #include "frangia/core/symmetric_eigen.h"
 #include "frangia/geometry/robust_gauss_newton.h"
@@ -140,9 +141,14 @@ PoseChart make_chart(const Bundle& bundle,
   setting.views = bundle.maps.size();
   setting.angles_rad = bundle.given.angles_rad;
   setting.times = times;
-  setting.rig_basis = basis_of_profiles(times);
+  setting.rig_basis = basis_of_rigs(times);
   setting.distance_mm = bundle.prior_sigma[2] / options.relative_shift_sigma;
   measure_part(setting, surfels, chart.from);
+  constexpr double kTilt_rad = rad_from_deg(0.1);  // as `RefineRigOptions` has them of a drift
+  constexpr double kShift = 0.001;
+  setting.object_from_rig = chart.from;
+  setting.tilt_rad = kTilt_rad;
+  setting.shift_mm = kShift * setting.distance_mm;
   chart.table_sigma = stated_sigmas(bundle);
   // Of the standard deviations that are assumed, which allow for a rig that was moved: most were
   // not.

@@ -148,7 +148,7 @@ double noticeable_mm(const PoseRound& round) {
 }
 
 bool changes_rig(PoseCause cause) {
-  return cause == PoseCause::Rig || cause == PoseCause::RigDrift;
+  return cause == PoseCause::Rig || cause == PoseCause::RigDrift || cause == PoseCause::RigMoved;
 }
 
 bool is_drift(PoseCause cause) {
@@ -165,6 +165,8 @@ int freedom_of(PoseCause cause) {
     case PoseCause::PartMoved:
     case PoseCause::ViewMoved:
     case PoseCause::PartDrift:
+    case PoseCause::TableMoved:
+    case PoseCause::RigMoved:
       return 2;
     case PoseCause::Rig:
     case PoseCause::Turntable:

@@ -1,5 +1,6 @@
 #include "frangia/registration/explain/internal/spread_of_causes.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -68,17 +69,31 @@ class ViewsAlone {
   Eigen::MatrixXd basis_;
 };
 
+/// Whether odds below those from which on a cause is named count in full.
+enum class SmallOdds : bool { Count, HardlyCount };
+
 /// The probability of each cause or hypothesis of a round by the logarithm of its odds.
 class Probabilities {
  public:
-  explicit Probabilities(const PoseRound& scored) : most_(scored.causes.front().log_odds) {
+  explicit Probabilities(const PoseRound& scored, SmallOdds small = SmallOdds::Count)
+      : most_(scored.causes.front().log_odds), small_(small) {
     for (const ScoredCause& cause : scored.causes)
-      sum_ += std::exp(cause.log_odds - most_);
+      sum_ += std::exp(-behind(cause.log_odds));
   }
-  [[nodiscard]] double of(double log_odds) const { return std::exp(log_odds - most_) / sum_; }
+  [[nodiscard]] double of(double log_odds) const { return std::exp(-behind(log_odds)) / sum_; }
 
  private:
+  /// By how much something is less probable than the best: a logarithm. Between faults, errors
+  /// that surfaces have in common are taken for evidence, too, so that what is not decided is open.
+  [[nodiscard]] double behind(double log_odds) const {
+    constexpr double kOfSmall = 0.2;  // share that counts
+    const double all = most_ - log_odds;
+    if (small_ == SmallOdds::Count) return all;
+    return all - (1.0 - kOfSmall) * std::min(all, kNamed);
+  }
+
   double most_;
+  SmallOdds small_;
   double sum_ = 0.0;
 };
 
@@ -126,7 +141,8 @@ PoseSpread spread_of_causes(const PoseRound& scored,
   const auto views = static_cast<Eigen::Index>(6 * work.surfels.size());
   const ViewsAlone alone(scored, work);
   Eigen::MatrixXd columns(views, 0);
-  const Probabilities probability(scored);
+  const bool faulty = winner.cause != PoseCause::AsStated;
+  const Probabilities probability(scored, faulty ? SmallOdds::HardlyCount : SmallOdds::Count);
   const auto add = [&](double share, const CauseHypothesis& hypothesis) {
     if (share < kLeastProbable) return;
     const PosePosterior other = scored.posterior(hypothesis);
@@ -169,7 +185,7 @@ RigCovariance open_rig(const PoseRound& scored,
       changes += mean[i] * motions.middleRows(views + count * i, count);
     return changes;
   };
-  const Probabilities probability(scored);
+  const Probabilities probability(scored, SmallOdds::HardlyCount);
   Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(count, count);
   for (const ScoredCause& cause : scored.causes) {
     const double share = probability.of(cause.log_odds);
@@ -177,7 +193,7 @@ RigCovariance open_rig(const PoseRound& scored,
     const PosePosterior found = scored.posterior(cause.best);
     // Sound views have small errors in common, which some rig far off explains. Their evidence is
     // none about the rig, least of all about changes that no overlap shows.
-    if (scored.effect_mm(found.motion - scored.stated()) < noticeable_mm(scored)) continue;
+    if (scored.effect_mm(found.motion - scored.stated()) < scored.noise.shared_mm) continue;
     const Eigen::MatrixXd open = mean_of_views(found.factor);
     covariance += share * open * open.transpose();
     if (applied == cause.cause) continue;

@@ -36,7 +36,7 @@ struct PoseSpread {
 
 /// Returns how far the rig is from the one that measured the points by the causes that change it,
 /// each with its probability, all through the scan: their changes and what these leave open. Causes
-/// whose effect on the views is not noticeable do not count. Unlike
+/// whose effect on the views is below what pairs have in common do not count. Unlike
 /// `spread_of_causes` it holds what such a rig does to the shape of every view alike.
 ///
 /// @shape    `applied`: the cause by whose rigs the points are measured; none: by the stated rig

@@ -69,6 +69,12 @@ Eigen::MatrixXd time_profile(std::size_t profile, std::span<const double> times)
   return all;
 }
 
+Eigen::MatrixXd basis_of_rigs(std::span<const double> times) {
+  constexpr Eigen::Index kMost = 48;  // views: 960 unknowns with those of their poses
+  const auto views = static_cast<Eigen::Index>(times.size());
+  return views <= kMost ? Eigen::MatrixXd::Identity(views, views) : basis_of_profiles(times);
+}
+
 Eigen::MatrixXd basis_of_profiles(std::span<const double> times) {
   constexpr Eigen::Index kFunctions = static_cast<Eigen::Index>(kTimeProfiles) + 3;
   const auto views = static_cast<Eigen::Index>(times.size());

@@ -34,6 +34,12 @@ inline constexpr std::size_t kSmoothProfile = kTimeProfiles - 1;
 /// @shape    views x functions; as many as views where they are few
 [[nodiscard]] Eigen::MatrixXd basis_of_profiles(std::span<const double> times);
 
+/// Orthonormal functions of which changes of a rig consist: those of each view, where they are not
+/// too many, so that a rig may change at once; else those of all courses.
+///
+/// @shape    views x functions
+[[nodiscard]] Eigen::MatrixXd basis_of_rigs(std::span<const double> times);
+
 /// Of a warm-up, as a share of the time between the first view and the last.
 ///
 /// @missing  NaN for the other courses
