@@ -29,14 +29,14 @@ double bar(const Eigen::Vector3d& p) {
 /// The same with a slot in its side x > 0.
 double slotted(const Eigen::Vector3d& p) {
   const Eigen::Array3d out =
-      (p - Eigen::Vector3d(18.0, 0.0, 10.0)).array().abs() - Eigen::Array3d(5.0, 3.0, 11.0);
+      (p - Eigen::Vector3d(18.0, 0.0, 10.0)).array().abs() - Eigen::Array3d(8.0, 7.0, 13.0);
   const double slot = out.max(0.0).matrix().norm() + std::min(out.maxCoeff(), 0.0);
   return 0.8 * std::max(bar(p), -slot);
 }
 
-/// A part seen from above all around, and from below, as after it was turned over.
+/// A part seen all around from above in two setups.
 struct Sides {
-  CameraModel camera = testing::small_camera_model(160, 800.0);
+  CameraModel camera = testing::small_camera_model(200, 1000.0);
   FastCameraModel model{camera};
   std::vector<SurfelMap> maps;
   std::vector<ViewGroup> groups;
@@ -45,9 +45,9 @@ struct Sides {
   explicit Sides(const Shape& shape) {
     std::vector<std::vector<ViewGroup::Member>> members(2);
     ViewStore views;
-    for (const double latitude_rad : {0.4, -0.4}) {
+    for (const double latitude_rad : {0.6, 0.45}) {
       for (const Eigen::Isometry3d& pose : around_table(5, latitude_rad, 650.0)) {
-        members[latitude_rad > 0.0 ? 0 : 1].push_back({views.size(), pose});
+        members[latitude_rad > 0.5 ? 0 : 1].push_back({views.size(), pose});
         views.add(testing::snapshot(
             shape, camera, pose, {.seed = static_cast<std::uint32_t>(views.size() + 1)}));
       }

@@ -145,6 +145,8 @@ class OpenWay {
     const Eigen::AngleAxisd turn(by.rotation());
     Vector6 step;
     step << by * at.center_mm - at.center_mm, at.arm_mm * turn.angle() * turn.axis();
+    const auto weak = weak_motions(at);
+    step -= weak * (weak.transpose() * step);
     step -= motion * motion.dot(step);
     return at.motion(step) * there;
   }
@@ -190,8 +192,14 @@ class PoseSettler {
     const auto weak = weak_motions(first);
     if (weak.cols() == 0) return settled_;
     start_count_ = count_ = contradictions_.count(start_);
-    for (Eigen::Index i = 0; i < weak.cols(); ++i)
-      settle_along(i);
+    constexpr int kRounds = 3;  // where one motion is wrong, the others cannot be settled
+    bool moved = true;
+    for (int round = 0; round < kRounds && moved; ++round) {
+      settled_.open.clear();
+      moved = false;
+      for (Eigen::Index i = 0; i < weak.cols(); ++i)
+        moved = settle_along(i) || moved;
+    }
     settled_.log_odds = log_odds_of(count_, start_count_);
     if (!settled_.to_from.isApprox(start_, 0.0))
       settled_.moved_mm = way_.way(settled_.to_from, start_);
@@ -199,32 +207,42 @@ class PoseSettler {
   }
 
  private:
-  void settle_along(Eigen::Index number) {
+  /// Settles one weak motion. Returns whether the group moved.
+  bool settle_along(Eigen::Index number) {
     GroupFit at = way_.fit(settled_.to_from);
     auto weak = weak_motions(at);
-    if (number >= weak.cols()) return;
+    if (number >= weak.cols()) return false;
     Vector6 motion = weak.col(number);
     std::vector<PoseOnWay> poses = way_.follow(settled_.to_from, motion, run_);
-    for (PoseOnWay& pose : poses)
+    for (PoseOnWay& pose : poses) {
       pose.count = contradictions_.count(pose.pose);
-    if (take_better(poses)) {
+      // Within reach of what holds the motion, the fit of all finds it.
+      const Eigen::Isometry3d held = way_.refined(pose.pose);
+      const PatchCount count = contradictions_.count(held);
+      if (count.contradicting >= pose.count.contradicting) continue;
+      pose.pose = held;
+      pose.count = count;
+    }
+    const bool moved = take_better(poses, motion);
+    if (moved) {
       at = way_.fit(settled_.to_from);
       weak = weak_motions(at);
-      if (weak.cols() == 0) return;
+      if (weak.cols() == 0) return true;
       motion = (weak * (weak.transpose() * motion)).normalized();
     }
     const double step_mm = kStep * options_.spacing_mm;
     const double way =
         way_.way(at.motion(step_mm * motion) * settled_.to_from, settled_.to_from) / step_mm;
-    if (!(way > 0.0)) return;
+    if (!(way > 0.0)) return moved;
     const double spread_mm = spread_along(poses, at, motion, way);
     constexpr double kNoticed = 10.0;  // standard deviations of a distance
     if (spread_mm > kNoticed * contradictions_.sigma_mm())
       settled_.open.push_back(open_motion(at, motion, spread_mm, way));
+    return moved;
   }
 
   /// Moves to the pose on the way that contradicts least, if it does so decidedly less.
-  bool take_better(std::vector<PoseOnWay>& poses) {
+  bool take_better(std::vector<PoseOnWay>& poses, const Vector6& motion) {
     constexpr std::size_t kTried = 3;
     std::vector<const PoseOnWay*> least;
     for (const PoseOnWay& pose : poses)
@@ -243,7 +261,8 @@ class PoseSettler {
       const auto weak = weak_motions(at);
       if (weak.cols() == 0) continue;
       for (const double steps : {-0.5, -0.25, 0.25, 0.5}) {
-        const Vector6 step = steps * kStep * options_.spacing_mm * weak.col(0);
+        const Vector6 along = (weak * (weak.transpose() * motion)).normalized();
+        const Vector6 step = steps * kStep * options_.spacing_mm * along;
         consider(way_.refined(at.motion(step) * least[i]->pose), *least[i]);
       }
     }
