@@ -17,24 +17,24 @@ namespace {
 constexpr double kPatch = 1.0;
 /// Distance of the points that are counted, in spacings: some ten make a patch.
 constexpr double kDense = 0.3;
-constexpr std::size_t kPointsPerChunk = 256;
+constexpr std::size_t kSamplesPerChunk = 256;
 
 /// Of a point that contradicts, and at most: beyond five standard deviations it does not matter how
 /// far off it is.
-constexpr double kMost = 25.0;
-constexpr double kNotCompared = -1.0;
+constexpr double kLargestMisfit = 25.0;
+constexpr double kNothingThere = -1.0;
 
 /// Square of the distance of a point from the surface that a group measured, over its variance: of
 /// the view that it agrees with best.
 ///
-/// @missing  `kNotCompared` where no view measured anything there, or something in front of it
+/// @missing  `kNothingThere` where no view measured anything there, or something in front of it
 double misfit_of(const ViewGroup& group,
                  const Eigen::Vector3d& point,
                  const Eigen::Vector3d& facing,
                  const GroupViews& views,
                  double sigma_mm,
                  double gate_mm) {
-  double least = kNotCompared;
+  double least = kNothingThere;
   for (const ViewGroup::Member& member : group.members) {
     const Eigen::Vector3d seen = member.rig_from_group * point;
     const Eigen::Vector3d towards = member.rig_from_group.linear() * facing;
@@ -45,13 +45,13 @@ double misfit_of(const ViewGroup& group,
     const double variance =
         std::max(sigma_mm * sigma_mm, 2.0 * std::pow(static_cast<double>(surfel->sigma_mm), 2));
     const double distance_mm = pair.distance_mm();
-    double misfit = kNotCompared;
+    double misfit = kNothingThere;
     if (pair.faces_alike() && std::abs(distance_mm) < gate_mm) {
-      misfit = std::min(kMost, distance_mm * distance_mm / variance);
-    } else if (pair.violates_free_space(std::sqrt(kMost * variance))) {
-      misfit = kMost;
+      misfit = std::min(kLargestMisfit, distance_mm * distance_mm / variance);
+    } else if (pair.violates_free_space(std::sqrt(kLargestMisfit * variance))) {
+      misfit = kLargestMisfit;
     }
-    if (misfit != kNotCompared && (least == kNotCompared || misfit < least)) least = misfit;
+    if (misfit != kNothingThere && (least == kNothingThere || misfit < least)) least = misfit;
   }
   return least;
 }
@@ -104,7 +104,7 @@ void PoseContradictions::add(PatchCount& count, const Way& way) const {
   constexpr double kContradicts = 4.0;
   const SurfacePoints& points = way.samples.points;
   std::vector<double> misfits(points.size());
-  parallel_chunks(points.size(), kPointsPerChunk, [&](std::size_t begin, std::size_t end) {
+  parallel_chunks(points.size(), kSamplesPerChunk, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       misfits[i] = misfit_of(way.target,
                              way.target_from_points * points.points_mm[i].cast<double>(),
@@ -120,7 +120,7 @@ void PoseContradictions::add(PatchCount& count, const Way& way) const {
   };
   std::vector<Patch> patches(way.samples.patches);
   for (std::size_t i = 0; i < points.size(); ++i) {
-    if (misfits[i] == kNotCompared) continue;
+    if (misfits[i] == kNothingThere) continue;
     Patch& patch = patches[way.samples.patch[i]];
     ++patch.points;
     patch.misfit += misfits[i];
