@@ -1,5 +1,6 @@
 #include "capture_result.h"
 
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -7,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "frangia/core/angles.h"
+#include "frangia/core/error.h"
 
 #include "counted.h"
 #include "exit_codes.h"
@@ -37,9 +39,48 @@ void print_skipped(const std::vector<SkippedView>& skipped, const Run& run) {
 
 }  // namespace
 
+void CapturedViews::watch(const Scan& plan, CaptureOptions& options, const Run& run) {
+  watch_.emplace(plan.rig);
+  options.check_view = [this, &plan, &run](const ViewAssessment& found) {
+    const ScanView& view = plan.views.at(found.view);
+    WatchedView& watched = views_[found.view].watched;
+    try {
+      watched = watch_->compare(found.view, view.angle_rad, view.setup, *found.decoded, run);
+    } catch (const Error&) {  // what is wrong with the frames is said otherwise
+      watched = {};
+    }
+    return watched.finding;
+  };
+  options.on_view = [this, &plan](const ViewAssessment& found) {
+    View& view = views_[found.view];
+    view.found = found;
+    view.found.decoded = nullptr;
+    view.angle_rad = plan.views.at(found.view).angle_rad;
+  };
+}
+
+nlohmann::ordered_json CapturedViews::json() const {
+  auto all = nlohmann::ordered_json::array();
+  for (const auto& [number, view] : views_) {
+    all.push_back({{"view", number + 1},
+                   {"angle_deg", deg_from_rad(view.angle_rad)},
+                   {"good", view.found.good},
+                   {"verdict", view.found.verdict},
+                   {"contrast", view.found.contrast},
+                   {"saturated", view.found.saturated_fraction},
+                   {"points", view.found.points}});
+    if (!std::isnan(view.watched.moved_mm)) {
+      all.back()["moved_mm"] = view.watched.moved_mm;
+      all.back()["moved_sigma_mm"] = view.watched.moved_sigma_mm;
+    }
+  }
+  return all;
+}
+
 void print_capture(const std::filesystem::path& output,
                    const CaptureReport& report,
-                   Terminal& terminal) {
+                   Terminal& terminal,
+                   const CapturedViews& views) {
   terminal.finish();
   if (!report.skipped.empty()) terminal.exit_code = DeviceFault;
   if (terminal.json) {
@@ -49,6 +90,7 @@ void print_capture(const std::filesystem::path& output,
                                   {"frame_retries", report.frame_retries},
                                   {"set_retakes", report.set_retakes},
                                   {"skipped", json_of(report.skipped)},
+                                  {"views", views.json()},
                                   {"exposures_ms", report.exposures_ms},
                                   {"device_s", report.device_s},
                                   {"disk_s", report.disk_s},

@@ -1,5 +1,6 @@
 #include "merge_verb.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <map>
 #include <memory>
@@ -16,6 +17,7 @@
 #include "allow_memory.h"
 #include "check_can_write.h"
 #include "counted.h"
+#include "exit_codes.h"
 #include "merge_table.h"
 #include "mesh_result.h"
 #include "option_values.h"
@@ -78,7 +80,8 @@ nlohmann::ordered_json json_of(const std::vector<MergedScan>& scans) {
                       {"too_dense", scan.dropped.too_dense}}},
                     {"noise_mm", scan.noise_mm},
                     {"pose", json_of_pose(scan.world_from_scan)},
-                    {"left_out", scan.left_out}});
+                    {"left_out", scan.left_out},
+                    {"unverified", scan.unverified}});
   }
   return json;
 }
@@ -159,6 +162,11 @@ void merge(MergeArguments& arguments, Terminal& terminal) {
     write_posed_scans(arguments.poses, posed, 1.0 / arguments.unit_mm);
   }
   terminal.assess(result.untrusted_reason);
+  const bool lacks_scans =
+      std::any_of(result.scans.begin(), result.scans.end(), [](const MergedScan& scan) {
+        return scan.left_out || scan.unverified;
+      });
+  if (terminal.exit_code == 0 && lacks_scans) terminal.exit_code = DeviceFault;
   print_result(result, arguments, terminal);
 }
 

@@ -70,6 +70,9 @@ void reconstruct_verb(ReconstructArguments& arguments, Terminal& terminal) {
   const Reconstruction result = reconstruct(scan, arguments.options, run);
   run.stage("files");
   write_outputs(result, arguments, run);
+  for (const SetupJoin& join : result.setups)
+    for (const std::string& sentence : join.open)
+      terminal.lead(sentence);
   for (const RigAgreement& agreement : result.agreements) {
     if (!agreement.is_consistent() && agreement.text() != result.untrusted_reason)
       terminal.lead(agreement.text());

@@ -208,8 +208,10 @@ void scan(const ScanArguments& arguments, Terminal& terminal) {
       scan_until_decided(plan, arguments.until, rig.devices(), lock, options, terminal);
       return;
     }
-    print_capture(
-        arguments.output, capture_scan(plan, rig.devices(), lock, options, run), terminal);
+    CapturedViews views;
+    views.watch(plan, options, run);
+    const CaptureReport report = capture_scan(plan, rig.devices(), lock, options, run);
+    print_capture(arguments.output, report, terminal, views);
   } catch (const Error& error) {
     if (error.kind() != ErrorKind::Cancelled) throw;
     throw Error(

@@ -146,6 +146,13 @@ void add_camera_faults(CLI::App& verb, SimulateArguments& arguments) {
       ->check(above_zero());
   add_fault(verb, kGroup, "--ambient", options.ambient, "ambient light, as a share of white")
       ->check(zero_or_more());
+  add_fault(verb,
+            kGroup,
+            "--backdrop",
+            options.backdrop,
+            "light of a lit background behind the part, as a share of white; with --dark the "
+            "silhouettes of the part are checked")
+      ->check(from_to(0.0, 1.0));
   add_fault(
       verb, kGroup, "--camera-blur", options.camera_blur_px, "sigma of the blur of its lens, px")
       ->check(from_to(0.0, 20.0));

@@ -62,7 +62,10 @@ void Terminal::release() {
 }
 
 void Terminal::lead(const std::string& sentence) {
-  warnings_.insert(warnings_.begin(), with_flags(sentence));
+  const std::string text = with_flags(sentence);
+  std::erase(warnings_, text);
+  std::erase(held_, "warning: " + text);
+  warnings_.insert(warnings_.begin(), text);
   if (holding_) {
     held_.insert(held_.begin(), "warning: " + warnings_.front());
   } else {

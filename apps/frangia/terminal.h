@@ -33,7 +33,7 @@ class Terminal {
   /// Prints what was kept back.
   void release();
 
-  /// A warning that comes before all that is kept back.
+  /// A warning that comes before all that is kept back; where it was given before, it moves.
   void lead(const std::string& sentence);
 
   /// Prints what was kept back. For a result that must not be trusted, prints the reason first,

@@ -7,5 +7,6 @@ namespace frangia::python {
 
 void bind_calibrate(pybind11::module_& module);
 void bind_capture(pybind11::module_& module);
+void bind_targets(pybind11::module_& module);
 
 }  // namespace frangia::python

@@ -135,6 +135,12 @@ void bind_results(py::module_& module) {
           "Fringe order; -1: not measured.")
       .def_property_readonly("findings", &findings_of, "What the frames show, in sentences.");
   py::class_<ViewSummary>(module, "ViewSummary", "A view after reconstruction.");
+  py::class_<MeasuredTarget>(module, "MeasuredTarget", "A target after all views were registered.")
+      .def_readonly("code", &MeasuredTarget::code, "-1: it has none.")
+      .def_readonly("center_mm", &MeasuredTarget::center_mm, "Object frame, mm.")
+      .def_readonly("sigma_mm", &MeasuredTarget::sigma_mm, "Of its coordinates, mm.")
+      .def_readonly("views", &MeasuredTarget::views, "That saw it.")
+      .def_readonly("setups", &MeasuredTarget::setups, "That saw it, as scan.toml numbers them.");
   py::class_<Reconstruction>(module, "Reconstruction", "A surface and what the stages report.")
       .def_readonly("mesh", &Reconstruction::mesh, "Fused surface, object frame.")
       .def_readonly("points", &Reconstruction::points, "Points of all views.")
@@ -143,6 +149,12 @@ void bind_results(py::module_& module) {
           "trustworthy",
           [](const Reconstruction& self) { return self.untrusted_reason.empty(); },
           "False: `reason` says why the mesh must not be trusted.")
+      .def_property_readonly(
+          "targets",
+          [](const Reconstruction& self) {
+            return self.targets ? self.targets->targets : std::vector<MeasuredTarget>();
+          },
+          "The stickers of a scan with [targets]; empty without.")
       .def_readonly("reason", &Reconstruction::untrusted_reason, "Empty: it can be trusted.");
 }
 

@@ -52,11 +52,27 @@ from ._progress import progress_bar  # noqa: F401
 from . import _notebook  # noqa: F401  adds Mesh.show
 
 if _TYPE_CHECKING:
-    from ._acquisition import Calibration, CalibrationView, CaptureReport, calibrate, capture  # noqa: F401
+    from ._acquisition import (  # noqa: F401
+        Calibration,
+        CalibrationView,
+        CaptureReport,
+        TargetSighting,
+        calibrate,
+        capture,
+        find_targets,
+    )
 
 globals().update(_checked_members(_frangia))
 
-_LATER = ("Calibration", "CalibrationView", "CaptureReport", "calibrate", "capture")
+_LATER = (
+    "Calibration",
+    "CalibrationView",
+    "CaptureReport",
+    "TargetSighting",
+    "calibrate",
+    "capture",
+    "find_targets",
+)
 
 
 def __getattr__(name: str) -> object:

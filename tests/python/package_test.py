@@ -207,6 +207,25 @@ class Capture(unittest.TestCase):
             frangia.capture("nowhere.toml", "scan")
 
 
+class Targets(unittest.TestCase):
+    def test_finds_a_disc_where_it_is(self):
+        rig = frangia.rig_preset("digital")
+        rays = np.asarray(rig.rays(), np.float64)
+        middle_mm, distance_mm, radius_mm = np.array([12.0, -7.0]), 500.0, 5.0
+        away = np.linalg.norm(rays * distance_mm - middle_mm, axis=2)
+        edge = np.clip((radius_mm - away) * rig.camera.focal_px[0] / distance_mm + 0.5, 0, 1)  # of pixels
+        image = 180.0 - 140.0 * edge
+        depth = np.full(image.shape, distance_mm, np.float32)
+        sigma = np.full(image.shape, 0.01, np.float32)
+        (found,) = frangia.find_targets(image, depth, sigma, rig, diameter_mm=2 * radius_mm)
+        self.assertEqual(found.code, -1)
+        np.testing.assert_allclose(found.center_mm, [*middle_mm, distance_mm], atol=0.02)
+        self.assertLess(found.covariance_mm2[0, 0], 0.02**2)
+        self.assertEqual(frangia.find_targets(image, depth, sigma, rig, diameter_mm=3 * radius_mm), [])
+        with self.assertRaises(frangia.InputError):
+            frangia.find_targets(image, depth, sigma, rig)  # of which size?
+
+
 class Meshes(unittest.TestCase):
     def test_arrays_in_and_out(self):
         vertices = np.array([[0, 0, 0], [9, 0, 0], [0, 9, 0], [0, 0, 9]], np.float64)

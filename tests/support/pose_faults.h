@@ -1,6 +1,8 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <random>
@@ -213,9 +215,17 @@ struct FaultyScan {
 
 /// How far a registered scan is from the part.
 struct SurfaceError {
-  double rms_mm = 0.0;           ///< of blocks
-  double over_sigma = kMissing;  ///< root mean square of the blocks' errors over their sigma
-  double share_beyond = 0.0;     ///< of the blocks with an error above 3 sigma
+  double rms_mm = 0.0;              ///< of blocks
+  double over_sigma = kMissing;     ///< root mean square of the blocks' errors over their sigma
+  double share_beyond = 0.0;        ///< of the blocks with an error above 3 sigma
+  double largest_mm = 0.0;          ///< error that 1 % of the blocks exceed
+  double largest_over_sigma = 0.0;  ///< error over sigma that 1 % of the blocks exceed
+};
+
+/// What the points of a scan are compared with.
+enum class ErrorFrom : std::uint8_t {
+  SamePoint,  ///< of the part that the pixel saw
+  Surface     ///< the nearest point of the part, which may be another one of a round part
 };
 
 /// The errors of a registered scan along the part's normals, as means over blocks of pixels, so
@@ -224,7 +234,12 @@ struct SurfaceError {
 /// noise of the mean of a block.
 class SurfaceErrors {
  public:
-  SurfaceErrors(const FaultyScan& scan, const RayScene& part, const ViewStore& store) {
+  SurfaceErrors(const FaultyScan& scan,
+                const RayScene& part,
+                const ViewStore& store,
+                int block_px = 12,
+                ErrorFrom from = ErrorFrom::SamePoint)
+      : block_px_(block_px), from_(from) {
     for (std::size_t view = 0; view < store.size(); ++view)
       add_view(scan, part, store, view);
     fit();
@@ -236,6 +251,8 @@ class SurfaceErrors {
     double squares = 0.0;
     double ratios = 0.0;
     double beyond = 0.0;
+    std::vector<double> errors_mm;
+    std::vector<double> over_sigma;
     const bool known = !motions.empty();
     Matrix6X rigid;
     if (known) {
@@ -252,7 +269,11 @@ class SurfaceErrors {
       if (known) variance += (block.row.transpose() * (motions[block.view] - rigid)).squaredNorm();
       ratios += e * e / variance;
       beyond += e * e > 9.0 * variance ? 1.0 : 0.0;
+      errors_mm.push_back(std::abs(e));
+      over_sigma.push_back(std::abs(e) / std::sqrt(variance));
     }
+    error.largest_mm = all_but_a_hundredth(std::move(errors_mm));
+    error.largest_over_sigma = all_but_a_hundredth(std::move(over_sigma));
     const double count = std::max<double>(1.0, static_cast<double>(blocks_.size()));
     error.rms_mm = std::sqrt(squares / count);
     error.over_sigma = std::sqrt(ratios / count);
@@ -273,20 +294,27 @@ class SurfaceErrors {
     double count = 0.0;
   };
 
+  static double all_but_a_hundredth(std::vector<double> values) {
+    if (values.empty()) return 0.0;
+    const auto at = values.begin() + static_cast<std::ptrdiff_t>(values.size() * 99 / 100);
+    std::nth_element(values.begin(), at, values.end());
+    return *at;
+  }
+
   void add_view(const FaultyScan& scan,
                 const RayScene& part,
                 const ViewStore& store,
                 std::size_t view) {
-    constexpr int kBlock = 12;        // pixels
-    constexpr double kFewest = 30.0;  // points of a block
+    const double fewest = 0.2 * block_px_ * block_px_;  // points of a block
     const CameraModel& camera = scan.stated.reference().model;
     const auto rays = rays_of(camera);
     const auto true_rays = rays_of(scan.views[view].rig.reference().model);
     const View own = store.load(view);
     const Isometry part_from_rig = scan.rig_from_part(view).inverse();
     const Isometry object_from_rig = store.rig_from_object(view).inverse();
-    const int columns = camera.width_px / kBlock + 1;
-    std::vector<Block> blocks(static_cast<std::size_t>(columns * (camera.height_px / kBlock + 1)));
+    const int columns = camera.width_px / block_px_ + 1;
+    std::vector<Block> blocks(
+        static_cast<std::size_t>(columns * (camera.height_px / block_px_ + 1)));
     for (int y = 0; y < camera.height_px; ++y) {
       for (int x = 0; x < camera.width_px; ++x) {
         const float depth = own.range.depth_mm(x, y);
@@ -298,17 +326,18 @@ class SurfaceErrors {
         const Eigen::Vector3d point = object_from_rig * (static_cast<double>(depth) *
                                                          rays(x, y).cast<double>().homogeneous());
         const Eigen::Vector3d truth = part_from_rig.translation() + hit->distance * along;
-        Block& block = blocks[static_cast<std::size_t>(y / kBlock * columns + x / kBlock)];
+        Block& block = blocks[static_cast<std::size_t>(y / block_px_ * columns + x / block_px_)];
         Row6 row;
         row << point.cross(hit->normal), hit->normal;
         block.row += row;
-        block.error_mm += hit->normal.dot(point - truth);
+        block.error_mm += from_ == ErrorFrom::SamePoint ? hit->normal.dot(point - truth)
+                                                        : part.nearest(point)->signed_distance_mm;
         block.variance_mm2 += std::pow(static_cast<double>(own.range.sigma_mm(x, y)), 2);
         block.count += 1.0;
       }
     }
     for (Block& block : blocks) {
-      if (block.count < kFewest) continue;
+      if (block.count < fewest) continue;
       block.view = view;
       block.row /= block.count;
       block.error_mm /= block.count;
@@ -329,6 +358,8 @@ class SurfaceErrors {
   }
 
   using Isometry = Eigen::Isometry3d;
+  int block_px_;  ///< side of a block
+  ErrorFrom from_;
   std::vector<Block> blocks_;
   Matrix6 squares_ = Matrix6::Zero();
   Row6 motion_ = Row6::Zero();

@@ -62,6 +62,10 @@ struct CaptureOptions {
   std::function<bool(std::size_t view)> before_view;
   /// Called after each complete view, also those of earlier sessions; its frames are on the disk.
   std::function<void(std::size_t view)> after_view;
+  /// Looks further at each view that is captured in this session and could be decoded, on the
+  /// thread that decodes it, while the capture continues. Returns a finding, which becomes the
+  /// verdict of a view that is good otherwise; empty for none. It does not throw.
+  std::function<std::string(const ViewAssessment&)> check_view;
   /// Called once for each view that is captured in this session, on the thread that decodes it,
   /// while the capture continues. It does not throw.
   std::function<void(const ViewAssessment&)> on_view;

@@ -11,6 +11,8 @@
 #include "frangia/local_fit/make_surfel_maps.h"
 #include "frangia/reconstruct/internal/assess_merge.h"
 #include "frangia/reconstruct/internal/resample_scan.h"
+#include "frangia/reconstruct/internal/turntable_part.h"
+#include "frangia/registration/settle_group_pose.h"
 #include "frangia/views/view_store.h"
 
 namespace frangia {
@@ -76,16 +78,116 @@ ScanViews resample_all(MergedScans& out,
   return all;
 }
 
-/// Finds and refines poses as the options ask, and assesses them.
-void register_scans(MergedScans& out,
-                    ScanViews& all,
-                    const ScanQuality& quality,
-                    const MergeScansOptions& options,
-                    const Run& run) {
+/// Settles what the fit of each scan to the others leaves open. Returns whether a scan moved; adds
+/// the motions that stay open to `motions`.
+bool settle_scans(ScanViews& all,
+                  const std::vector<SurfelMap>& maps,
+                  double prior_mm,
+                  ViewMotions& motions,
+                  const Run& run) {
+  constexpr std::size_t kMost = 24;  // scans: among more, each has several neighbours
+  const std::size_t scans = all.views.size();
+  if (scans > kMost) return false;
+  std::vector<std::vector<ViewGroup::Member>> members;
+  for (std::size_t i = 0; i < scans; ++i)
+    members.push_back({{i, all.views.rig_from_object(i)}});
+  const double spacing_mm = spacing_for(members, maps);
+  const FastCameraModel model(all.model);
+  const GroupViews views{maps, model};
+  std::vector<ViewGroup> groups;
+  for (const auto& own : members)
+    groups.push_back(make_group(own, maps, spacing_mm));
+  bool moved = false;
+  const Eigen::Isometry3d same = Eigen::Isometry3d::Identity();
+  for (std::size_t i = 1; i < scans; ++i) {
+    if (groups[i].points.size() == 0) continue;
+    ViewGroup others;
+    for (std::size_t k = 0; k < scans; ++k)
+      if (k != i) others = join_groups(others, groups[k], same);
+    const SettledPose settled = settle_group_pose(
+        others, groups[i], same, views, {.spacing_mm = spacing_mm, .prior_mm = prior_mm}, run);
+    if (settled.moved_mm > 0.0) {
+      run.note(fmt::format(
+          "{} fits alike {:.2g} mm away, where it contradicts the others less: that pose is taken",
+          all.names[i],
+          settled.moved_mm));
+      all.views.set_rig_from_object(i, all.views.rig_from_object(i) * settled.to_from.inverse());
+      groups[i] = make_group({{i, all.views.rig_from_object(i)}}, maps, spacing_mm);
+      moved = true;
+    }
+    constexpr double kNamed = 0.1;  // spacings: less is in sigma only
+    for (const OpenMotion& open : settled.open) {
+      if (open.spread_mm > kNamed * spacing_mm) {
+        run.warn(fmt::format(
+            "the surface of {} does not determine {} on the others: it is known to {:.2g} mm only, "
+            "which is in sigma; add scans of what differs there, or give its pose in a .conf",
+            all.names[i],
+            open.words(),
+            open.spread_mm));
+      }
+      motions.resize(scans, Eigen::Matrix<double, 6, Eigen::Dynamic>(6, 0));
+      for (std::size_t k = 0; k < scans; ++k) {
+        motions[k].conservativeResize(Eigen::NoChange, motions[k].cols() + 1);
+        motions[k].rightCols<1>().setZero();
+      }
+      motions[i].rightCols<1>() = open.motion;
+    }
+  }
+  return moved;
+}
+
+/// Refines the poses, and settles what they leave open. Returns how far the surfaces were apart
+/// before.
+double register_and_settle(MergedScans& out,
+                           ScanViews& all,
+                           const std::vector<SurfelMap>& maps,
+                           const RegisterPosesOptions& options,
+                           ViewMotions& motions,
+                           const Run& run) {
+  out.registration = register_poses(all.views, maps, all.model, options, run);
+  const double rms_before_mm = out.registration->rms_before_mm;
+  if (out.registration->iterations == 0) return rms_before_mm;
+  const double prior_mm = options.prior_mm > 0.0   ? options.prior_mm
+                          : options.reach_mm > 0.0 ? options.reach_mm
+                                                   : default_reach_mm(maps);
+  ViewMotions open;
+  if (settle_scans(all, maps, prior_mm, open, run))
+    out.registration = register_poses(all.views, maps, all.model, options, run);
+  motions = out.registration->motions;
+  if (motions.empty()) {
+    motions = std::move(open);
+  } else if (!open.empty()) {
+    for (std::size_t view = 0; view < motions.size(); ++view) {
+      Eigen::Matrix<double, 6, Eigen::Dynamic> both(6, motions[view].cols() + open[view].cols());
+      both << motions[view], open[view];
+      motions[view] = std::move(both);
+    }
+  }
+  return rms_before_mm;
+}
+
+/// Names the scans that share no surface with the others.
+void name_unverified(MergedScans& out, const MergeFit& fit, const ScanViews& all, const Run& run) {
+  for (const std::size_t scan : fit.apart) {
+    out.scans[scan].unverified = true;
+    run.warn(fmt::format(
+        "{} shares no surface with the other scans where its pose puts it: nothing verifies the "
+        "pose; add a scan between them, or leave it out",
+        all.names[scan]));
+  }
+}
+
+/// Finds and refines poses as the options ask, and assesses them. Returns what they leave open.
+ViewMotions register_scans(MergedScans& out,
+                           ScanViews& all,
+                           const ScanQuality& quality,
+                           const MergeScansOptions& options,
+                           const Run& run) {
   if (all.scans.size() < 2) {
     run.note("a single scan is not registered");
-    return;
+    return {};
   }
+  constexpr double kUnknown = 100.0;  // times the accuracy of a pose that was found: any pose
   auto maps = make_surfel_maps(all.views, all.model, kSurfelsPerView, run);
   RegisterPosesOptions registration = options.registration;
   const bool find_poses = options.register_poses ? poses_unknown(all, maps, options)
@@ -94,17 +196,35 @@ void register_scans(MergedScans& out,
     out.found_poses = find_view_poses(all.views, maps, all.model, all.names, run);
     run.note(out.found_poses->text());
     registration.reach_mm = out.found_poses->accuracy_mm;
+    registration.prior_mm = kUnknown * out.found_poses->accuracy_mm;
     for (const std::size_t scan : out.found_poses->left_out)
       out.scans[scan].left_out = true;
   }
-  if (options.register_poses)
-    out.registration = register_poses(all.views, maps, all.model, registration, run);
+  ViewMotions motions;
+  if (options.register_poses) {
+    const double rms_before_mm = register_and_settle(out, all, maps, registration, motions, run);
+    out.registration->rms_before_mm = rms_before_mm;
+  }
   const MergeFit fit = compare_scans(all.views, maps, all.model, quality, options);
   out.contradiction = fit.contradiction;
   out.untrusted_reason = untrusted_merge_reason(fit, all.names, options);
   const bool agrees = out.untrusted_reason.empty();
   if (agrees && out.registration && out.registration->iterations > 0)
     run.note(out.registration->text());
+  name_unverified(out, fit, all, run);
+  return motions;
+}
+
+/// The surface of all scans, with what their poses leave open in sigma.
+Mesh fuse_with_motions(const ScanViews& all,
+                       const ViewMotions& motions,
+                       const FusionOptions& options,
+                       const Run& run) {
+  if (motions.empty()) return fuse_views(all.views, all.model, options, run);
+  const CameraViews cameras{all.views, all.model};
+  FusedSurface surface = fuse_with_weights({&cameras, 1}, options, run);
+  static_cast<void>(add_turntable_part(surface, motions, run));
+  return std::move(surface.mesh);
 }
 
 }  // namespace
@@ -126,14 +246,14 @@ MergedScans merge_scans(const std::vector<RangeScan>& scans,
                             scans.front().mesh.vertices_mm.size()));
   }
   run.stage("views");
-  register_scans(out, all, quality, options, run);
+  const ViewMotions motions = register_scans(out, all, quality, options, run);
   for (std::size_t i = 0; i < scans.size(); ++i) {
     if (!out.scans[i].left_out)
       out.scans[i].world_from_scan =
           all.views.rig_from_object(i).inverse() * cameras[i].rig_from_scan;
   }
   run.stage("surface");
-  Mesh fused = fuse_views(all.views, all.model, options.fusion, run);
+  Mesh fused = fuse_with_motions(all, motions, options.fusion, run);
   color_vertices(fused, all.views, all.model, run);
   FinishedMesh finished = finish_mesh(std::move(fused), options.finish, run);
   out.mesh = std::move(finished.mesh);

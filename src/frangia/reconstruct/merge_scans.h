@@ -58,10 +58,13 @@ struct DroppedPoints {
 
 /// One of the scans that were merged.
 struct MergedScan {
-  std::string name;             ///< path of its file, or "scan 0" without one
-  std::size_t points = 0;       ///< after resampling
-  double noise_mm = 0.0;        ///< standard deviation of a point, from the scatter of neighbours
-  bool left_out = false;        ///< its pose was not found
+  std::string name;        ///< path of its file, or "scan 0" without one
+  std::size_t points = 0;  ///< after resampling
+  double noise_mm = 0.0;   ///< standard deviation of a point, from the scatter of neighbours
+  bool left_out = false;   ///< its pose was not found
+  /// It shares no surface with most of the others: its pose is the given one, and nothing verifies
+  /// it.
+  bool unverified = false;
   std::size_t points_read = 0;  ///< in the file
   DroppedPoints dropped{};      ///< why points of the file are not among those of the view
   double size_mm = 0.0;         ///< diagonal of the bounding box

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cstddef>
+#include <string>
+#include <vector>
 
 #include <Eigen/Geometry>
 
@@ -21,6 +23,8 @@ struct SetupJoin {
   double overlap = kMissing;
   /// Share of the compared points in front of what the other setup measured; NaN as `overlap`.
   double free_space_violation = kMissing;
+  /// Motions of the setup that the surfaces do not decide, one sentence each; they are in sigma.
+  std::vector<std::string> open{};
 };
 
 }  // namespace frangia

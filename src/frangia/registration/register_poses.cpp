@@ -12,6 +12,7 @@
 #include "frangia/core/median.h"
 #include "frangia/geometry/robust_gauss_newton.h"
 #include "frangia/registration/internal/free_pose_bundle.h"
+#include "frangia/registration/internal/free_pose_motions.h"
 
 namespace frangia {
 namespace {
@@ -107,6 +108,8 @@ PosesReport register_poses(ViewStore& views,
   report.iterations = result.iterations;
   for (std::size_t i = 0; i < views.size(); ++i)
     views.set_rig_from_object(i, bundle.rig_from_world[i]);
+  report.motions =
+      motions_of_free_poses(bundle, sums, options.prior_mm > 0.0 ? options.prior_mm : reach_mm);
   return report;
 }
 

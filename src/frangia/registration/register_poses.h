@@ -7,6 +7,7 @@
 
 #include "frangia/core/run.h"
 #include "frangia/local_fit/surfel_map.h"
+#include "frangia/registration/view_motions.h"
 #include "frangia/rig/camera_model.h"
 #include "frangia/views/view_store.h"
 
@@ -19,6 +20,8 @@ struct RegisterPosesOptions {
   int max_iterations = 60;    ///< free poses converge more slowly than a turntable
   double tolerance = 0.1;     ///< of the last step, in standard deviations of the poses
   double min_overlap = 0.05;  ///< share of the points that match another view; fewer are chance
+  /// Standard deviation of the given poses, as the way of a view's points; 0 takes the reach.
+  double prior_mm = 0.0;
 
   /// @errors   Error(Input) that names the value which is out of its range
   void check() const;
@@ -30,6 +33,7 @@ struct PosesReport {
   double rms_after_mm = 0.0;   ///< the same with the final poses
   double overlap = 0.0;        ///< share of the points that lie on a surface of another view
   int iterations = 0;          ///< 0: the given poses are kept
+  ViewMotions motions;         ///< of the views by what their overlap leaves open
 
   [[nodiscard]] std::string text() const;  ///< the result as a sentence
 };

@@ -1,7 +1,5 @@
 #include "frangia/service/growing_surface.h"
 
-#include <algorithm>
-#include <cmath>
 #include <utility>
 #include <vector>
 
@@ -10,6 +8,7 @@
 #include "frangia/registration/register_views.h"
 #include "frangia/service/encode_arrays.h"
 #include "frangia/views/clip_views.h"
+#include "frangia/views/thin_view.h"
 #include "frangia/views/view_store.h"
 
 namespace frangia {
@@ -18,28 +17,6 @@ namespace {
 /// Pixels of a view that are kept, at most: eight views are then one surface in about a second on
 /// one core (`./run figures app`).
 constexpr double kMostPixels = 90'000.0;
-
-/// The camera of every k-th pixel.
-CameraModel thinned(CameraModel model, int step) {
-  model.width_px = (model.width_px + step - 1) / step;
-  model.height_px = (model.height_px + step - 1) / step;
-  model.focal_px /= step;
-  model.principal_point_px /= step;
-  return model;
-}
-
-RangeGrid thinned(const RangeGrid& range, int step) {
-  const int width = (range.depth_mm.width() + step - 1) / step;
-  const int height = (range.depth_mm.height() + step - 1) / step;
-  RangeGrid out{Image<float>(width, height), Image<float>(width, height)};
-  for (int y = 0; y < height; ++y) {
-    for (int x = 0; x < width; ++x) {
-      out.depth_mm(x, y) = range.depth_mm(x * step, y * step);
-      out.sigma_mm(x, y) = range.sigma_mm(x * step, y * step);
-    }
-  }
-  return out;
-}
 
 /// Removes the top of the turntable, which stands in every view.
 void remove_top(ViewStore& views, const CameraModel& camera, const Run& run) {
@@ -55,8 +32,7 @@ void remove_top(ViewStore& views, const CameraModel& camera, const Run& run) {
 GrowingSurface::GrowingSurface(const Rig& rig, std::function<void(const GrownSurface&)> on_surface)
     : rig_(rig), on_surface_(std::move(on_surface)) {
   CameraModel& camera = rig_.reference().model;
-  const double pixels = static_cast<double>(camera.width_px) * camera.height_px;
-  step_ = std::max(1, static_cast<int>(std::ceil(std::sqrt(pixels / kMostPixels))));
+  step_ = thinning_step(camera, kMostPixels);
   camera = thinned(camera, step_);
   thread_ = std::jthread([this](const std::stop_token& stop) { serve(stop); });
 }

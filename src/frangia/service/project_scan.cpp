@@ -20,6 +20,7 @@
 #include "frangia/decode/triangulate_view.h"
 #include "frangia/range/range_grid.h"
 #include "frangia/reconstruct/reconstruct.h"
+#include "frangia/reconstruct/watch_views.h"
 #include "frangia/rig/read_rig.h"
 #include "frangia/rig/rig.h"
 #include "frangia/service/encode_arrays.h"
@@ -167,6 +168,18 @@ void enter(const ViewAssessment& found,
   });
 }
 
+/// What comparing a view with those before it says; empty where it cannot be compared.
+std::string watched_finding(ViewWatch& watch,
+                            const ViewAssessment& found,
+                            const ScanView& view,
+                            const Run& run) {
+  try {
+    return watch.compare(found.view, view.angle_rad, view.setup, *found.decoded, run).finding;
+  } catch (const Error&) {  // what is wrong with the frames is said otherwise
+    return {};
+  }
+}
+
 /// The table may have been turned by hand since the session that left it.
 void require_table_angle(const ProjectFolder& project,
                          const RigDevices& devices,
@@ -278,6 +291,10 @@ CaptureReport capture_project(
   options.decoded = decoded;
   StationBook book(project, std::move(stations), on_change);
   const StationRange ranges(plan.rig);
+  ViewWatch watch(plan.rig);
+  options.check_view = [&](const ViewAssessment& found) {
+    return watched_finding(watch, found, plan.views[found.view], run);
+  };
   options.on_view = [&](const ViewAssessment& found) {
     enter(found, ranges, growing, project, book, plan.views[found.view].angle_rad);
   };

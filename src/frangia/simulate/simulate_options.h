@@ -59,6 +59,7 @@ struct SimulateOptions {
   double read_e = 8.0;           ///< read noise
   double exposure = 1.0;         ///< relative; 1 puts the brightest diffuse pixel at 80 % of white
   double ambient = 0.0;          ///< ambient light on a white surface, as a share of white
+  double backdrop = 0.0;         ///< light of a lit background behind the part, as a share of white
   std::vector<LampSwitch> lamps_on;  ///< other lamps that are switched on during the capture
   double camera_blur_px = 0.0;       ///< sigma of the blur of its lens, px
 

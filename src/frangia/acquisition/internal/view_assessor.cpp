@@ -34,6 +34,7 @@ std::string word_for(const FrameAssessment& frames, std::size_t points) {
 
 ViewAssessor::ViewAssessor(const Scan& plan, const CaptureOptions& options, const Run& run)
     : plan_(plan),
+      check_view_(options.check_view),
       on_view_(options.on_view),
       keep_(options.decoded),
       scan_(keep_ ? keep_->scan() : plan),
@@ -52,11 +53,28 @@ void ViewAssessor::begin(std::size_t view, std::vector<std::shared_ptr<const Fra
 void ViewAssessor::report(bool wait) {
   if (!decoding_.valid()) return;
   if (!wait && decoding_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return;
-  run_.note(fmt::format("view {} of {} at {:.6g} degrees: {}",
-                        view_ + 1,
-                        plan_.views.size(),
-                        deg_from_rad(plan_.views[view_].angle_rad),
-                        decoding_.get()));
+  const Answer answer = decoding_.get();
+  const std::string sentence = fmt::format("view {} of {} at {:.6g} degrees: {}",
+                                           view_ + 1,
+                                           plan_.views.size(),
+                                           deg_from_rad(plan_.views[view_].angle_rad),
+                                           answer.text);
+  if (answer.good) {
+    run_.note(sentence);
+  } else {
+    run_.warn(sentence);
+  }
+}
+
+void ViewAssessor::pass_on(ViewAssessment& found) const {
+  if (check_view_ && found.good && found.decoded != nullptr) {
+    const std::string finding = check_view_(found);
+    if (!finding.empty()) {
+      found.verdict = finding;
+      found.good = false;
+    }
+  }
+  if (on_view_) on_view_(found);
 }
 
 ToldView ViewAssessor::decode_stacks(std::size_t view,
@@ -66,8 +84,8 @@ ToldView ViewAssessor::decode_stacks(std::size_t view,
   return decode_told(scan_, view, stacks, plan, rays_, options, run_.stop);
 }
 
-std::string ViewAssessor::decode(std::size_t view,
-                                 const std::vector<std::shared_ptr<const Frame>>& frames) const {
+ViewAssessor::Answer ViewAssessor::decode(
+    std::size_t view, const std::vector<std::shared_ptr<const Frame>>& frames) const {
   std::vector<FrameStack> stacks;
   std::size_t next = 0;
   for (const Pattern& pattern : scan_.patterns) {
@@ -94,9 +112,9 @@ std::string ViewAssessor::decode(std::size_t view,
     if (assessments.empty()) {  // Gray code alone has no fringes to assess
       found.verdict = found.points == 0 ? kNothingMeasured : kGood;
       found.good = found.points != 0;
-      if (on_view_) on_view_(found);
+      pass_on(found);
       if (keep_) keep_->put(view, std::move(told));
-      return fmt::format("{}: {} points", found.verdict, found.points);
+      return {fmt::format("{}: {} points", found.verdict, found.points), found.good};
     }
     const FrameAssessment& finest = assessments.back();
     found.verdict = word_for(finest, found.points);
@@ -107,18 +125,19 @@ std::string ViewAssessor::decode(std::size_t view,
     found.good = found.verdict == kGood;
     found.contrast = finest.contrast;
     found.saturated_fraction = finest.saturated_fraction;
-    if (on_view_) on_view_(found);
+    pass_on(found);
     if (keep_) keep_->put(view, std::move(told));
-    return fmt::format("{}: contrast {:.2f}, {:.1f} % saturated, {} points",
-                       found.verdict,
-                       found.contrast,
-                       100.0 * found.saturated_fraction,
-                       found.points);
+    return {fmt::format("{}: contrast {:.2f}, {:.1f} % saturated, {} points",
+                        found.verdict,
+                        found.contrast,
+                        100.0 * found.saturated_fraction,
+                        found.points),
+            found.good};
   } catch (const Error& error) {
     found.verdict = fmt::format("cannot be decoded: {}", error.what());
     found.decoded = nullptr;
-    if (on_view_) on_view_(found);
-    return found.verdict;
+    pass_on(found);
+    return {found.verdict, false};
   }
 }
 

@@ -38,19 +38,28 @@ class ViewAssessor {
   void report(bool wait);
 
  private:
-  [[nodiscard]] std::string decode(std::size_t view,
-                                   const std::vector<std::shared_ptr<const Frame>>& frames) const;
+  /// A view in words, and whether there is nothing to remedy.
+  struct Answer {
+    std::string text;
+    bool good = false;
+  };
+  [[nodiscard]] Answer decode(std::size_t view,
+                              const std::vector<std::shared_ptr<const Frame>>& frames) const;
   [[nodiscard]] ToldView decode_stacks(std::size_t view,
                                        const std::vector<FrameStack>& stacks) const;
 
   const Scan& plan_;
+  /// Lets the options' own check look at a view, and passes it on.
+  void pass_on(ViewAssessment& found) const;
+
+  const std::function<std::string(const ViewAssessment&)>& check_view_;
   const std::function<void(const ViewAssessment&)>& on_view_;
   const std::shared_ptr<DecodedViews> keep_;  ///< null: nothing is kept
   const Scan& scan_;                          ///< whose rig and patterns decode
   const Run& run_;
   Image<Eigen::Vector2f> rays_;
   std::size_t view_ = 0;
-  std::future<std::string> decoding_;
+  std::future<Answer> decoding_;
 };
 
 }  // namespace frangia

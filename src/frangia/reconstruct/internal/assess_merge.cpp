@@ -1,6 +1,7 @@
 #include "frangia/reconstruct/internal/assess_merge.h"
 
 #include <algorithm>
+#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -38,6 +39,34 @@ std::vector<ViewGroup> groups_of(const ViewStore& views, std::span<const SurfelM
   return groups;
 }
 
+/// Scans of which each shares surface with another one of the same part of them.
+class Connected {
+ public:
+  explicit Connected(std::size_t scans) : of_(scans) {
+    std::iota(of_.begin(), of_.end(), std::size_t{0});
+  }
+  void join(std::size_t a, std::size_t b) {
+    const std::size_t from = of_[b];
+    const std::size_t to = of_[a];
+    std::replace(of_.begin(), of_.end(), from, to);
+  }
+  /// Those that are not in the largest part, but for `empty` ones.
+  [[nodiscard]] std::vector<std::size_t> apart(const std::vector<ViewGroup>& groups) const {
+    std::vector<std::size_t> sizes(of_.size(), 0);
+    for (std::size_t i = 0; i < of_.size(); ++i)
+      sizes[of_[i]] += groups[i].points.size() > 0 ? 1U : 0U;
+    const auto largest =
+        static_cast<std::size_t>(std::max_element(sizes.begin(), sizes.end()) - sizes.begin());
+    std::vector<std::size_t> others;
+    for (std::size_t i = 0; i < of_.size(); ++i)
+      if (of_[i] != largest && groups[i].points.size() > 0) others.push_back(i);
+    return others;
+  }
+
+ private:
+  std::vector<std::size_t> of_;
+};
+
 }  // namespace
 
 MergeFit compare_scans(const ViewStore& views,
@@ -57,14 +86,17 @@ MergeFit compare_scans(const ViewStore& views,
   const GroupViews all{maps, model};
   const Eigen::Isometry3d same = Eigen::Isometry3d::Identity();
   std::vector<ScanTally> tallies(groups.size());
+  Connected connected(groups.size());
   for (std::size_t a = 0; a < groups.size(); ++a) {
     for (std::size_t b = a + 1; b < groups.size(); ++b) {
       const GroupFit strict = compare_groups(groups[a], groups[b], same, all, fit.tolerance_mm);
       const GroupFit wide = compare_groups(groups[a], groups[b], same, all, reach_mm);
       tallies[a].add(strict, wide);
       tallies[b].add(strict, wide);
+      if (wide.overlap >= registration.min_overlap) connected.join(a, b);
     }
   }
+  fit.apart = connected.apart(groups);
   for (std::size_t i = 0; i < groups.size(); ++i) {
     const ScanTally& tally = tallies[i];
     const double fewest = registration.min_overlap * static_cast<double>(groups[i].points.size());

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "frangia/local_fit/surfel_map.h"
 #include "frangia/reconstruct/merge_scans.h"
@@ -22,6 +23,8 @@ struct MergeFit {
   /// Distance that noise and sampling explain: the largest acceptable `residual_mm`, and the margin
   /// of a free-space violation.
   double tolerance_mm = 0.0;
+  /// Scans that share no surface with most of the others: nothing verifies their poses.
+  std::vector<std::size_t> apart;
 };
 
 /// Noise and sampling of the worst scan.

@@ -8,6 +8,7 @@
 #include "frangia/local_fit/make_surfel_maps.h"
 #include "frangia/registration/compare_groups.h"
 #include "frangia/registration/join_by_shape.h"
+#include "frangia/registration/settle_group_pose.h"
 
 namespace frangia {
 namespace {
@@ -44,38 +45,120 @@ std::string name_of(const MeasuredSetup& setup) {
 struct SetupPoses {
   std::size_t reference = 0;
   std::vector<std::optional<Eigen::Isometry3d>> setup_from_reference;
-  std::vector<bool> ambiguous;  ///< empty where the poses are given
-  std::vector<GroupFit> fits;   ///< to the reference, in its pose
+  std::vector<bool> ambiguous;                  ///< empty where the poses are given
+  std::vector<GroupFit> fits;                   ///< to the reference, in its pose
+  std::vector<std::vector<OpenMotion>> open{};  ///< what its surfaces leave open, reference frame
+  std::vector<std::vector<std::string>> sentences{};  ///< the same in words, where it matters
 };
 
-/// Refines the part poses of scan.toml. None unless scan.toml has those of all further setups.
+/// The groups of all joined setups but one, in the frame of the reference.
+ViewGroup others_of(const std::vector<ViewGroup>& groups,
+                    const SetupPoses& poses,
+                    std::size_t without) {
+  ViewGroup all;
+  for (std::size_t i = 0; i < groups.size(); ++i) {
+    if (i == without || !poses.setup_from_reference[i]) continue;
+    all = join_groups(all, groups[i], poses.setup_from_reference[i]->inverse());
+  }
+  return all;
+}
+
+/// Settles what the fit of a setup to the others leaves open.
+void settle(SetupPoses& poses,
+            std::size_t setup,
+            const std::vector<MeasuredSetup>& setups,
+            const std::vector<ViewGroup>& groups,
+            const GroupViews& views,
+            const SettleOptions& options,
+            const Run& run) {
+  poses.open.resize(groups.size());
+  poses.sentences.resize(groups.size());
+  auto& pose = poses.setup_from_reference[setup];
+  SettledPose settled = settle_group_pose(
+      others_of(groups, poses, setup), groups[setup], pose->inverse(), views, options, run);
+  if (settled.moved_mm > 0.0) {
+    run.note(
+        fmt::format("{} fits alike {:.2g} mm away, where its surfaces contradict the others less: "
+                    "that pose is taken",
+                    name_of(setups[setup]),
+                    settled.moved_mm));
+  }
+  pose = settled.to_from.inverse();
+  constexpr double kNamed = 0.1;  // spacings: less is in sigma only
+  for (const OpenMotion& open : settled.open) {
+    if (open.spread_mm < kNamed * options.spacing_mm) continue;
+    poses.sentences[setup].push_back(fmt::format(
+        "the surface of {} does not determine {} on the others: it is known to {:.2g} mm only, "
+        "which is in sigma; add views of what differs there, or stickers",
+        name_of(setups[setup]),
+        open.words(),
+        open.spread_mm));
+    run.warn(poses.sentences[setup].back());
+  }
+  poses.open[setup] = std::move(settled.open);
+}
+
+/// Refines the part poses of scan.toml, each on those before it. None unless scan.toml has those of
+/// all further setups.
 std::optional<SetupPoses> refine_given_poses(const std::vector<MeasuredSetup>& setups,
                                              const std::vector<ViewGroup>& groups,
                                              const GroupViews& views,
                                              const RegisterSetupsOptions& options,
-                                             double spacing_mm) {
+                                             double spacing_mm,
+                                             const Run& run) {
   constexpr double kStart = 4.0;         // spacings: the error of manually measured poses
+  constexpr double kStated = 2.0;        // spacings: their standard deviation
   constexpr double kGate = 0.3;          // spacings, as in the pose search
   constexpr double kMaxViolation = 3.0;  // times that of poses found by shape: these are given
-  SetupPoses setup_poses{0, {Eigen::Isometry3d::Identity()}, {}, {}};
+  const JoinByShapeOptions usual;
+  SetupPoses poses{0, {}, {}, {}};
+  poses.setup_from_reference.resize(setups.size());
+  poses.setup_from_reference[0] = Eigen::Isometry3d::Identity();
+  for (std::size_t i = 1; i < setups.size(); ++i)
+    if (!options.part_poses.contains(setups[i].number) || setups[0].number != 0)
+      return std::nullopt;
   for (std::size_t i = 1; i < setups.size(); ++i) {
-    const auto known = options.part_poses.find(setups[i].number);
-    if (known == options.part_poses.end() || setups[0].number != 0) return std::nullopt;
-    const Eigen::Isometry3d reference_from_setup =
-        refine_fit(groups[0],
-                   groups[i],
-                   known->second.inverse(),
-                   views,
-                   {kStart * spacing_mm, kGate * spacing_mm});
-    const GroupFit fit =
-        compare_groups(groups[0], groups[i], reference_from_setup, views, kGate * spacing_mm);
-    const JoinByShapeOptions usual;
-    const bool fits = fit.overlap >= usual.min_overlap &&
-                      fit.free_space_violation() <= kMaxViolation * usual.max_violation;
-    setup_poses.setup_from_reference.push_back(fits ? std::optional(reference_from_setup.inverse())
-                                                    : std::nullopt);
+    auto& pose = poses.setup_from_reference[i];
+    const ViewGroup others = others_of(groups, poses, i);
+    const auto fit = [&] {
+      return compare_groups(others, groups[i], pose->inverse(), views, kGate * spacing_mm);
+    };
+    pose = refine_fit(others,
+                      groups[i],
+                      options.part_poses.at(setups[i].number).inverse(),
+                      views,
+                      {kStart * spacing_mm, kGate * spacing_mm})
+               .inverse();
+    if (fit().overlap >= usual.min_overlap) {
+      settle(poses,
+             i,
+             setups,
+             groups,
+             views,
+             {.spacing_mm = spacing_mm, .prior_mm = kStated * spacing_mm},
+             run);
+      if (fit().free_space_violation() <= kMaxViolation * usual.max_violation) continue;
+    }
+    pose.reset();
   }
-  return setup_poses;
+  return poses;
+}
+
+/// Adds what the surfaces of setups leave open to the motions of their views.
+void add_open_motions(ViewMotions& motions,
+                      const std::vector<Station>& stations,
+                      const std::vector<std::vector<OpenMotion>>& open) {
+  if (motions.size() != stations.size()) return;
+  for (std::size_t setup = 0; setup < open.size(); ++setup) {
+    for (const OpenMotion& motion : open[setup]) {
+      for (std::size_t view = 0; view < motions.size(); ++view) {
+        auto& own = motions[view];
+        own.conservativeResize(Eigen::NoChange, own.cols() + 1);
+        own.rightCols<1>().setZero();
+        if (stations[view].setup == setup) own.rightCols<1>() = motion.motion;
+      }
+    }
+  }
 }
 
 /// Poses of the setups whose targets match those of a setup that is joined already. None unless all
@@ -150,13 +233,17 @@ SetupPoses find_part_poses(const std::vector<MeasuredSetup>& setups,
     if (auto by_targets = join_by_targets(setups, *options.targets, run))
       return with_fits(std::move(*by_targets));
   }
-  if (auto given = refine_given_poses(setups, groups, views, options, spacing_mm))
+  if (auto given = refine_given_poses(setups, groups, views, options, spacing_mm, run))
     return with_fits(std::move(*given));
   const JoinedGroups joined = join_by_shape(groups, views, {.spacing_mm = spacing_mm}, run);
   SetupPoses setup_poses{joined.reference, {}, joined.ambiguous, {}};
   for (const auto& pose : joined.reference_from_group) {
     setup_poses.setup_from_reference.push_back(pose ? std::optional(pose->inverse())
                                                     : std::nullopt);
+  }
+  for (std::size_t i = 0; i < setups.size(); ++i) {
+    if (i != joined.reference && setup_poses.setup_from_reference[i])
+      settle(setup_poses, i, setups, groups, views, {.spacing_mm = spacing_mm}, run);
   }
   return with_fits(std::move(setup_poses));
 }
@@ -184,6 +271,7 @@ std::vector<SetupJoin> joins_of(const std::vector<MeasuredSetup>& setups, const 
       join.overlap = poses.fits[i].overlap;
       join.free_space_violation = poses.fits[i].free_space_violation();
     }
+    if (i < poses.sentences.size()) join.open = poses.sentences[i];
     joins.push_back(join);
   }
   return joins;
@@ -221,6 +309,7 @@ MeasuredSetup register_setups(std::vector<MeasuredSetup> setups,
   joined.measured.coarsest = reference.measured.coarsest;
   append(joined.measured, reference.measured, 0);
   RegisterOptions registration = options.registration;
+  std::vector<std::vector<OpenMotion>> open(1);  // by the setups that are joined
   for (std::size_t i = 0; i < setups.size(); ++i) {
     if (i == setup_poses.reference) continue;
     const auto& part_pose = setup_poses.setup_from_reference[i];
@@ -237,6 +326,7 @@ MeasuredSetup register_setups(std::vector<MeasuredSetup> setups,
         given_from_rig * table_of(setups[i], rig).rig_from_object(0.0) * *part_pose *
         reference_from_rig * given_from_rig.inverse());
     append(joined.measured, setups[i].measured, registration.part_poses.size());
+    open.push_back(i < setup_poses.open.size() ? setup_poses.open[i] : std::vector<OpenMotion>());
   }
   set_poses(joined, rig, registration.part_poses);
   if (options.refine) {
@@ -248,6 +338,7 @@ MeasuredSetup register_setups(std::vector<MeasuredSetup> setups,
         register_views(joined.measured.reference(), camera, given, registration, run);
     // The views of one setup say what the rig is; they are explained without one here.
     if (reference.registration) joined.registration->rig_open = reference.registration->rig_open;
+    add_open_motions(joined.registration->motions, joined.measured.stations, open);
   }
   const auto& found =
       joined.registration ? joined.registration->part_poses : registration.part_poses;

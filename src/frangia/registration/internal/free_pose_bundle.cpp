@@ -14,7 +14,7 @@ namespace {
 /// Sums with `blocks` poses as unknowns.
 FreePoseSums empty_sums(std::size_t blocks) {
   const auto unknowns = static_cast<Eigen::Index>(6 * blocks);
-  return {Eigen::MatrixXd::Zero(unknowns, unknowns), Eigen::VectorXd::Zero(unknowns), {}, 0, 0};
+  return {Eigen::MatrixXd::Zero(unknowns, unknowns), Eigen::VectorXd::Zero(unknowns), {}, {}, 0, 0};
 }
 
 /// Adds an equation in the poses of two views, given by their blocks of unknowns.
@@ -59,15 +59,16 @@ class FreePoseComparison {
     const SurfelPair pair(seen, facing, *target);
     const double distance = pair.distance_mm();
     if (!pair.faces_alike() || !(std::abs(distance) < gate_mm_)) return false;
-    const double weight =
-        tukey_weight(distance, gate_mm_) / (std::pow(static_cast<double>(surfel.sigma_mm), 2) +
-                                            std::pow(static_cast<double>(target->sigma_mm), 2));
+    const double variance = std::pow(static_cast<double>(surfel.sigma_mm), 2) +
+                            std::pow(static_cast<double>(target->sigma_mm), 2);
+    const double weight = tukey_weight(distance, gate_mm_) / variance;
     const Eigen::Vector3d normal = rig_from_world.linear().transpose() * pair.normal;
     const Eigen::Vector3d foot = rig_from_world.inverse() * target->point_mm.cast<double>();
     Eigen::Matrix<double, 12, 1> row;
     row << point_to_plane_jacobian(normal, point), -point_to_plane_jacobian(normal, foot);
     add_equation(sums, {0, index + 1}, row, weight, distance);
     sums.distances_mm.push_back(std::abs(distance));
+    sums.over_sigma.push_back(static_cast<float>(std::abs(distance) / std::sqrt(variance)));
     return true;
   }
 
@@ -128,6 +129,8 @@ FreePoseSums sum_free_poses(const FreePoseBundle& bundle, double gate_mm) {
     all.distances_mm.insert(
         all.distances_mm.end(), part.distances_mm.begin(), part.distances_mm.end());
     part.distances_mm = {};
+    all.over_sigma.insert(all.over_sigma.end(), part.over_sigma.begin(), part.over_sigma.end());
+    part.over_sigma = {};
     all.matched += part.matched;
     all.surfels += part.surfels;
   }

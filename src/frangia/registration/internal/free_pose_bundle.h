@@ -29,6 +29,7 @@ struct FreePoseSums {
   Eigen::MatrixXd hessian;
   Eigen::VectorXd gradient;
   std::vector<double> distances_mm;  ///< absolute, of all pairs within the gate
+  std::vector<float> over_sigma;     ///< the same over the standard deviations of the pairs
   std::size_t matched = 0;           ///< surfels that lie on a surface of another view
   std::size_t surfels = 0;
 };

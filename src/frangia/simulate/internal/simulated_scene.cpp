@@ -44,6 +44,7 @@ void check(const SimulateOptions& options, const Rig& rig) {
   check_range("read noise", options.read_e, 0.0, kMany);
   check_range("exposure", options.exposure, 1e-6, kMany);
   check_range("ambient light", options.ambient, 0.0, 1.0);
+  check_range("light of the backdrop", options.backdrop, 0.0, 1.0);
   check_range("strength of the color", options.color, 0.0, 0.95);
   check_range("contrast", options.contrast, 0.0, 1.0);
   check_range("step error", options.step_error, -0.9, 0.9);

@@ -173,7 +173,11 @@ void ViewRenderer::mean_light(const Pattern& pattern,
   // Scattered light holds the diffuse light of the point itself.
   const bool scatters = options_.subsurface_mm > 0.0;
   for (const LightSample& sample : samples) {
-    if (sample.albedo == 0.0F) continue;
+    if (sample.albedo == 0.0F) {
+      for (double& one : light)
+        one += options_.backdrop;
+      continue;
+    }
     const auto other = [&](const Shot& shot) {
       return (options_.ambient + shot.lamp) * static_cast<double>(sample.albedo);
     };
