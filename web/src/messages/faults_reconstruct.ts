@@ -240,4 +240,25 @@ export const FAULTS_RECONSTRUCT = {
     '; {0} bekannte Abstände skalieren die Oberfläche um {3} mit einer Standardunsicherheit von {4}',
     "; {0} distanze note scalano la superficie di {3} con un'incertezza standard di {4}",
   ],
+  'fault.setupElsewhere': [
+    '{0} fits alike {1} mm away, where its surfaces contradict the others less: that pose is taken',
+    '{0} passt {1} mm entfernt ebenso gut, und dort widersprechen ihre Flächen den anderen weniger: diese Lage gilt',
+    '{0} combacia allo stesso modo a {1} mm, dove le sue superfici contraddicono meno le altre: vale quella posa',
+  ],
+  'fault.watchedTurn': [
+    'the table turned by {0} degrees more or less, or the part on it',
+    'der Tisch drehte sich um {0} Grad zu viel oder zu wenig, oder das Teil auf ihm',
+    'la tavola è girata di {0} gradi in più o in meno, o il pezzo su di essa',
+  ],
+  'fault.watchedMove': ['the part moved', 'das Teil bewegte sich', 'il pezzo si è mosso'],
+  'fault.watchedMoveBy': [
+    'the part moved by {0} mm',
+    'das Teil bewegte sich um {0} mm',
+    'il pezzo si è mosso di {0} mm',
+  ],
+  'fault.watchedBefore': [
+    '{0} before view {1}; hold it fast, and begin again if it must not be in two parts',
+    '{0} vor Ansicht {1}; befestigen Sie es, und beginnen Sie neu, wenn es nicht aus zwei Gruppen bestehen darf',
+    '{0} prima della vista {1}; fissatelo, e ricominciate se non deve restare in due gruppi',
+  ],
 } as const satisfies Rows;

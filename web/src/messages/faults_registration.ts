@@ -275,4 +275,32 @@ export const FAULTS_REGISTRATION = {
     'zwei Messmarken haben die Nummer {0}: sie liegen in {2} {1} mm auseinander; jeder Messmarke auf dem Teil eine eigene Nummer geben',
     'due marcatori hanno il codice {0}: distano {1} mm in {2}; dare a ogni marcatore sul pezzo un codice proprio',
   ],
+  'fault.tableKnocked': [
+    'the table moved by {0}, or camera and projector together, {1}',
+    'der Tisch bewegte sich um {0}, oder Kamera und Projektor zusammen, {1}',
+    'la tavola si è mossa di {0}, o camera e proiettore insieme, {1}',
+  ],
+  'fault.rigKnocked': [
+    'the {0} moved against the rest of the rig by {1} at the part {2}',
+    '{0} bewegte sich gegen den übrigen Aufbau, am Teil um {1}, {2}',
+    "{0}: si è mosso rispetto al resto dell'apparato, di {1} sul pezzo, {2}",
+  ],
+  'fault.aTableKnocked': ['a table that was knocked', 'ein angestoßener Tisch', 'una tavola urtata'],
+  'fault.aRigKnocked': [
+    'a camera or projector that was knocked',
+    'eine angestoßene Kamera oder ein angestoßener Projektor',
+    'una camera o un proiettore urtati',
+  ],
+  'fault.fixTable': [
+    'fix the table against the rig',
+    'den Tisch gegen den Aufbau festmachen',
+    "fissare la tavola rispetto all'apparato",
+  ],
+  'fault.fixRig': [
+    'fix camera and projector, and calibrate the rig again',
+    'Kamera und Projektor festmachen und den Aufbau neu kalibrieren',
+    "fissare camera e proiettore e calibrare di nuovo l'apparato",
+  ],
+  'fault.turnAboutAxis': ['its turn about the axis', 'seine Drehung um die Achse', "la sua rotazione attorno all'asse"],
+  'fault.shiftAlong': ['its shift along', 'seine Verschiebung längs', 'il suo spostamento lungo'],
 } as const satisfies Rows;
