@@ -22,7 +22,7 @@ class BatchFixture : public ::testing::Test {
   static void SetUpTestSuite() {
     folder_ = new TemporaryFolder;  // NOLINT(*-owning-memory) deleted below
     for (const char* name : {"a", "b"}) {
-      const auto scan = small_scan(scans() / name, "plate", "digital", 1, {.samples_per_px = 1});
+      const auto scan = small_scan(scans() / name, "plate", "digital", 1, {.samples_per_px = 1}, 4);
       static_cast<void>(scan);
     }
     std::filesystem::create_directories(scans() / "broken");

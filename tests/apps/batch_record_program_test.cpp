@@ -248,6 +248,9 @@ bool is_halted(pid_t process) {
 
 /// The reconstructing process survives its killed batch; no other process writes the same results.
 TEST_F(BatchRecord, AnOrphanedStepKeepsOthersOut) {
+  // Of so many pixels that a step takes long enough to be halted.
+  fs::remove_all(one() / "a");
+  static_cast<void>(testing::small_scan(one() / "a", "plate", "digital", 1, {.samples_per_px = 1}));
   std::optional<testing::StartedProgram> batch;
   pid_t step = 0;
   bool halted = false;

@@ -23,8 +23,9 @@ using testing::run_program;
 
 class DecodeProgram : public ::testing::Test {
  protected:
-  void simulate(const std::string& part, int views) const {
-    static_cast<void>(testing::small_scan(folder_.path() / "scan", part, "digital", views));
+  void simulate(const std::string& part, int views, int divisor = 2) const {
+    static_cast<void>(testing::small_scan(
+        folder_.path() / "scan", part, "digital", views, {.samples_per_px = 4}, divisor));
   }
   [[nodiscard]] std::string path(const std::string& name) const {
     return (folder_.path() / name).string();
@@ -83,7 +84,7 @@ TEST_F(DecodeProgram, GivesTheFiguresOfEachViewInJson) {
 }
 
 TEST_F(DecodeProgram, ShowsWhereFringeOrdersComeFrom) {
-  simulate("plate", 1);
+  simulate("plate", 1, 4);
   const std::string text =
       "vertical fringes of 1280, 160 and 20 px: each map gives the orders of the next finer one, "
       "from one fringe over the field on";
@@ -117,7 +118,7 @@ TEST_F(DecodeProgram, PrintsTheTablesOfHypothesesThatTheDocsShow) {
 }
 
 TEST_F(DecodeProgram, WritesStagesAndMapsOfAScanOfOneView) {
-  simulate("plate", 1);
+  simulate("plate", 1, 4);
   const Json one = json_of("decode " + path("scan") + " -o " + path("stages"));
   EXPECT_EQ(one["view"], 0);
   EXPECT_TRUE(exists("stages/index.html"));

@@ -26,7 +26,7 @@ class ImportProgram : public ::testing::Test {
  protected:
   /// A simulated scan, whose frames are the images to import.
   void SetUp() override {
-    testing::small_scan(folder_.path() / "made", "plate", "digital", 1, {.samples_per_px = 1});
+    testing::small_scan(folder_.path() / "made", "plate", "digital", 1, {.samples_per_px = 1}, 4);
   }
   [[nodiscard]] std::string path(const std::string& name) const {
     return "'" + (folder_.path() / name).string() + "'";

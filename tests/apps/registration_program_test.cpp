@@ -46,8 +46,9 @@ class RegistrationProgram : public ::testing::Test {
     }
     write_ply(folder_.path() / name, mesh);
   }
-  void write_scan_of(const std::string& part, int views) const {
-    static_cast<void>(testing::small_scan(folder_.path() / "scan", part, "digital", views, {}));
+  void write_scan_of(const std::string& part, int views, int divisor = 4) const {
+    static_cast<void>(
+        testing::small_scan(folder_.path() / "scan", part, "digital", views, {}, divisor));
   }
   /// A scan of a bracket in which one view was taken after a push.
   void write_pushed_scan(std::size_t pushed_view) const {
@@ -174,7 +175,7 @@ TEST_F(RegistrationProgram, AViewOfAPartThatWasPushedIsNamedAndLeftOut) {
 }
 
 TEST_F(RegistrationProgram, OppositeViewsWithLittleInCommonReportHowWellTheyDetermineTheAxis) {
-  write_scan_of("blade", 2);
+  write_scan_of("blade", 2, 2);
   expect_told(run_program("reconstruct " + path("scan") + " -o " + path("a.ply")),
               0,
               "determine the axis only to");

@@ -87,6 +87,7 @@ class Projects:
         self.start()
         self.server.command("create-project", name="sample", part="plate", stations=2)
         self.server.wait()
+        self.server.coarsen_camera("sample", 4)  # each of thousands of projects is opened with its surface
         for command in ["start-scan", "reconstruct"]:
             self.server.command(command)
             self.server.wait()

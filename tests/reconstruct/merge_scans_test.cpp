@@ -79,16 +79,35 @@ std::vector<RangeScan> scans_of(const RayScene& part, bool joined) {
   return scans;
 }
 
-TEST(MergeScans, MakesOneSurfaceOfScansThatFit) {
-  const RayScene part(make_part("bust"));
-  const MergedScans merged = merge_scans(scans_of(part, true), {.register_poses = false});
-  ASSERT_FALSE(merged.mesh.empty());
-  EXPECT_LT(surface_error(merged.mesh, part).rms_mm, 0.06);
+/// The tests run in one process, and share the part, its scans and what they give when merged.
+class MergeScans : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite() { static_cast<void>(part()); }
+  static const RayScene& part() {
+    static const RayScene kPart(make_part("bust"));
+    return kPart;
+  }
+  /// Scans whose poses are true.
+  static const std::vector<RangeScan>& scans(bool joined = true) {
+    static const std::vector<RangeScan> kJoined = scans_of(part(), true);
+    static const std::vector<RangeScan> kPoints = scans_of(part(), false);
+    return joined ? kJoined : kPoints;
+  }
+  static const MergedScans& merged(bool joined) {
+    static const MergedScans kJoined = merge_scans(scans(true), {.register_poses = false});
+    static const MergedScans kPoints = merge_scans(scans(false), {.register_poses = false});
+    return joined ? kJoined : kPoints;
+  }
+};
+
+TEST_F(MergeScans, MakesOneSurfaceOfScansThatFit) {
+  ASSERT_FALSE(merged(true).mesh.empty());
+  EXPECT_LT(surface_error(merged(true).mesh, part()).rms_mm, 0.06);
 }
 
-TEST(MergeScans, PutsPosesRightThatAreOff) {
-  const RayScene part(make_part("bust"));
-  std::vector<RangeScan> scans = scans_of(part, true);
+TEST_F(MergeScans, PutsPosesRightThatAreOff) {
+  const std::vector<RangeScan>& truth = MergeScans::scans();
+  std::vector<RangeScan> scans = truth;
   std::mt19937 random(5);
   std::uniform_real_distribution<double> any(-1.0, 1.0);
   for (std::size_t i = 1; i < scans.size(); ++i) {
@@ -97,14 +116,13 @@ TEST(MergeScans, PutsPosesRightThatAreOff) {
     scans[i].world_from_scan = turned(0.01, axis, by) * scans[i].world_from_scan;
   }
   const double off_mm =
-      surface_error(merge_scans(scans, {.register_poses = false}).mesh, part).rms_mm;
+      surface_error(merge_scans(scans, {.register_poses = false}).mesh, part()).rms_mm;
   const MergedScans merged = merge_scans(scans);
   EXPECT_GT(off_mm, 0.2);
-  EXPECT_LT(surface_error(merged.mesh, part).rms_mm, 0.07);
+  EXPECT_LT(surface_error(merged.mesh, part()).rms_mm, 0.07);
   ASSERT_TRUE(merged.registration.has_value());
   EXPECT_LT(merged.registration->rms_after_mm, 0.3 * merged.registration->rms_before_mm);
   // The refined poses agree with the true ones: the first is held.
-  const std::vector<RangeScan> truth = scans_of(part, true);
   for (std::size_t i = 0; i < scans.size(); ++i) {
     const Eigen::Vector3d corner(20.0, -20.0, 10.0);
     EXPECT_LT((merged.scans[i].world_from_scan * corner - truth[i].world_from_scan * corner).norm(),
@@ -113,7 +131,7 @@ TEST(MergeScans, PutsPosesRightThatAreOff) {
   }
 }
 
-TEST(MergeScans, CountsDroppedPointsByTheReason) {
+TEST_F(MergeScans, CountsDroppedPointsByTheReason) {
   // A plate of 41 x 41 points, 1 mm apart, with the back of the plate 10 mm below, seen from
   // behind.
   RangeScan scan;
@@ -164,27 +182,24 @@ std::vector<RangeScan> lost_scans(const RayScene& part, unsigned count) {
   return scans;
 }
 
-TEST(MergeScans, FindsUnknownPoses) {
-  const RayScene part(make_part("bust"));
-  const MergedScans merged = merge_scans(lost_scans(part, 6));
+TEST_F(MergeScans, FindsUnknownPoses) {
+  const MergedScans merged = merge_scans(lost_scans(part(), 6));
   ASSERT_TRUE(merged.found_poses.has_value());
   EXPECT_TRUE(merged.found_poses->left_out.empty());
   // The mesh is in the frame of the first scan: bring it back into the part's.
   ASSERT_EQ(merged.found_poses->reference, 0U);
   const Eigen::Isometry3d anyhow = turned(1.0, {1.0, 0.0, -0.5}, {0.0, 30.0, -5.0});
   const Eigen::Isometry3d part_from_mesh =
-      scan_of(part, 0.0, 1, true, 0.6).world_from_scan * anyhow.inverse();
+      scan_of(part(), 0.0, 1, true, 0.6).world_from_scan * anyhow.inverse();
   Mesh mesh = merged.mesh;
   for (Eigen::Vector3f& point : mesh.vertices_mm)
     point = (part_from_mesh * point.cast<double>()).cast<float>();
-  EXPECT_LT(surface_error(mesh, part).rms_mm, 0.07);
+  EXPECT_LT(surface_error(mesh, part()).rms_mm, 0.07);
 }
 
-TEST(MergeScans, TakesPointsWithoutTriangles) {
-  const RayScene part(make_part("bust"));
-  const MergedScans merged = merge_scans(scans_of(part, false), {.register_poses = false});
-  ASSERT_FALSE(merged.mesh.empty());
-  EXPECT_LT(surface_error(merged.mesh, part).p95_mm, 0.4);
+TEST_F(MergeScans, TakesPointsWithoutTriangles) {
+  ASSERT_FALSE(merged(false).mesh.empty());
+  EXPECT_LT(surface_error(merged(false).mesh, part()).p95_mm, 0.4);
 }
 
 bool has_no_sigma(const Mesh& mesh) {
@@ -193,10 +208,9 @@ bool has_no_sigma(const Mesh& mesh) {
                                                [](float sigma) { return std::isnan(sigma); });
 }
 
-TEST(MergeScans, TrustsScansThatFit) {
-  const RayScene part(make_part("bust"));
+TEST_F(MergeScans, TrustsScansThatFit) {
   for (const bool joined : {true, false}) {
-    const MergedScans merged = merge_scans(scans_of(part, joined), {.register_poses = false});
+    const MergedScans& merged = MergeScans::merged(joined);
     EXPECT_EQ(merged.untrusted_reason, "") << joined;
     EXPECT_LT(merged.contradiction, 0.04) << joined;
     EXPECT_FALSE(has_no_sigma(merged.mesh)) << joined;
@@ -225,9 +239,8 @@ void expect_untrusted(const std::vector<RangeScan>& scans, const MergeScansOptio
     EXPECT_EQ(note.find("agree"), std::string::npos) << note;
 }
 
-TEST(MergeScans, DoesNotTrustScansOfDifferentScale) {
-  const RayScene part(make_part("bust"));
-  std::vector<RangeScan> scans = scans_of(part, true);
+TEST_F(MergeScans, DoesNotTrustScansOfDifferentScale) {
+  std::vector<RangeScan> scans = MergeScans::scans();
   for (std::size_t i = 1; i < scans.size(); i += 2) {
     for (Eigen::Vector3f& vertex : scans[i].mesh.vertices_mm)
       vertex *= 1.05F;
@@ -235,22 +248,20 @@ TEST(MergeScans, DoesNotTrustScansOfDifferentScale) {
   expect_untrusted(scans);
 }
 
-TEST(MergeScans, DoesNotTrustScansOfAPartThatChanged) {
-  const RayScene part(make_part("bust"));
+TEST_F(MergeScans, DoesNotTrustScansOfAPartThatChanged) {
   const RayScene other(make_part("bracket"));
-  std::vector<RangeScan> scans = scans_of(part, true);
+  std::vector<RangeScan> scans = MergeScans::scans();
   scans[2] = scan_of(other, 2.0 * M_PI / 3.0, 3, true);
   expect_untrusted(scans, {.poses = ScanPoses::Given});
 }
 
-TEST(MergeScans, DoesNotTrustUnregisteredScansWithPosesThatAreOff) {
-  const RayScene part(make_part("bust"));
-  std::vector<RangeScan> scans = scans_of(part, true);
+TEST_F(MergeScans, DoesNotTrustUnregisteredScansWithPosesThatAreOff) {
+  std::vector<RangeScan> scans = MergeScans::scans();
   scans[3].world_from_scan.pretranslate(Eigen::Vector3d(0.8, -0.8, 0.4));
   expect_untrusted(scans, {.register_poses = false});
 }
 
-TEST(MergeScans, RefusesAScanWithoutASurface) {
+TEST_F(MergeScans, RefusesAScanWithoutASurface) {
   RangeScan empty;
   empty.path = "empty.ply";
   EXPECT_THROW(static_cast<void>(merge_scans({empty})), Error);
@@ -284,12 +295,12 @@ std::string fault_of(const std::vector<RangeScan>& scans) {
   return {};
 }
 
-TEST(MergeScans, RefusesScansOfFewPointsInOneSentence) {
+TEST_F(MergeScans, RefusesScansOfFewPointsInOneSentence) {
   for (const bool joined : {false, true})
     EXPECT_NE(fault_of({small_scan(3, joined), small_scan(3, joined)}), "");
 }
 
-TEST(MergeScans, RefusesAPoseThatIsTooFarForItsCoordinates) {
+TEST_F(MergeScans, RefusesAPoseThatIsTooFarForItsCoordinates) {
   for (const double far_mm : {1e300, 1e8}) {
     RangeScan far = small_scan(12, true);
     far.path = "far.ply";
@@ -298,14 +309,14 @@ TEST(MergeScans, RefusesAPoseThatIsTooFarForItsCoordinates) {
   }
 }
 
-TEST(MergeScans, RefusesPointsThatCoincide) {
+TEST_F(MergeScans, RefusesPointsThatCoincide) {
   RangeScan scan = small_scan(3, false);
   for (auto& point : scan.mesh.vertices_mm)
     point.setConstant(1.0F);
   EXPECT_NE(fault_of({scan}).find("small.ply: holds no surface"), std::string::npos);
 }
 
-TEST(MergeScans, TakesAPointThatLiesFarAway) {
+TEST_F(MergeScans, TakesAPointThatLiesFarAway) {
   for (const bool joined : {false, true}) {
     for (const float far_mm : {60'000.0F, 1e15F, 1e30F}) {
       RangeScan scan = small_scan(40, joined);

@@ -50,9 +50,19 @@ Scan with_label(Scan scan) {
   return scan;
 }
 
-TEST(TwoCameras, MeasureMoreThanOneAndMoreExactly) {
-  const TemporaryFolder folder;
-  const Scan scan = small_scan(folder.path(), "bracket", "binocular", kViews);
+/// A scan of the bracket, rendered once for all tests.
+class TwoCameras : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite() { static_cast<void>(scan_of_bracket()); }
+  static const Scan& scan_of_bracket() {
+    static const TemporaryFolder kFolder;
+    static const Scan kScan = small_scan(kFolder.path(), "bracket", "binocular", kViews);
+    return kScan;
+  }
+};
+
+TEST_F(TwoCameras, MeasureMoreThanOneAndMoreExactly) {
+  const Scan& scan = scan_of_bracket();
   const Reconstruction one = reconstruct_by_rig(with_reference_camera_alone(scan));
   const Reconstruction two = reconstruct_by_rig(scan);
   EXPECT_EQ(two.cameras, 2U);
@@ -66,9 +76,8 @@ TEST(TwoCameras, MeasureMoreThanOneAndMoreExactly) {
   EXPECT_TRUE(two.agreements.front().is_consistent());
 }
 
-TEST(TwoCameras, ReportACameraThatHasTurned) {
-  const TemporaryFolder folder;
-  Scan scan = small_scan(folder.path(), "bracket", "binocular", kViews);
+TEST_F(TwoCameras, ReportACameraThatHasTurned) {
+  Scan scan = scan_of_bracket();
   PosedCamera& second = scan.rig.cameras.at(1);
   second.rotation =
       Eigen::AngleAxisd(rad_from_deg(0.2), Eigen::Vector3d::UnitY()) * second.rotation;
@@ -80,7 +89,7 @@ TEST(TwoCameras, ReportACameraThatHasTurned) {
   EXPECT_TRUE(std::isnan(result.sigma.combined_mm));
 }
 
-TEST(TwoCameras, RefuseFramesThatAreMissingOrOfAnotherSize) {
+TEST_F(TwoCameras, RefuseFramesThatAreMissingOrOfAnotherSize) {
   const TemporaryFolder folder;
   Scan scan = small_scan(folder.path(), "plate", "binocular", 1, {}, 4);
   const Scan second = scan_of_camera(scan, 1);
@@ -100,7 +109,7 @@ TEST(TwoCameras, RefuseFramesThatAreMissingOrOfAnotherSize) {
       << error_of(read);
 }
 
-TEST(TwoCameras, NeedAbsolutePatternsForALabel) {
+TEST_F(TwoCameras, NeedAbsolutePatternsForALabel) {
   const TemporaryFolder folder;
   Scan scan = small_scan(folder.path(), "plate", "binocular", 1, {}, 4);
   scan = with_label(scan);

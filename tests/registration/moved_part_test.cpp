@@ -18,7 +18,7 @@ using testing::MisalignedTable;
 using testing::Shape;
 using testing::small_camera_model;
 
-TEST(RegisterViews, NamesAndEmptiesAViewOfAMovedPart) {
+TEST(MovedPart, NamesAndEmptiesAViewOfAMovedPart) {
   const MisalignedTable table(8);
   ViewStore views = table.take(knobbly);
   const Shape pushed = [](const Eigen::Vector3d& p) {
@@ -43,7 +43,7 @@ TEST(RegisterViews, NamesAndEmptiesAViewOfAMovedPart) {
   EXPECT_LT(testing::axis_error_rad(report.table, table.truth), rad_from_deg(0.01));
 }
 
-TEST(RegisterViews, IsNotDistortedByAViewOfAPartThatSlidOnItsFaces) {
+TEST(MovedPart, IsNotDistortedByAViewOfAPartThatSlidOnItsFaces) {
   const MisalignedTable table(6);
   const Shape angle = testing::both(testing::box({34.0, 22.0, 4.0}, {0.0, 0.0, -16.0}),
                                     testing::box({4.0, 22.0, 18.0}, {-26.0, 0.0, 2.0}));
@@ -60,7 +60,7 @@ TEST(RegisterViews, IsNotDistortedByAViewOfAPartThatSlidOnItsFaces) {
   EXPECT_LT(testing::shift_mm(report.table, table.truth), 0.03);
 }
 
-TEST(RegisterViews, IsNotTrustworthyWhenNothingExplainsWhatViewsDisagreeAbout) {
+TEST(MovedPart, IsNotTrustworthyWhenNothingExplainsWhatViewsDisagreeAbout) {
   const MisalignedTable table(6);
   const CameraModel model = small_camera_model(150, 750.0);
   ViewStore views = table.take(knobbly, model);

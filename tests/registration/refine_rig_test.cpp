@@ -55,14 +55,25 @@ Rig drifted(Rig rig, double scale = 1.0) {
   return rig;
 }
 
-/// What a rig of unit scale sees of a shape, scaled; triangulated by the true rig.
-ViewStore scaled_views(const Shape& shape, const Rig& unit, int count, double scale) {
+/// What the rig of unit scale sees of a shape.
+ViewStore views_of(const Shape& shape, int count) {
+  const Rig unit = true_rig();
   std::vector<Eigen::Isometry3d> poses;
   for (int i = 0; i < count; ++i)
     poses.push_back(unit.rig_from_object(kTwoPi * i / count));
-  ViewStore out;
-  const ViewStore views = testing::snapshots(
+  return testing::snapshots(
       shape, unit.reference().model, poses, {.noise_mm = 0.01, .sigma_mm = 0.01});
+}
+
+/// Six views of the knobbly part, rendered once for all tests.
+const ViewStore& knobbly_views() {
+  static const ViewStore kViews = views_of(knobbly, 6);
+  return kViews;
+}
+
+/// The same views in another unit of length.
+ViewStore scaled(const ViewStore& views, double scale) {
+  ViewStore out;
   for (std::size_t i = 0; i < views.size(); ++i) {
     View view = views.load(i);
     for (Image<float>* image : {&view.range.depth_mm, &view.range.sigma_mm}) {
@@ -135,14 +146,11 @@ struct Refined {
   double scale_after = 1.0;
 };
 
-Refined refine(const Shape& shape,
-               double scale,
-               const RefineRigOptions& options = {},
-               int count = 6) {
-  const Rig unit = true_rig();
+/// Refines a rig of which the projector moved, by what the true rig of a scale saw.
+Refined refine(const ViewStore& seen, double scale, const RefineRigOptions& options = {}) {
   const Rig truth = true_rig(scale);
   const Rig given = drifted(truth, scale);
-  const ViewStore seen = scaled_views(shape, unit, count, scale);
+  const int count = static_cast<int>(seen.size());
   const ViewStore views = retriangulate_views(seen, kColumns, truth, given);
   const std::vector<RigSurfaces> surfaces{{views, kColumns, counted(count)}};
   Refined out;
@@ -156,12 +164,17 @@ Refined refine(const Shape& shape,
   return out;
 }
 
-const Refined& of_unit_size() {
-  static const Refined kFound = refine(knobbly, 1.0);
-  return kFound;
-}
+/// The tests run in one process, and share the views and a refinement.
+class RefineRig : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite() { static_cast<void>(knobbly_views()); }
+  static const Refined& of_unit_size() {
+    static const Refined kFound = refine(knobbly_views(), 1.0);
+    return kFound;
+  }
+};
 
-TEST(RefineRig, FindsTheDriftOfAProjectorFromOverlappingViews) {
+TEST_F(RefineRig, FindsTheDriftOfAProjectorFromOverlappingViews) {
   const Refined& found = of_unit_size();
   EXPECT_FALSE(found.result.kept_rig) << found.result.text();
   EXPECT_LT(found.error_after, 0.35 * found.error_before) << found.error_before;
@@ -175,13 +188,12 @@ TEST(RefineRig, FindsTheDriftOfAProjectorFromOverlappingViews) {
 RigRefinement refine_stated(const Rig& given) {
   const Rig truth = true_rig();
   constexpr int kViews = 6;
-  const ViewStore seen = scaled_views(knobbly, truth, kViews, 1.0);
-  const ViewStore views = retriangulate_views(seen, kColumns, truth, given);
+  const ViewStore views = retriangulate_views(knobbly_views(), kColumns, truth, given);
   const std::vector<RigSurfaces> surfaces{{views, kColumns, counted(kViews)}};
   return refine_rig(given, surfaces, stations_of(kViews, rad_from_deg(0.05)));
 }
 
-TEST(RefineRig, FindsTheDistortionOfALens) {
+TEST_F(RefineRig, FindsTheDistortionOfALens) {
   Rig given = true_rig();
   constexpr double kWrong = 0.6;  // by half a pixel at the ends of a row
   given.reference().model.distortion[0] = kWrong;
@@ -198,7 +210,7 @@ TEST(RefineRig, FindsTheDistortionOfALens) {
   EXPECT_LT(std::abs(k1->change + kWrong), 5.0 * k1->sigma) << k1->change << " +- " << k1->sigma;
 }
 
-TEST(RefineRig, StatesHowFarARigIsOpenThatChangedMoreThanExpected) {
+TEST_F(RefineRig, StatesHowFarARigIsOpenThatChangedMoreThanExpected) {
   Rig given = true_rig();
   auto& projector = std::get<PinholeModel>(given.projector.model);
   projector.focal_px *= 1.006;  // 20 standard deviations
@@ -213,52 +225,50 @@ TEST(RefineRig, StatesHowFarARigIsOpenThatChangedMoreThanExpected) {
   }
 }
 
-TEST(RefineRig, BehavesAlikeForARigOfTenTimesTheSize) {
+TEST_F(RefineRig, BehavesAlikeForARigOfTenTimesTheSize) {
   const Refined& one = of_unit_size();
-  const Refined ten = refine(knobbly, 10.0);
+  const Refined ten = refine(scaled(knobbly_views(), 10.0), 10.0);
   EXPECT_NEAR(ten.error_after, one.error_after, 0.1 * one.error_before);
   EXPECT_EQ(ten.result.held, one.result.held);
 }
 
-TEST(RefineRig, KeepsAnExactRig) {
+TEST_F(RefineRig, KeepsAnExactRig) {
   const Rig rig = true_rig();
-  const ViewStore views = scaled_views(knobbly, rig, 6, 1.0);
-  const std::vector<RigSurfaces> surfaces{{views, kColumns, counted(6)}};
+  const std::vector<RigSurfaces> surfaces{{knobbly_views(), kColumns, counted(6)}};
   const RigRefinement result = refine_rig(rig, surfaces, stations_of(6));
   EXPECT_TRUE(result.kept_rig) << result.text();
   EXPECT_EQ(result.rig.projector.position_mm, rig.projector.position_mm);
   EXPECT_FALSE(result.rig.calibration);
 }
 
-TEST(RefineRig, IsNotWorseWithAPartThatIsRoundAboutTheAxis) {
-  const Refined found = refine(sphere(38.0), 1.0);
+TEST_F(RefineRig, IsNotWorseWithAPartThatIsRoundAboutTheAxis) {
+  const Refined found = refine(views_of(sphere(38.0), 6), 1.0);
   EXPECT_LE(found.error_after, 1.05 * found.error_before);
   EXPECT_GT(found.result.held, 4U) << found.result.text();
 }
 
-TEST(RefineRig, TakesTheScaleFromTheBallsOfABallBar) {
+TEST_F(RefineRig, TakesTheScaleFromTheBallsOfABallBar) {
   const Shape bar = testing::both(
       testing::both(sphere(14.0, {0.0, -22.0, 12.0}), sphere(14.0, {0.0, 22.0, 12.0})),
       testing::box({8.0, 40.0, 4.0}, {0.0, 0.0, -20.0}));
   RefineRigOptions options;
   options.ball_distance_mm = 44.0;
-  const Refined found = refine(bar, 1.0, options);
+  const Refined found = refine(views_of(bar, 6), 1.0, options);
   EXPECT_GT(std::abs(found.scale_before - 1.0), 1e-3);
   EXPECT_NEAR(found.scale_after, 1.0, 4e-4);
   EXPECT_LT(found.error_after, 0.5 * found.error_before);
   options.ball_distance_mm = 60.0;
   EXPECT_NE(testing::error_of([&] {
-              static_cast<void>(refine(bar, 1.0, options, 3));
+              static_cast<void>(refine(views_of(bar, 3), 1.0, options));
             }).find("the two balls are 4"),
             std::string::npos);
 }
 
-TEST(RefineRig, FindsTheProjectorOfOneViewFromBothDirectionsOfFringes) {
+TEST_F(RefineRig, FindsTheProjectorOfOneViewFromBothDirectionsOfFringes) {
   Rig truth = true_rig();
   truth.turntable.reset();
-  Rig with_table = true_rig();
   const Rig given = drifted(truth);
-  const ViewStore seen = scaled_views(knobbly, with_table, 1, 1.0);
+  const ViewStore seen = views_of(knobbly, 1);
   const ViewStore columns = retriangulate_views(seen, kColumns, truth, given);
   const ViewStore rows = retriangulate_views(seen, kRows, truth, given);
   const std::vector<RigSurfaces> surfaces{{columns, kColumns, {0}}, {rows, kRows, {0}}};
@@ -268,9 +278,9 @@ TEST(RefineRig, FindsTheProjectorOfOneViewFromBothDirectionsOfFringes) {
   EXPECT_LT(result.rms_after_mm, 0.2 * result.rms_before_mm) << result.text();
 }
 
-TEST(RefineRig, NamesWhatIsMissingWhenNothingCanBeCompared) {
+TEST_F(RefineRig, NamesWhatIsMissingWhenNothingCanBeCompared) {
   Rig rig = true_rig();
-  const ViewStore views = scaled_views(knobbly, rig, 1, 1.0);
+  const ViewStore views = views_of(knobbly, 1);
   const std::vector<RigSurfaces> surfaces{{views, kColumns, {0}}};
   EXPECT_NE(testing::error_of([&] {
               static_cast<void>(refine_rig(rig, surfaces, stations_of(1)));
@@ -283,7 +293,7 @@ TEST(PointDrift, IsTheMotionOfATriangulatedPoint) {
   const DriftModel model(rig, {}, 650.0);
   const Eigen::VectorXd none = Eigen::VectorXd::Zero(model.count());
   const PointDrift drift(model, none);
-  const ViewStore views = scaled_views(knobbly, rig, 1, 1.0);
+  const ViewStore views = views_of(knobbly, 1);
   const auto rays = rays_of(rig.reference().model);
   const View view = views.load(0);
   const int x = 80;
@@ -319,7 +329,7 @@ TEST(DriftModel, AddsNothingToACovarianceThatIsNotMeasured) {
   EXPECT_NEAR(half.covariance.trace(), 0.5 * prior.trace(), 1e-9 * prior.trace());
 }
 
-TEST(RefineRig, ScalesFurtherCamerasWithTheRig) {
+TEST_F(RefineRig, ScalesFurtherCamerasWithTheRig) {
   Rig rig = true_rig();
   rig.cameras.emplace_back();
   rig.cameras[1].position_mm = {100.0, -20.0, 5.0};

@@ -1,6 +1,7 @@
 #include "frangia/registration/register_views.h"
 
 #include <cmath>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -21,10 +22,54 @@ using testing::Shape;
 using testing::shift_mm;
 using testing::small_camera_model;
 
-TEST(RegisterViews, FindsTheAxisAndTheAngles) {
-  const Table table(8);
-  ViewStore views = table.take(knobbly);
-  const auto report = register_views(views, small_camera_model(), {table.given, table.stations()});
+/// A plate seen from both sides: the views share the narrow top alone.
+const Shape kPlate = testing::box({3.0, 30.0, 30.0});
+
+/// Registering changes the poses of the views: each test has its own.
+ViewStore copy_of(const ViewStore& views) {
+  ViewStore out;
+  for (std::size_t i = 0; i < views.size(); ++i)
+    out.add(views.load(i));
+  return out;
+}
+
+/// The tests run in one process, and share what takes long: rendering, and a registration.
+class RegisterViews : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite() { static_cast<void>(eight_views()); }
+
+  /// Views of the knobbly part all around, as `MisalignedTable::take` renders them.
+  static ViewStore knobbly_views(int count) {
+    static std::map<int, ViewStore> rendered;
+    const auto [at, is_new] = rendered.try_emplace(count);
+    if (is_new) at->second = Table(count).take(knobbly);
+    return copy_of(at->second);
+  }
+  static ViewStore plate_views() {
+    static const ViewStore kViews = Table(2).take(kPlate);
+    return copy_of(kViews);
+  }
+  struct Eight {
+    Table table{8};
+    ViewStore views;
+    RegistrationReport report;
+  };
+  /// Eight views of the knobbly part, registered.
+  static const Eight& eight_views() {
+    static const Eight kFound = [] {
+      Eight found;
+      found.views = knobbly_views(8);
+      found.report = register_views(
+          found.views, small_camera_model(), {found.table.given, found.table.stations()});
+      return found;
+    }();
+    return kFound;
+  }
+};
+
+TEST_F(RegisterViews, FindsTheAxisAndTheAngles) {
+  const Table& table = eight_views().table;
+  const RegistrationReport& report = eight_views().report;
   EXPECT_LT(axis_error_rad(report.table, table.truth), rad_from_deg(0.01));
   EXPECT_LT(shift_mm(report.table, table.truth), 0.01);
   EXPECT_EQ(report.angles_rad[0], table.angles_rad[0]);
@@ -44,7 +89,7 @@ TEST(RegisterViews, FindsTheAxisAndTheAngles) {
   EXPECT_GT(std::abs(report.closure_before_rad), 3.0 * std::abs(report.closure_after_rad));
 }
 
-TEST(RegisterViews, FindsTheAxisAndTheAnglesOfManyViews) {
+TEST_F(RegisterViews, FindsTheAxisAndTheAnglesOfManyViews) {
   constexpr int kViews = 40;  // more than are compared with each other
   const CameraModel camera = small_camera_model(120, 600.0);
   const Table table(kViews);
@@ -59,7 +104,7 @@ TEST(RegisterViews, FindsTheAxisAndTheAnglesOfManyViews) {
   EXPECT_TRUE(report.trustworthy);
 }
 
-TEST(RegisterViews, LeavesOutAMovedViewOfMany) {
+TEST_F(RegisterViews, LeavesOutAMovedViewOfMany) {
   constexpr int kViews = 30;
   const CameraModel camera = small_camera_model(80, 400.0);
   const Table table(kViews);
@@ -73,19 +118,19 @@ TEST(RegisterViews, LeavesOutAMovedViewOfMany) {
   EXPECT_LT(shift_mm(report.table, table.truth), 0.02);
 }
 
-TEST(RegisterViews, KeepsAGivenRigThatFitsAsWell) {
+TEST_F(RegisterViews, KeepsAGivenRigThatFitsAsWell) {
   Table table(6, 0.0);
   table.given = table.truth;
-  ViewStore views = table.take(knobbly);
+  ViewStore views = knobbly_views(6);
   const auto report = register_views(views, small_camera_model(), {table.given, table.stations()});
   EXPECT_TRUE(report.kept_rig) << report.text();
   EXPECT_EQ(report.axis_moved_mm(), 0.0);
   EXPECT_EQ(report.largest_turn_rad(), 0.0);
 }
 
-TEST(RegisterViews, PutsTheViewsInTheRefinedFrame) {
+TEST_F(RegisterViews, PutsTheViewsInTheRefinedFrame) {
   const Table table(6);
-  ViewStore views = table.take(knobbly);
+  ViewStore views = knobbly_views(6);
   const auto report = register_views(views, small_camera_model(), {table.given, table.stations()});
   for (std::size_t i = 0; i < views.size(); ++i) {
     const auto expected = report.table.rig_from_object(report.angles_rad[i]);
@@ -95,7 +140,7 @@ TEST(RegisterViews, PutsTheViewsInTheRefinedFrame) {
   EXPECT_NEAR(report.table.axis.dot(table.given.point_mm - report.table.point_mm), 0.0, 1e-9);
 }
 
-TEST(RegisterViews, LeavesWhatARoundPartDoesNotDetermineToThePrior) {
+TEST_F(RegisterViews, LeavesWhatARoundPartDoesNotDetermineToThePrior) {
   const Table table(6);
   const Shape vase = [](const Eigen::Vector3d& p) {
     const double wide = 25.0 + 4.0 * std::sin(0.12 * p.z());
@@ -111,7 +156,7 @@ TEST(RegisterViews, LeavesWhatARoundPartDoesNotDetermineToThePrior) {
   EXPECT_LT(axis_error_rad(report.table, table.truth), rad_from_deg(0.03));
 }
 
-TEST(RegisterViews, ReportsHowWellAnOverlapConstrainsTheAxis) {
+TEST_F(RegisterViews, ReportsHowWellAnOverlapConstrainsTheAxis) {
   Table table(2);  // opposite sides, which share little but the horizontal top
   const Shape post = [](const Eigen::Vector3d& p) {
     return std::max(std::abs(p.z()) - 30.0, 0.7 * (std::hypot(p.x() / 1.4, p.y()) - 20.0));
@@ -127,9 +172,9 @@ TEST(RegisterViews, ReportsHowWellAnOverlapConstrainsTheAxis) {
   EXPECT_NE(warnings[0].find("determine the axis only to"), std::string::npos);
 }
 
-TEST(RegisterViews, KeepsTheRigWithOneView) {
+TEST_F(RegisterViews, KeepsTheRigWithOneView) {
   const Table table(1);
-  ViewStore views = table.take(knobbly);
+  ViewStore views = knobbly_views(1);
   int warnings = 0;
   frangia::Run run;
   run.on_warning = [&](const std::string&) { ++warnings; };
@@ -139,7 +184,7 @@ TEST(RegisterViews, KeepsTheRigWithOneView) {
   EXPECT_EQ(report.table.point_mm, table.given.point_mm);
 }
 
-TEST(RegisterViews, KeepsTheRigWhenViewsDoNotOverlap) {
+TEST_F(RegisterViews, KeepsTheRigWhenViewsDoNotOverlap) {
   const Table table(2);
   ViewStore views = table.take(testing::box({30.0, 30.0, 5.0}));
   View far = views.load(1);
@@ -156,13 +201,10 @@ TEST(RegisterViews, KeepsTheRigWhenViewsDoNotOverlap) {
   EXPECT_FALSE(report.trustworthy);  // the first view lies in front of what the second one measured
 }
 
-/// A plate seen from both sides: the views share the narrow top alone.
-const Shape kPlate = testing::box({3.0, 30.0, 30.0});
-
-TEST(RegisterViews, CountsTheTurntableWhereNothingVerifiesIt) {
+TEST_F(RegisterViews, CountsTheTurntableWhereNothingVerifiesIt) {
   Table table(2, 0.0);
   table.given = table.truth;
-  ViewStore views = table.take(kPlate);
+  ViewStore views = plate_views();
   std::vector<std::string> warnings;
   frangia::Run run;
   run.on_warning = [&](const std::string& sentence) { warnings.push_back(sentence); };
@@ -180,7 +222,7 @@ TEST(RegisterViews, CountsTheTurntableWhereNothingVerifiesIt) {
   table.given.point_sigma_mm = 0.02;
   table.given.axis_sigma_rad = 1e-4;
   table.given.angle_sigma_rad = 2e-4;
-  ViewStore again = table.take(kPlate);
+  ViewStore again = plate_views();
   const auto stated =
       register_views(again, small_camera_model(), {table.given, table.stations()}, {}, run);
   EXPECT_TRUE(stated.sigma.stated);
@@ -189,24 +231,22 @@ TEST(RegisterViews, CountsTheTurntableWhereNothingVerifiesIt) {
   EXPECT_EQ(stated.untrusted_reason(), "");
 
   table.given.point_sigma_mm = table.given.axis_sigma_rad = table.given.angle_sigma_rad = 0.0;
-  ViewStore exact = table.take(kPlate);
+  ViewStore exact = plate_views();
   static_cast<void>(
       register_views(exact, small_camera_model(), {table.given, table.stations()}, {}, run));
   EXPECT_NE(warnings.back().find("states that they are exact"), std::string::npos)
       << warnings.back();
 }
 
-TEST(RegisterViews, LeavesLittleOpenWhereViewsOverlap) {
-  const Table table(8);
-  ViewStore views = table.take(knobbly);
-  const auto report = register_views(views, small_camera_model(), {table.given, table.stations()});
+TEST_F(RegisterViews, LeavesLittleOpenWhereViewsOverlap) {
+  const RegistrationReport& report = eight_views().report;
   EXPECT_FALSE(report.rests_on_rig);
   ASSERT_EQ(report.motions.size(), 8U);
   for (const auto& motion : report.motions)
     EXPECT_LT((motion - report.motions[0]).bottomRows<3>().norm(), 0.01);
 }
 
-TEST(RegisterViews, IsNotTrustedWhereALittleOverlapContradictsTheStatedAxis) {
+TEST_F(RegisterViews, IsNotTrustedWhereALittleOverlapContradictsTheStatedAxis) {
   Table table(2, 0.0);
   // Seen from either side, the top slopes by 0.08 degrees to the other hand.
   const Eigen::AngleAxisd tilt(rad_from_deg(0.08), Eigen::Vector3d::UnitZ());
@@ -215,7 +255,7 @@ TEST(RegisterViews, IsNotTrustedWhereALittleOverlapContradictsTheStatedAxis) {
   table.given.point_sigma_mm = 0.01;
   table.given.axis_sigma_rad = 1e-5;
   table.given.angle_sigma_rad = 1e-5;
-  ViewStore views = table.take(kPlate);
+  ViewStore views = plate_views();
   const auto report = register_views(views, small_camera_model(), {table.given, table.stations()});
   EXPECT_TRUE(report.rests_on_rig) << report.overlap;
   EXPECT_GT(report.disagreement_over_sigma, 3.0);
@@ -223,17 +263,17 @@ TEST(RegisterViews, IsNotTrustedWhereALittleOverlapContradictsTheStatedAxis) {
             std::string::npos)
       << report.untrusted_reason();
   table.given.axis_sigma_rad = rad_from_deg(0.08);
-  ViewStore again = table.take(kPlate);
+  ViewStore again = plate_views();
   const auto fits = register_views(again, small_camera_model(), {table.given, table.stations()});
   EXPECT_LT(fits.disagreement_over_sigma, 2.0);
   EXPECT_EQ(fits.untrusted_reason(), "");
 }
 
-TEST(RegisterViews, GivesTheSameForAnyNumberOfThreads) {
+TEST_F(RegisterViews, GivesTheSameForAnyNumberOfThreads) {
   const Table table(4);
   const auto find = [&](std::size_t threads) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
-    ViewStore views = table.take(knobbly);
+    ViewStore views = knobbly_views(4);
     return register_views(views, small_camera_model(), {table.given, table.stations()});
   };
   const auto one = find(1);
@@ -242,7 +282,7 @@ TEST(RegisterViews, GivesTheSameForAnyNumberOfThreads) {
   EXPECT_EQ(one.table.axis, two.table.axis);
 }
 
-TEST(RegisterViews, RefusesOptionsOutOfRange) {
+TEST_F(RegisterViews, RefusesOptionsOutOfRange) {
   const Table table(2);
   ViewStore views = table.take(knobbly, small_camera_model(60, 300.0));
   RegisterOptions options;
@@ -252,9 +292,9 @@ TEST(RegisterViews, RefusesOptionsOutOfRange) {
                Error);
 }
 
-TEST(RegisterViews, RefusesTooFewAngles) {
+TEST_F(RegisterViews, RefusesTooFewAngles) {
   const Table table(2);
-  ViewStore views = table.take(knobbly);
+  ViewStore views = knobbly_views(2);
   const std::vector<Station> angles(1);
   EXPECT_THROW(
       static_cast<void>(register_views(views, small_camera_model(), {table.given, angles})), Error);
