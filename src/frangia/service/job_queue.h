@@ -55,8 +55,8 @@ struct Job {
   std::optional<int> revision{};       ///< that it made or wrote out
 };
 
-/// Long tasks, one after the other on a thread of the queue's own. They go on when no client is connected.
-/// All functions may be called from any thread.
+/// Long tasks, one after the other on a thread of the queue's own. They go on when no client is
+/// connected. All functions may be called from any thread.
 class JobQueue {
  public:
   static constexpr std::size_t kMostJobs = 16;       ///< finished ones that are remembered
