@@ -46,7 +46,7 @@ void CapturedViews::watch(const Scan& plan, CaptureOptions& options, const Run& 
     WatchedView& watched = views_[found.view].watched;
     try {
       watched = watch_->compare(found.view, view.angle_rad, view.setup, *found.decoded, run);
-    } catch (const Error&) {  // what is wrong with the frames is said otherwise
+    } catch (const Error&) {  // the decoding reports faults of the frames
       watched = {};
     }
     return watched.finding;

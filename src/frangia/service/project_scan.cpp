@@ -175,7 +175,7 @@ std::string watched_finding(ViewWatch& watch,
                             const Run& run) {
   try {
     return watch.compare(found.view, view.angle_rad, view.setup, *found.decoded, run).finding;
-  } catch (const Error&) {  // what is wrong with the frames is said otherwise
+  } catch (const Error&) {  // the decoding reports faults of the frames
     return {};
   }
 }
