@@ -14,15 +14,15 @@
 namespace frangia {
 namespace {
 
-constexpr int kAcross_px = 320;
-constexpr int kDown_px = 80;
-constexpr double kMean_counts = 110.0;
+constexpr int kMapWidth_px = 320;
+constexpr int kMapHeight_px = 80;
+constexpr double kMapMean_counts = 110.0;
 
 std::vector<FrameStack> three_patterns() {
   std::vector<FrameStack> stacks;
-  const testing::Scene scene{.width = kAcross_px,
-                             .height = kDown_px,
-                             .mean_counts = kMean_counts,
+  const testing::Scene scene{.width = kMapWidth_px,
+                             .height = kMapHeight_px,
+                             .mean_counts = kMapMean_counts,
                              .modulation_counts = 70.0,
                              .noise_counts = 0.6,
                              .white_level = 255};
@@ -40,8 +40,8 @@ std::vector<FrameStack> three_patterns() {
 
 SequenceCheck check_of(const std::vector<FrameStack>& stacks, bool keep_maps) {
   Rig rig;
-  rig.reference().model.width_px = kAcross_px;
-  rig.reference().model.height_px = kDown_px;
+  rig.reference().model.width_px = kMapWidth_px;
+  rig.reference().model.height_px = kMapHeight_px;
   rig.reference().noise = NoiseModel{0.4, 0.0};
   rig.projector.model = CameraModel{.width_px = 1280, .height_px = 800};
   const DecodedView view = decode_view(stacks, rig, {}, {.keep_maps = keep_maps});
@@ -53,7 +53,7 @@ TEST(OrdersByChance, AreRefused) {
   for (const bool keep_maps : {true, false})
     EXPECT_TRUE(check_of(stacks, keep_maps).consistent);
   for (std::uint16_t& counts : std::get<Image<std::uint16_t>>(stacks[0].frames[1]).pixels())
-    counts = static_cast<std::uint16_t>(2.0 * kMean_counts - counts);
+    counts = static_cast<std::uint16_t>(2.0 * kMapMean_counts - counts);
   for (const bool keep_maps : {true, false}) {
     const SequenceCheck check = check_of(stacks, keep_maps);
     EXPECT_FALSE(check.consistent);
