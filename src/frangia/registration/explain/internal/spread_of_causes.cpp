@@ -192,8 +192,12 @@ RigCovariance open_rig(const PoseRound& scored,
     if (!changes_rig(cause.cause) || share < kLeastProbable) continue;
     const PosePosterior found = scored.posterior(cause.best);
     // Sound views have small errors in common, which some rig far off explains. Their evidence is
-    // none about the rig, least of all about changes that no overlap shows.
-    if (scored.effect_mm(found.motion - scored.stated()) < scored.noise.shared_mm) continue;
+    // none about the rig, least of all about changes that no overlap shows: a rig that wins by
+    // them alone is not noticeable. One that does not win is open as soon as it moves the views by
+    // more than they have in common.
+    const bool wins = cause.cause == scored.causes.front().cause;
+    const double least_mm = wins ? noticeable_mm(scored) : scored.noise.shared_mm;
+    if (scored.effect_mm(found.motion - scored.stated()) < least_mm) continue;
     const Eigen::MatrixXd open = mean_of_views(found.factor);
     covariance += share * open * open.transpose();
     if (applied == cause.cause) continue;

@@ -35,9 +35,10 @@ struct PoseSpread {
                                           const Registration& work);
 
 /// Returns how far the rig is from the one that measured the points by the causes that change it,
-/// each with its probability, all through the scan: their changes and what these leave open. Causes
-/// whose effect on the views is below what pairs have in common do not count. Unlike
-/// `spread_of_causes` it holds what such a rig does to the shape of every view alike.
+/// each with its probability, all through the scan: their changes and what these leave open. A
+/// cause does not count whose effect on the views is below what pairs have in common, nor one that
+/// wins without a noticeable effect. Unlike `spread_of_causes` it holds what such a rig does to the
+/// shape of every view alike.
 ///
 /// @shape    `applied`: the cause by whose rigs the points are measured; none: by the stated rig
 [[nodiscard]] RigCovariance open_rig(const PoseRound& scored,
