@@ -36,9 +36,8 @@ TEST(ViewWatch, SaysAtOnceThatThePartMoved) {
   FaultyScan scan(8);
   scan.slide(5, Eigen::Vector3d(0.5, 0.3, 0.0));
   const std::vector<WatchedView> all = watched(scan);
-  for (std::size_t view = 0; view < all.size(); ++view) {
-    if (view != 5) EXPECT_EQ(all[view].finding, "") << view;
-  }
+  for (std::size_t view = 0; view < all.size(); ++view)
+    EXPECT_EQ(all[view].finding.empty(), view != 5) << view << ": " << all[view].finding;
   EXPECT_NE(all[5].finding.find("mm before view 6"), std::string::npos) << all[5].finding;
   EXPECT_NEAR(all[5].moved_mm, std::hypot(0.5, 0.3), 0.06);
   EXPECT_LT(all[5].moved_sigma_mm, 0.1);
