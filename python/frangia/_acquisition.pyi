@@ -143,10 +143,45 @@ class CaptureReport:
         """Views that could not be captured, and why."""
         ...
 
+class TargetSighting:
+    """A target as one view measured it."""
+    @property
+    def blur_px(self) -> float:
+        """Blur of its edge, sigma, px."""
+        ...
+    @property
+    def center_mm(self) -> NDArray[np.float64]:
+        """Its centre, rig frame, mm."""
+        ...
+    @property
+    def center_px(self) -> NDArray[np.float64]:
+        """Image of its centre (x, y), px."""
+        ...
+    @property
+    def code(self) -> int:
+        """Of a coded target; -1: it has none."""
+        ...
+    @property
+    def covariance_mm2(self) -> NDArray[np.float64]:
+        """Of `center_mm`, 3 x 3, mm^2."""
+        ...
+    @property
+    def normal(self) -> NDArray[np.float64]:
+        """Of its plane, unit, towards the camera."""
+        ...
+    @property
+    def size_ratio(self) -> float:
+        """Measured over stated diameter or side."""
+        ...
+
 def calibrate(scan: Scan, *, flat_board: bool = False, progress: Callable[[float, str], object] | None = None) -> Calibration:
     """Calibrates camera and projector from a scan whose views are poses of a board, as `frangia calibrate rig`. Read it with read_scan(folder, rig="start-values"). flat_board: the board is exactly flat and square."""
     ...
 
 def capture(rig_file: str | os.PathLike[str], folder: str | os.PathLike[str], *, views: int = 8, shifts: int = 4, periods_px: Iterable[float] = [], fringes_per_degree: float = 1.0, exposure_ms: float | str = 10.0, table_at_deg: float | None = None, progress: Callable[[float, str], object] | None = None) -> CaptureReport:
     """Captures a scan with the devices that rig.toml names, simulated ones too, as `frangia scan`; read_scan(folder) reads it. An interrupted capture is continued by the same call. exposure_ms: milliseconds, "auto" or "bracket"."""
+    ...
+
+def find_targets(image: Any, depth_mm: Any, sigma_mm: Any, rig: Rig, *, diameter_mm: float = 0.0, tone: str = 'dark', dictionary: str = '', marker_mm: float = 0.0) -> list[TargetSighting]:
+    """Finds round stickers in an image without fringes, and measures their centres by the points around them: discs of `diameter_mm` and `tone`, or markers of an ArUco dictionary. `depth_mm` and `sigma_mm` are those of `triangulate`."""
     ...

@@ -302,6 +302,29 @@ class MeasuredCharacteristic:
         """in, out or undecided by ISO 14253-1; None without limits."""
         ...
 
+class MeasuredTarget:
+    """A target after all views were registered."""
+    @property
+    def center_mm(self) -> NDArray[np.float64]:
+        """Object frame, mm."""
+        ...
+    @property
+    def code(self) -> int:
+        """-1: it has none."""
+        ...
+    @property
+    def setups(self) -> list[int]:
+        """That saw it, as scan.toml numbers them."""
+        ...
+    @property
+    def sigma_mm(self) -> float:
+        """Of its coordinates, mm."""
+        ...
+    @property
+    def views(self) -> int:
+        """That saw it."""
+        ...
+
 class Mesh:
     """A triangle mesh, object frame, mm."""
     def __init__(self, vertices: ArrayLike, triangles: ArrayLike) -> None:
@@ -491,6 +514,10 @@ class Reconstruction:
     @property
     def reason(self) -> str:
         """Empty: it can be trusted."""
+        ...
+    @property
+    def targets(self) -> list[MeasuredTarget]:
+        """The stickers of a scan with [targets]; empty without."""
         ...
     @property
     def trustworthy(self) -> bool:
