@@ -39,6 +39,15 @@ TEST_F(ReadMesh, RefusesMissingFilesAndFolders) {
   EXPECT_NE(error_reading("folder.ply").find("not a regular file"), std::string::npos);
 }
 
+TEST_F(ReadMesh, RefusesAVertexThatNoPartCanHave) {
+  Mesh mesh = testing::sheet(5);
+  mesh.vertices_mm[7].x() = 3e14F;  // far, and its squares fit into float
+  write_mesh(at("far.obj"), mesh);
+  EXPECT_EQ(read_mesh(at("far.obj")).vertices_mm.size(), mesh.vertices_mm.size());
+  mesh.vertices_mm[7].x() = -3e37F;
+  EXPECT_NE(error_of([&] { check_mesh(mesh, "far.stl"); }).find("vertex 7"), std::string::npos);
+}
+
 TEST_F(ReadMesh, ReadsADamagedFileAsAnErrorOrAConsistentMesh) {
   std::mt19937 random(1997);
   for (const char* name : {"part.stl", "part.ply", "part.obj"}) {

@@ -168,8 +168,11 @@ double register_and_settle(MergedScans& out,
 
 /// Names the scans that share no surface with the others.
 void name_unverified(MergedScans& out, const MergeFit& fit, const ScanViews& all, const Run& run) {
+  // That no two scans overlap is one warning, of the registration.
+  const bool none_overlap = out.registration && out.registration->iterations == 0;
   for (const std::size_t scan : fit.apart) {
     out.scans[scan].unverified = true;
+    if (none_overlap) continue;
     run.warn(fmt::format(
         "{} shares no surface with the other scans where its pose puts it: nothing verifies the "
         "pose; add a scan between them, or leave it out",

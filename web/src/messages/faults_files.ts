@@ -7,6 +7,11 @@ export const FAULTS_FILES = {
     '{0} {1} (ab 0 gezählt) ist {2} {3} {4}, nicht endlich; entfernen',
     '{0} {1} (contando da 0) è {2} {3} {4}, non finito; rimuoverlo',
   ],
+  'fault.vertexFar': [
+    'vertex {0} (counted from 0) is {1} {2} {3}, farther away than any part can be; remove it',
+    'Punkt {0} (von 0 an gezählt) liegt bei {1} {2} {3}, weiter weg, als ein Teil sein kann; entfernen Sie ihn',
+    'il vertice {0} (contato da 0) è in {1} {2} {3}, più lontano di quanto un pezzo possa essere; rimuovetelo',
+  ],
   'fault.verticesGiveOne': [
     '{0} {1} for {2} vertices; give one per vertex, or none',
     '{0} {1} für {2} Ecken; eines je Ecke oder keines angeben',

@@ -30,11 +30,29 @@ void check_finite(const std::vector<Eigen::Vector3f>& vectors,
   }
 }
 
+/// Damaged numbers are often huge. Squares of distances beyond this one do not fit into float.
+void check_near(const std::vector<Eigen::Vector3f>& vertices_mm,
+                const std::filesystem::path& path) {
+  constexpr float kFarthest_mm = 1e15F;
+  for (std::size_t i = 0; i < vertices_mm.size(); ++i) {
+    const Eigen::Vector3f& v = vertices_mm[i];
+    if (v.cwiseAbs().maxCoeff() <= kFarthest_mm) continue;
+    refuse(path,
+           fmt::format("vertex {} (counted from 0) is {} {} {}, farther away than any part can be; "
+                       "remove it",
+                       i,
+                       v.x(),
+                       v.y(),
+                       v.z()));
+  }
+}
+
 }  // namespace
 
 void check_mesh(const Mesh& mesh, const std::filesystem::path& path) {
   const std::size_t count = mesh.vertices_mm.size();
   check_finite(mesh.vertices_mm, "vertex", path);
+  check_near(mesh.vertices_mm, path);
   check_finite(mesh.normals, "normal", path);
   const auto check_count = [&](std::size_t has, const char* what) {
     if (has != 0 && has != count) {
