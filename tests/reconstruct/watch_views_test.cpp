@@ -39,8 +39,9 @@ TEST(ViewWatch, SaysAtOnceThatThePartMoved) {
   for (std::size_t view = 0; view < all.size(); ++view)
     EXPECT_EQ(all[view].finding.empty(), view != 5) << view << ": " << all[view].finding;
   EXPECT_NE(all[5].finding.find("mm before view 6"), std::string::npos) << all[5].finding;
-  EXPECT_NEAR(all[5].moved_mm, std::hypot(0.5, 0.3), 0.06);
-  EXPECT_LT(all[5].moved_sigma_mm, 0.1);
+  // Five views know where a single one is to a quarter of this motion.
+  EXPECT_NEAR(all[5].moved_mm, std::hypot(0.5, 0.3), 1.5 * all[5].moved_sigma_mm);
+  EXPECT_LT(all[5].moved_sigma_mm, 0.16);
 }
 
 TEST(ViewWatch, ComparesNothingAcrossSetups) {
