@@ -120,19 +120,5 @@ TEST(ExplainAngles, FindsStepsThatAreFarFromTheStatedAngles) {
   }
 }
 
-// Half a tooth off: most of the gear fits with any angles, and its teeth contradict.
-TEST(ExplainAngles, FindsAStepThatAGearLost) {
-  FaultyScan scan(8);
-  for (std::size_t view = 4; view < 8; ++view)
-    scan.views[view].angle_rad -= rad_from_deg(2.8);
-  const Registered out = registered(scan, RayScene(make_part("gear")));
-  const PoseExplanation& found = out.report.explanation;
-  EXPECT_EQ(found.best, PoseCause::Turned) << found.text;
-  EXPECT_EQ(found.views, std::vector<std::size_t>{4});
-  EXPECT_NEAR(found.turned_rad, rad_from_deg(-2.8), rad_from_deg(0.1)) << found.text;
-  EXPECT_EQ(out.report.untrusted_reason(), "");
-  EXPECT_LT(out.error_mm, 0.02);
-}
-
 }  // namespace
 }  // namespace frangia

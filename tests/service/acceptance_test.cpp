@@ -6,7 +6,9 @@
 
 #include "frangia/core/read_text_file.h"
 #include "frangia/files/write_mesh.h"
+#include "frangia/rig/write_rig.h"
 #include "frangia/simulate/parts.h"
+#include "frangia/simulate/rig_presets.h"
 
 #include "service/service_fixture.h"
 
@@ -27,6 +29,7 @@ class AcceptanceInTheApp : public ServiceTest {
            "kind = \"fringe\"\nperiod_px = 20\nshifts_deg = [0, 120, 240]\n"
            "[[view]]\nangle_deg = 0\nfolder = \"views/000\"\n";
     std::ofstream(folder / "scan" / "views" / "000" / "p20-0.png") << name;
+    write_rig(folder / "scan" / "rig.toml", rig_preset("digital"));
     write_mesh(folder / "surface.ply", make_dumbbell({20.0, 20.0}, spacing_mm));
     std::ofstream(folder / "surface.json") << summary.dump();
   }

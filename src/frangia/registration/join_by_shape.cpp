@@ -11,7 +11,6 @@
 #include "frangia/core/error.h"
 #include "frangia/registration/internal/find_pose_hypotheses.h"
 #include "frangia/registration/internal/surface_features.h"
-#include "frangia/registration/pose_contradictions.h"
 
 namespace frangia {
 namespace {
@@ -107,9 +106,9 @@ class ClusterJoiner {
       const std::size_t to = std::min(cluster_of_[candidate.to], cluster_of_[candidate.from]);
       const std::size_t from = std::max(cluster_of_[candidate.to], cluster_of_[candidate.from]);
       if (to == from || !tried_.insert(stage_of(to, from)).second) continue;
-      std::vector<PoseHypothesis> hypotheses = hypotheses_of(to, from);
+      const std::vector<PoseHypothesis> hypotheses = hypotheses_of(to, from);
       if (hypotheses.empty() || !is_valid(hypotheses[0].fit, 1.0)) continue;
-      if (is_ambiguous(hypotheses) && !decide_by_contradictions(hypotheses, to, from)) {
+      if (is_ambiguous(hypotheses)) {
         out.ambiguous[candidate.from] = out.ambiguous[candidate.to] = true;
         continue;
       }
@@ -209,41 +208,10 @@ class ClusterJoiner {
   }
   /// Whether another pose fits nearly as well as the first, even if it slides.
   [[nodiscard]] bool is_ambiguous(const std::vector<PoseHypothesis>& hypotheses) const {
-    for (std::size_t i = 1; i < hypotheses.size(); ++i)
-      if (rivals_first(hypotheses, i)) return true;
-    return false;
-  }
-  /// Whether one pose fits nearly as well as the first.
-  [[nodiscard]] bool rivals_first(const std::vector<PoseHypothesis>& hypotheses,
-                                  std::size_t other) const {
-    return fits(hypotheses[other].fit, options_.runner_up_slack) &&
-           hypotheses[other].score(typical_mm_) >
-               options_.max_runner_up * hypotheses[0].score(typical_mm_);
-  }
-
-  /// Whether one of several poses that fit alike contradicts decidedly less than all others, by
-  /// what differs between sides that look alike; it becomes the first.
-  [[nodiscard]] bool decide_by_contradictions(std::vector<PoseHypothesis>& hypotheses,
-                                              std::size_t to,
-                                              std::size_t from) const {
-    constexpr double kDecided = 4.605;  // natural logarithm of the odds of 100 : 1
-    const PoseContradictions contradictions(
-        clusters_[to], clusters_[from], views_, options_.spacing_mm, hypotheses[0].to_from);
-    std::vector<std::pair<std::size_t, PatchCount>> rivals;
-    for (std::size_t i = 0; i < hypotheses.size(); ++i) {
-      if (i > 0 && !rivals_first(hypotheses, i)) continue;
-      rivals.emplace_back(i, contradictions.count(hypotheses[i].to_from));
-    }
-    const auto best =
-        std::min_element(rivals.begin(), rivals.end(), [](const auto& one, const auto& other) {
-          return one.second.contradicting < other.second.contradicting;
-        });
-    const bool decided = std::all_of(rivals.begin(), rivals.end(), [&](const auto& rival) {
-      return rival.first == best->first || log_odds_of(best->second, rival.second) > kDecided;
+    return std::any_of(hypotheses.begin() + 1, hypotheses.end(), [&](const PoseHypothesis& other) {
+      return fits(other.fit, options_.runner_up_slack) &&
+             other.score(typical_mm_) > options_.max_runner_up * hypotheses[0].score(typical_mm_);
     });
-    if (!decided || !is_valid(hypotheses[best->first].fit, 1.0)) return false;
-    std::swap(hypotheses[0], hypotheses[best->first]);
-    return true;
   }
 
   /// Poses of one cluster on another: those of their groups' candidates, refined by all views.

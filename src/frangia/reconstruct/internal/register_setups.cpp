@@ -241,10 +241,6 @@ SetupPoses find_part_poses(const std::vector<MeasuredSetup>& setups,
     setup_poses.setup_from_reference.push_back(pose ? std::optional(pose->inverse())
                                                     : std::nullopt);
   }
-  for (std::size_t i = 0; i < setups.size(); ++i) {
-    if (i != joined.reference && setup_poses.setup_from_reference[i])
-      settle(setup_poses, i, setups, groups, views, {.spacing_mm = spacing_mm}, run);
-  }
   return with_fits(std::move(setup_poses));
 }
 
