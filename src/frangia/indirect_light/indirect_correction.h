@@ -20,9 +20,8 @@ namespace frangia {
 class IndirectCorrection {
  public:
   /// `moves_points` is false for points that two directions of fringes determine: they stay where
-  /// they are, and the predicted error is part of their sigma.
-  ///
-  /// @param collected  light in the poses of the views; views in other poses take longer
+  /// they are, and the predicted error is part of their sigma. `collected` is light in the poses of
+  /// the views; views in other poses take longer.
   IndirectCorrection(std::shared_ptr<const SurfaceLight> collected,
                      double albedo,
                      PhaseSource source,

@@ -29,8 +29,8 @@ struct PointLight {
 
 /// A point of the surface and its normal, object frame.
 struct ShadedPoint {
-  Eigen::Vector3d point_mm;
-  Eigen::Vector3d normal;  ///< unit, outward
+  Eigen::Vector3d point_mm;  ///< object frame
+  Eigen::Vector3d normal;    ///< unit, outward
 };
 
 /// What a cell of the hemisphere about a point of the surface meets.

@@ -22,7 +22,7 @@ namespace frangia {
 /// its own in each triangle, with that triangle's normal.
 class SurfaceLight {
  public:
-  /// @param poses  rig from object, of all views whose light is asked for
+  /// `poses` are rig from object, of all views whose light is asked for.
   SurfaceLight(std::shared_ptr<const LitSurface> surface, std::span<const Eigen::Isometry3d> poses);
 
   [[nodiscard]] const LitSurface& surface() const { return *surface_; }  ///< as given

@@ -27,7 +27,7 @@ struct OpenMotion {
 
 /// The pose of one group on another that their surfaces contradict least.
 struct SettledPose {
-  Eigen::Isometry3d to_from = Eigen::Isometry3d::Identity();
+  Eigen::Isometry3d to_from = Eigen::Isometry3d::Identity();  ///< from the group that was settled
   double moved_mm = 0.0;  ///< root mean square way of the group's points from where it started; 0:
                           ///< no pose contradicts less
   double log_odds = 0.0;  ///< of the pose over the start
