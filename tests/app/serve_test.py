@@ -302,7 +302,7 @@ class Serve(ServerTest):
             return (
                 rule["enum"][0]
                 if "enum" in rule
-                else {"string": "x", "integer": rule.get("minimum", 0)}.get(rule["type"], 1.5)
+                else {"string": "x", "integer": rule.get("minimum", 0)}.get(str(rule["type"]), 1.5)
             )
 
         # What the schema calls a command, the server knows; what it forbids, the server refuses.
