@@ -84,7 +84,7 @@ TEST_F(AcceptanceInTheApp, MeasuresArrangementsOfASeriesAndCertifiesThem) {
   EXPECT_NE(page.find("The scanner exceeds its limits"), std::string::npos);
   EXPECT_NE(page.find("2: level"), std::string::npos);
   // Ended, nothing is left in this project; the one before keeps its arrangement.
-  static_cast<void>(command("set-acceptance", {{"plan", nullptr}}));
+  static_cast<void>(command("set-acceptance", {{"end", true}}));
   EXPECT_TRUE(test().is_null());
   open("bar");
   EXPECT_EQ(test().at("arrangements").size(), 1U);

@@ -93,11 +93,6 @@ export const FAULTS_ACCEPTANCE = {
     'der Plan einer Prüfung hat höchstens 20 kB; kürzen Sie seine Texte',
     'il piano di una verifica ha al massimo 20 kB; accorciate i testi',
   ],
-  'fault.testPlanKind': [
-    'plan: is an object, or null to end the test',
-    'plan: ist ein Objekt, oder null, um die Prüfung zu beenden',
-    'plan: è un oggetto, o null per terminare la verifica',
-  ],
   'fault.arrangementName': ['name: has 1 to 100 bytes', 'name: hat 1 bis 100 Byte', 'name: ha da 1 a 100 byte'],
   'fault.certificateFormat': ['format: is html or pdf', 'format: ist html oder pdf', 'format: è html o pdf'],
   'fault.certificateNoPdf': [

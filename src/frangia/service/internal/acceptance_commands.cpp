@@ -34,17 +34,17 @@ std::string now_utc() {
 }  // namespace
 
 nlohmann::ordered_json Service::Implementation::set_acceptance(CommandArguments& arguments) {
-  const nlohmann::json plan = arguments.value("plan");
+  const bool ends = arguments.flag("end");
+  nlohmann::json plan;
+  if (!ends) plan = arguments.object("plan");
   arguments.check_all_read();
-  require(plan.is_null() || plan.is_object(), "plan: is an object, or null to end the test");
   const ProjectFolder project = folder();
   require(project.scan != project.folder, "a test needs a project; this is a plain scan folder");
   std::string text;
-  if (plan.is_object()) {
-    nlohmann::json scans = plan;
-    scans["source"] = name_of(AcceptanceSource::Scans);
-    scans.erase("arrangements");
-    text = toml_text(scans, "frangia-acceptance");
+  if (!ends) {
+    plan["source"] = name_of(AcceptanceSource::Scans);
+    plan.erase("arrangements");
+    text = toml_text(plan, "frangia-acceptance");
   }
   write_acceptance(project, text);
   change([&](OpenProject& now) { now.acceptance = read_acceptance(library_, project); });

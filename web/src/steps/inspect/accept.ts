@@ -220,7 +220,7 @@ function arrangements(app: App, test: Acceptance): TemplateResult {
       class="btn"
       id="end-acceptance"
       ?disabled=${off}
-      @click=${() => void app.command('set-acceptance', { plan: null })}
+      @click=${() => void app.command('set-acceptance', { end: true })}
     >
       ${t('accept.end')}
     </button>`;
