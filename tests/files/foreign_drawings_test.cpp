@@ -23,9 +23,9 @@ using testing::Solid;
 using testing::volume_of;
 
 TEST_F(ForeignMeshes, EveryUnitOfADxfIsConverted) {
-  const std::string face = group(0, "3DFACE") + point_group(0, {0, 0, 0}) +
-                           point_group(1, {1, 0, 0}) + point_group(2, {0, 1, 0});
-  const auto side_of = [&](int unit) {
+  const auto side_of = [&](int unit, double side) {
+    const std::string face = group(0, "3DFACE") + point_group(0, {0, 0, 0}) +
+                             point_group(1, {side, 0, 0}) + point_group(2, {0, side, 0});
     const std::string header = group(0, "SECTION") + group(2, "HEADER") + group(9, "$INSUNITS") +
                                group(70, std::to_string(unit)) + group(0, "ENDSEC");
     return static_cast<double>(read("a.dxf", drawing(face, header)).vertices_mm[1].x());
@@ -35,9 +35,13 @@ TEST_F(ForeignMeshes, EveryUnitOfADxfIsConverted) {
       {5, 10.0},   {6, 1e3},   {7, 1e6},   {8, 25.4e-6},    {9, 0.0254},
       {10, 914.4}, {11, 1e-7}, {12, 1e-6}, {13, 1e-3},      {14, 100.0},
       {15, 1e4},   {16, 1e5},  {17, 1e12}, {20, 3.0857e19}, {21, 304.8006096}};
-  for (const auto& [unit, mm] : units)
-    EXPECT_NEAR(side_of(unit) / mm, 1.0, 1e-5) << unit;
-  EXPECT_EQ(side_of(99), 1.0);
+  // A side of a billionth: nothing is read that is a parsec long.
+  for (const auto& [unit, mm] : units) {
+    const double side = mm > 1e12 ? 1e-9 : 1.0;
+    EXPECT_NEAR(side_of(unit, side) / (mm * side), 1.0, 1e-5) << unit;
+  }
+  EXPECT_THROW(side_of(20, 1.0), Error);
+  EXPECT_EQ(side_of(99, 1.0), 1.0);
   EXPECT_TRUE(said("$INSUNITS 99 is no unit")) << said();
   EXPECT_FALSE(said("imperial")) << said();
   const std::string imperial = group(0, "SECTION") + group(2, "HEADER") + group(9, "$MEASUREMENT") +
