@@ -4,25 +4,21 @@
 // usage: pose_study PART SEEDS
 // Prints a JSON array with a row for each fault and size.
 #include <algorithm>
-#include <charconv>
 #include <cstddef>
 #include <cstdint>
-#include <cstdlib>
-#include <exception>
 #include <functional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include <Eigen/Geometry>
 #include <fmt/format.h>
 
 #include "frangia/core/angles.h"
-#include "frangia/core/error.h"
 #include "frangia/geometry/ray_scene.h"
 #include "frangia/registration/register_views.h"
 #include "frangia/simulate/parts.h"
 
+#include "study.h"
 #include "support/pose_faults.h"
 
 namespace frangia {
@@ -163,30 +159,20 @@ std::string row(const StudyFault& fault, double size, const RayScene& part, int 
       over_sigma[over_sigma.size() / 2]);
 }
 
-void run(const std::vector<std::string_view>& arguments) {
-  int seeds = 0;
-  if (arguments.size() == 2)
-    std::from_chars(arguments[1].data(), arguments[1].data() + arguments[1].size(), seeds);
-  if (seeds < 1) throw Error(ErrorKind::Input, "usage: pose_study PART SEEDS");
-  const RayScene part(make_part(std::string(arguments[0])));
+std::vector<std::string> rows_of(const StudyArguments& study) {
+  const RayScene part(make_part(study.part));
   std::vector<std::string> rows;
   for (const StudyFault& fault : study_faults()) {
     const bool sized = fault.right != PoseCause::AsStated;
     for (const double size : sized ? std::vector{2.0, 10.0, 50.0} : std::vector{0.0})
-      rows.push_back(row(fault, size, part, seeds));
+      rows.push_back(row(fault, size, part, study.seeds));
   }
-  fmt::print("[{}]\n", fmt::join(rows, ",\n "));
+  return rows;
 }
 
 }  // namespace
 }  // namespace frangia
 
 int main(int argc, char** argv) {
-  try {
-    frangia::run({argv + 1, argv + argc});
-    return EXIT_SUCCESS;
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "pose_study: {}\n", error.what());
-    return EXIT_FAILURE;
-  }
+  return frangia::study_main(argc, argv, frangia::rows_of);
 }

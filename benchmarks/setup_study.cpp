@@ -1,31 +1,25 @@
 // Parts that look alike from several sides, in several setups: whether the setups are joined as
 // they were, and what remains of the error.
 //
-// usage: setup_study PART SEEDS
+// usage: setup_study PART SEEDS [-v]
 // Prints a JSON array with a row for each way to scan the part.
 #include <algorithm>
-#include <charconv>
-#include <chrono>
 #include <cstddef>
 #include <cstdint>
-#include <cstdlib>
-#include <exception>
 #include <functional>
 #include <map>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include <Eigen/Geometry>
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "frangia/core/angles.h"
-#include "frangia/core/error.h"
 #include "frangia/core/random.h"
 #include "frangia/geometry/ray_scene.h"
 #include "frangia/simulate/parts.h"
 
+#include "study.h"
 #include "support/alike_parts.h"
 #include "support/scan_in_setups.h"
 
@@ -71,7 +65,42 @@ struct Way {
   bool stated = false;
 };
 
-std::string row(const Way& way, const Mesh& mesh, const RayScene& part, int seeds, bool prints) {
+/// What came of one seed, in words.
+void print_seed(const Way& way,
+                int seed,
+                const ScanInSetups& scan,
+                const JoinedScan& out,
+                const Eigen::Vector3d& middle) {
+  fmt::print(stderr,
+             "{} seed {}: {} views, RMS {:.4f}, 99 % {:.4f} mm, {:.1f} sigma\n",
+             way.name,
+             seed,
+             out.joined.measured.stations.size(),
+             out.error.rms_mm,
+             out.error.largest_mm,
+             out.error.largest_over_sigma);
+  for (std::size_t i = 0; i < out.joined.joins.size(); ++i) {
+    const Eigen::Isometry3d off = scan.part_poses[i].inverse() * out.joined.joins[i].part_pose;
+    const Eigen::AngleAxisd turn(off.rotation());
+    fmt::print(stderr,
+               "    setup {}: joined {}, turned by {:.3f} degrees, middle {:.3f} mm away\n",
+               i,
+               out.joined.joins[i].joined,
+               deg_from_rad(turn.angle()),
+               (off * middle - middle).norm());
+  }
+  for (const std::string& warning : out.warnings)
+    fmt::print(stderr, "    {}\n", warning);
+  for (const std::string& note : out.notes)
+    fmt::print(stderr, "    ({})\n", note);
+  if (out.joined.registration) fmt::print(stderr, "    {}\n", out.joined.registration->text());
+}
+
+/// One way to scan the part with several seeds, as a row of JSON.
+std::string row(const Way& way,
+                const Mesh& mesh,
+                const RayScene& part,
+                const StudyArguments& study) {
   Eigen::AlignedBox3f box;
   for (const Eigen::Vector3f& vertex : mesh.vertices_mm)
     box.extend(vertex);
@@ -83,7 +112,7 @@ std::string row(const Way& way, const Mesh& mesh, const RayScene& part, int seed
   std::vector<double> largest;
   std::vector<double> over;
   std::vector<double> over_sigma;
-  for (int seed = 1; seed <= seeds; ++seed) {
+  for (int seed = 1; seed <= study.seeds; ++seed) {
     constexpr int kViews = 8;
     ScanInSetups scan(kViews, 2);
     scan.all.seed = static_cast<std::uint32_t>(seed);
@@ -95,9 +124,7 @@ std::string row(const Way& way, const Mesh& mesh, const RayScene& part, int seed
     if (way.stated)
       options.part_poses =
           scan.stated_poses(rad_from_deg(2.0), 1.0, static_cast<std::uint32_t>(seed), middle);
-    const auto begin = std::chrono::steady_clock::now();
     const JoinedScan out = joined(scan, part, options);
-    const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
     const bool all = out.joined.measured.stations.size() == scan.all.views.size();
     const bool trusted =
         !out.joined.registration || out.joined.registration->untrusted_reason().empty();
@@ -108,46 +135,14 @@ std::string row(const Way& way, const Mesh& mesh, const RayScene& part, int seed
     largest.push_back(out.error.largest_mm);
     over.push_back(out.error.largest_over_sigma);
     over_sigma.push_back(out.error.over_sigma);
-    if (!prints) continue;
-    fmt::print(
-        stderr,
-        "{} seed {}: {} views, trusted {}, RMS {:.4f}, 99 % {:.4f} mm, {:.1f} sigma, {:.1f} s\n",
-        way.name,
-        seed,
-        out.joined.measured.stations.size(),
-        trusted,
-        out.error.rms_mm,
-        out.error.largest_mm,
-        out.error.largest_over_sigma,
-        took.count());
-    for (std::size_t i = 0; i < out.joined.joins.size(); ++i) {
-      const Eigen::Isometry3d off = scan.part_poses[i].inverse() * out.joined.joins[i].part_pose;
-      const Eigen::Vector3d turn =
-          Eigen::AngleAxisd(off.rotation()).angle() * Eigen::AngleAxisd(off.rotation()).axis();
-      fmt::print(stderr,
-                 "    setup {}: joined {}, off by a turn of ({:.3f}, {:.3f}, {:.3f}) degrees, "
-                 "middle ({:.3f}, {:.3f}, {:.3f}) mm\n",
-                 i,
-                 out.joined.joins[i].joined,
-                 deg_from_rad(turn.x()),
-                 deg_from_rad(turn.y()),
-                 deg_from_rad(turn.z()),
-                 (off * middle - middle).x(),
-                 (off * middle - middle).y(),
-                 (off * middle - middle).z());
-    }
-    for (const std::string& warning : out.warnings)
-      fmt::print(stderr, "    {}\n", warning);
-    for (const std::string& note : out.notes)
-      fmt::print(stderr, "    ({})\n", note);
-    if (out.joined.registration) fmt::print(stderr, "    {}\n", out.joined.registration->text());
+    if (study.verbose) print_seed(way, seed, scan, out, middle);
   }
   for (auto* values : {&largest, &over, &over_sigma})
     std::sort(values->begin(), values->end());
   return fmt::format(
       R"({{"way": "{}", "seeds": {}, "left_out": {}, "refused": {}, "warned": {}, "silent": {}, "largest_mm": {:.4f}, "worst_mm": {:.4f}, "largest_over_sigma": {:.2f}, "over_sigma": {:.2f}}})",
       way.name,
-      seeds,
+      study.seeds,
       left_out,
       refused,
       warned,
@@ -158,35 +153,23 @@ std::string row(const Way& way, const Mesh& mesh, const RayScene& part, int seed
       over_sigma[over_sigma.size() / 2]);
 }
 
-void run(const std::vector<std::string_view>& arguments) {
-  int seeds = 0;
-  if (arguments.size() >= 2)
-    std::from_chars(arguments[1].data(), arguments[1].data() + arguments[1].size(), seeds);
-  if (seeds < 1) throw Error(ErrorKind::Input, "usage: setup_study PART SEEDS [-v]");
-  const bool prints = arguments.size() > 2;
-  const Mesh mesh = part_of(std::string(arguments[0]));
+std::vector<std::string> rows_of(const StudyArguments& study) {
+  const Mesh mesh = part_of(study.part);
   const RayScene part(mesh);
   std::vector<std::string> rows;
-  const std::string_view only = arguments.size() > 3 ? arguments[3] : "";
   for (const Way& way : {Way{"turned over, pose stated", {180.0}, true},
                          Way{"turned over", {180.0}},
                          Way{"laid down, pose stated", {90.0}, true},
                          Way{"laid down", {90.0}},
                          Way{"laid down and turned over, poses stated", {90.0, 180.0}, true},
                          Way{"laid down and turned over", {90.0, 180.0}}})
-    if (only.empty() || only == way.name) rows.push_back(row(way, mesh, part, seeds, prints));
-  fmt::print("[{}]\n", fmt::join(rows, ",\n "));
+    rows.push_back(row(way, mesh, part, study));
+  return rows;
 }
 
 }  // namespace
 }  // namespace frangia
 
 int main(int argc, char** argv) {
-  try {
-    frangia::run({argv + 1, argv + argc});
-    return EXIT_SUCCESS;
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "setup_study: {}\n", error.what());
-    return EXIT_FAILURE;
-  }
+  return frangia::study_main(argc, argv, frangia::rows_of);
 }
