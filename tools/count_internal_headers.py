@@ -7,7 +7,7 @@ import pathlib
 import re
 import sys
 
-MOST = 58
+MOST = 57
 
 
 def main(root, *options):

@@ -12,7 +12,7 @@ export class Setups {
 
   constructor(
     private readonly app: Store,
-    private readonly chosenAnew: () => void,
+    private readonly whenChosen: () => void,
   ) {}
 
   forget(): void {
@@ -25,7 +25,7 @@ export class Setups {
   }
   show(setup: number | null): void {
     this.chosen = setup;
-    this.chosenAnew();
+    this.whenChosen();
     this.app.requestUpdate();
   }
   turn(turning: boolean): void {

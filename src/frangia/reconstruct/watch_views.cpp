@@ -12,7 +12,6 @@
 #include "frangia/decode/triangulate_view.h"
 #include "frangia/registration/find_turntable_top.h"
 #include "frangia/registration/register_views.h"
-#include "frangia/views/clip_views.h"
 #include "frangia/views/thin_view.h"
 #include "frangia/views/view_store.h"
 
@@ -21,15 +20,6 @@ namespace {
 
 constexpr double kMostPixels = 60'000.0;  ///< of a view: eight are compared in a second on one core
 constexpr std::size_t kMostViews = 8;     ///< at 45 degrees from view to view they go all around
-
-/// Removes the top of the turntable, which stands still on the table when the part moves.
-void remove_top(ViewStore& views, const CameraModel& camera, const Run& run) {
-  const auto top = find_turntable_top(views, camera, {}, run);
-  if (!top) return;
-  Clip clip;
-  clip.floor = {top->plane.normal(), top->plane.offset() - top->clearance_mm};
-  clip_views_to_nothing(views, camera, clip, run);
-}
 
 /// Whether an explanation is that something moved before the last view.
 bool moved_at_last(const PoseExplanation& found, std::size_t last) {
@@ -97,7 +87,7 @@ WatchedView ViewWatch::compare(std::size_t view,
   const CameraModel& camera = thinned_.reference().model;
   Run quiet;
   quiet.stop = run.stop;
-  remove_top(store, camera, quiet);
+  clip_turntable_top(store, camera, quiet);
   TurntableStations given{*thinned_.turntable, stations};
   if (thinned_.cameras.size() == 1) {
     given.rig = &thinned_;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <optional>
 
 #include <Eigen/Geometry>
@@ -7,6 +8,7 @@
 #include "frangia/core/angles.h"
 #include "frangia/core/run.h"
 #include "frangia/rig/camera_model.h"
+#include "frangia/views/clip_views.h"
 #include "frangia/views/view_store.h"
 
 namespace frangia {
@@ -44,6 +46,12 @@ struct TurntableTop {
 
   /// Height of the top on the z axis of the object frame.
   [[nodiscard]] double height_mm() const { return -plane.offset() / plane.normal().z(); }
+  /// What keeps the points above it.
+  [[nodiscard]] Clip clip() const {
+    Clip above;
+    above.floor = {plane.normal(), plane.offset() - clearance_mm};
+    return above;
+  }
 };
 
 /// Finds the top of the turntable: a horizontal disc centred on the axis with no points below it
@@ -62,5 +70,12 @@ struct TurntableTop {
     const CameraModel& camera,
     const TurntableTopOptions& options = {},
     const Run& run = {});
+
+/// Clips the top of the turntable from the views, if there is one: it stands still on the table
+/// when the part moves, and is no surface of the part.
+///
+/// @return   the number of points removed
+/// @errors   as `find_turntable_top`
+std::size_t clip_turntable_top(ViewStore& views, const CameraModel& camera, const Run& run = {});
 
 }  // namespace frangia

@@ -7,7 +7,6 @@
 #include "frangia/registration/find_turntable_top.h"
 #include "frangia/registration/register_views.h"
 #include "frangia/service/encode_arrays.h"
-#include "frangia/views/clip_views.h"
 #include "frangia/views/thin_view.h"
 #include "frangia/views/view_store.h"
 
@@ -17,15 +16,6 @@ namespace {
 /// Pixels of a view that are kept, at most: eight views are then one surface in about a second on
 /// one core (`./run figures app`).
 constexpr double kMostPixels = 90'000.0;
-
-/// Removes the top of the turntable, which stands in every view.
-void remove_top(ViewStore& views, const CameraModel& camera, const Run& run) {
-  const auto top = find_turntable_top(views, camera, {}, run);
-  if (!top) return;
-  Clip clip;
-  clip.floor = {top->plane.normal(), top->plane.offset() - top->clearance_mm};
-  clip_views_to_nothing(views, camera, clip, run);
-}
 
 }  // namespace
 
@@ -78,7 +68,7 @@ void GrowingSurface::serve(const std::stop_token& stop) {
         stations.push_back({.angle_rad = view.angle_rad, .name = {}});
       }
       if (rig_.turntable) {
-        remove_top(store, camera, run);
+        clip_turntable_top(store, camera, run);
         static_cast<void>(register_views(store, camera, {*rig_.turntable, stations}, {}, run));
       }
       const Mesh mesh = fuse_views(store, camera, {}, run);

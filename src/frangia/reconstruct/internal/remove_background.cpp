@@ -62,9 +62,7 @@ double remove_turntable_top(MeasuredViews& measured,
                             const Run& run) {
   const auto top = find_turntable_top(measured.reference(), rig.reference().model, options, run);
   if (!top) return kMissing;
-  Clip clip;
-  clip.floor = {top->plane.normal(), top->plane.offset() - top->clearance_mm};
-  const std::size_t removed = clip_cameras(measured, rig, clip, run);
+  const std::size_t removed = clip_cameras(measured, rig, top->clip(), run);
   const double height_mm = top->height_mm();
   run.note(fmt::format(
       "{} at a height of {:.2f} mm is removed with {} points; set `keep_turntable_top` to keep it",
