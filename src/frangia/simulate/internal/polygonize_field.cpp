@@ -1,9 +1,11 @@
 #include "frangia/simulate/internal/polygonize_field.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "frangia/core/error.h"
@@ -34,6 +36,82 @@ struct Grid {
   }
 };
 
+/// A cube of corners, those of all blocks together are the grid's.
+struct Block {
+  std::array<std::size_t, 3> first{}, last{};  ///< corners; the last one is not its own
+};
+
+/// The blocks of a grid, x fastest, and which of them the surface may pass.
+class Blocks {
+ public:
+  explicit Blocks(const Grid& grid) {
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      count_[axis] = (grid.size[axis] + kSide - 1) / kSide;
+    reached_.resize(count_[0] * count_[1] * count_[2]);
+  }
+  [[nodiscard]] std::size_t size() const { return reached_.size(); }
+  [[nodiscard]] Block block(const Grid& grid, std::size_t index) const {
+    const std::array<std::size_t, 3> at{
+        index % count_[0], index / count_[0] % count_[1], index / count_[0] / count_[1]};
+    Block block;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      block.first[axis] = kSide * at[axis];
+      block.last[axis] = std::min(kSide * (at[axis] + 1), grid.size[axis]);
+    }
+    return block;
+  }
+  [[nodiscard]] std::size_t of_corner(const std::array<std::size_t, 3>& corner) const {
+    return (corner[2] / kSide * count_[1] + corner[1] / kSide) * count_[0] + corner[0] / kSide;
+  }
+  /// Adds a block to a list unless it was reached before.
+  void reach(std::size_t index, std::vector<std::size_t>& list) {
+    if (reached_[index] != 0) return;
+    reached_[index] = 1;
+    list.push_back(index);
+  }
+
+ private:
+  static constexpr std::size_t kSide = 4;
+  std::array<std::size_t, 3> count_{};
+  std::vector<char> reached_;
+};
+
+/// Calls `visit` with each corner of a block.
+template <typename Visit>
+void for_each_corner(const Block& block, const Visit& visit) {
+  std::array<std::size_t, 3> at{};
+  for (at[2] = block.first[2]; at[2] < block.last[2]; ++at[2])
+    for (at[1] = block.first[1]; at[1] < block.last[1]; ++at[1])
+      for (at[0] = block.first[0]; at[0] < block.last[0]; ++at[0])
+        visit(at);
+}
+
+/// Reaches the blocks that hold one end of an edge through which the surface passes, of all edges
+/// at a block.
+void follow(const Grid& grid, const Block& from, Blocks& blocks, std::vector<std::size_t>& list) {
+  for_each_corner(from, [&](const std::array<std::size_t, 3>& at) {
+    const std::size_t corner = grid.index(at[0], at[1], at[2]);
+    const bool inside = grid.values[corner] < 0.0F;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      std::array<std::size_t, 3> next = at;
+      if (at[axis] > 0 && (grid.values[corner - grid.stride(axis)] < 0.0F) != inside) {
+        --next[axis];
+        blocks.reach(blocks.of_corner(next), list);
+        blocks.reach(blocks.of_corner(at), list);
+        next = at;
+      }
+      if (at[axis] + 1 < grid.size[axis] &&
+          (grid.values[corner + grid.stride(axis)] < 0.0F) != inside) {
+        ++next[axis];
+        blocks.reach(blocks.of_corner(next), list);
+        blocks.reach(blocks.of_corner(at), list);
+      }
+    }
+  });
+}
+
+/// Samples the field where its surface passes: every block has the value of its first corner until
+/// a change of sign reaches it. A piece of the surface between those corners is not found.
 Grid sample(const Field& field, const Eigen::AlignedBox3d& box, double cell_mm, const Run& run) {
   Grid grid{box.min(), cell_mm, {}, {}};
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -41,15 +119,39 @@ Grid sample(const Field& field, const Eigen::AlignedBox3d& box, double cell_mm, 
     grid.size[axis] = static_cast<std::size_t>(std::ceil(length / cell_mm)) + 1;
   }
   grid.values.resize(grid.size[0] * grid.size[1] * grid.size[2]);
-  parallel_chunks(grid.size[2], 1, [&](std::size_t z, std::size_t) {
+  Blocks blocks(grid);
+  const auto value = [&](const std::array<std::size_t, 3>& at) {
+    return static_cast<float>(field(grid.corner(at[0], at[1], at[2])));
+  };
+  parallel_chunks(blocks.size(), 64, [&](std::size_t begin, std::size_t end) {
     if (run.stop.stop_requested()) return;
-    for (std::size_t y = 0; y < grid.size[1]; ++y) {
-      for (std::size_t x = 0; x < grid.size[0]; ++x) {
-        grid.values[grid.index(x, y, z)] = static_cast<float>(field(grid.corner(x, y, z)));
-      }
+    for (std::size_t i = begin; i < end; ++i) {
+      const Block block = blocks.block(grid, i);
+      const float first = value(block.first);
+      for_each_corner(block, [&](const std::array<std::size_t, 3>& at) {
+        grid.values[grid.index(at[0], at[1], at[2])] = first;
+      });
     }
   });
   run.check();
+  std::vector<std::size_t> reached;
+  for (std::size_t i = 0; i < blocks.size(); ++i)
+    follow(grid, blocks.block(grid, i), blocks, reached);
+  while (!reached.empty()) {
+    parallel_chunks(reached.size(), 16, [&](std::size_t begin, std::size_t end) {
+      if (run.stop.stop_requested()) return;
+      for (std::size_t i = begin; i < end; ++i) {
+        for_each_corner(blocks.block(grid, reached[i]), [&](const std::array<std::size_t, 3>& at) {
+          grid.values[grid.index(at[0], at[1], at[2])] = value(at);
+        });
+      }
+    });
+    run.check();
+    std::vector<std::size_t> next;
+    for (const std::size_t block : reached)
+      follow(grid, blocks.block(grid, block), blocks, next);
+    reached = std::move(next);
+  }
   return grid;
 }
 
@@ -79,18 +181,19 @@ bool crossing_of(const Grid& grid, std::size_t base, Eigen::Vector3d& mean) {
   return count > 0;
 }
 
-/// Moves a point along the gradient to the zero level, by at most half a cell.
+/// Moves a point along the gradient to the zero level, by at most half a cell. The gradient of the
+/// second step serves those that follow: they are a thousandth of a cell.
 Eigen::Vector3d project_to_surface(const Field& field,
                                    const Eigen::Vector3d& start,
                                    double cell_mm) {
   const double h = 1e-3 * cell_mm;
   Eigen::Vector3d p = start;
+  Eigen::Vector3d gradient = Eigen::Vector3d::Zero();
   for (int step = 0; step < 4; ++step) {
     const double value = field(p);
-    Eigen::Vector3d gradient;
-    for (Eigen::Index axis = 0; axis < 3; ++axis) {
-      const Eigen::Vector3d d = h * Eigen::Vector3d::Unit(axis);
-      gradient[axis] = (field(p + d) - field(p - d)) / (2.0 * h);
+    if (step < 2) {
+      for (Eigen::Index axis = 0; axis < 3; ++axis)
+        gradient[axis] = (field(p + h * Eigen::Vector3d::Unit(axis)) - value) / h;
     }
     if (!(gradient.squaredNorm() > 0.01)) return start;
     p -= gradient * (value / gradient.squaredNorm());
