@@ -7,6 +7,7 @@
 
 #include "frangia/align/internal/free_motions.h"
 #include "frangia/core/error.h"
+#include "frangia/core/matrix_products.h"
 #include "frangia/core/student_95.h"
 #include "frangia/core/symmetric_eigen.h"
 
@@ -99,9 +100,9 @@ DatumStep solve(std::span<const Datum> datums, const Vector3d& center, double si
   Eigen::VectorXd sigmas(0);
   for (const Datum& datum : datums) {
     const DatumRows rows = rows_of(datum, center, size);
-    const Eigen::MatrixXd within = rows.jacobian * step.free;
+    const Eigen::MatrixXd within = product(rows.jacobian, step.free);
     // Its singular values, squared, and its right singular vectors, in ascending order.
-    const auto squares = symmetric_eigen(Eigen::MatrixXd(within.transpose() * within));
+    const auto squares = symmetric_eigen(transposed_product(within, within));
     const Eigen::Index rank = (squares.values.array() > kDetermined * kDetermined).count();
     if (rank == 0) {
       throw Error(ErrorKind::Input,
@@ -110,24 +111,26 @@ DatumStep solve(std::span<const Datum> datums, const Vector3d& center, double si
                               datum.name));
     }
     const Eigen::MatrixXd determined = squares.vectors.rightCols(rank);
-    const Eigen::MatrixXd inverse = determined *
-                                    squares.values.tail(rank).cwiseInverse().asDiagonal() *
-                                    (within * determined).transpose();
-    const Eigen::MatrixXd solver = step.free * inverse;
+    const Eigen::MatrixXd inverse =
+        product_transposed(determined * squares.values.tail(rank).cwiseInverse().asDiagonal(),
+                           product(within, determined));
+    const Eigen::MatrixXd solver = product(step.free, inverse);
     const Eigen::Index before = response.cols();
     const Eigen::Index added = rows.residuals.size();
     response.conservativeResize(6, before + added);
     response.rightCols(added).setZero();
-    Eigen::MatrixXd seen = rows.jacobian * response;  // of these residuals, after the steps so far
+    Eigen::MatrixXd seen =
+        product(rows.jacobian, response);  // of these residuals, after the steps so far
     seen.rightCols(added) += Eigen::MatrixXd::Identity(added, added);
-    response -= solver * seen;
-    step.twist -= solver * (rows.residuals + rows.jacobian * step.twist);
+    response -= product(solver, seen);
+    step.twist -= product(solver, rows.residuals + product(rows.jacobian, step.twist));
     sigmas.conservativeResize(before + added);
     sigmas.tail(added) = rows.sigmas;
-    step.free = (step.free * squares.vectors.leftCols(step.free.cols() - rank)).eval();
+    step.free = product(step.free, squares.vectors.leftCols(step.free.cols() - rank));
     if (step.free.cols() == 0) break;
   }
-  step.covariance = response * sigmas.cwiseAbs2().asDiagonal() * response.transpose();
+  const Eigen::MatrixXd by_sigma = response * sigmas.asDiagonal();
+  step.covariance = product_transposed(by_sigma, by_sigma);
   return step;
 }
 

@@ -8,4 +8,9 @@ Eigen::MatrixXd least_squares(const Eigen::MatrixXd& matrix, const Eigen::Matrix
   return matrix.colPivHouseholderQr().solve(right);
 }
 
+Eigen::MatrixXd orthonormal_basis(const Eigen::MatrixXd& matrix) {
+  const Eigen::MatrixXd all = Eigen::HouseholderQR<Eigen::MatrixXd>(matrix).householderQ();
+  return all.leftCols(matrix.cols());
+}
+
 }  // namespace frangia

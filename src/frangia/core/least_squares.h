@@ -13,4 +13,10 @@ namespace frangia {
 [[nodiscard]] Eigen::MatrixXd least_squares(const Eigen::MatrixXd& matrix,
                                             const Eigen::MatrixXd& right);
 
+/// Orthonormal columns that span those of a matrix.
+///
+/// @shape    m x n with m >= n; the result is m x n
+/// @source   Householder QR of Eigen
+[[nodiscard]] Eigen::MatrixXd orthonormal_basis(const Eigen::MatrixXd& matrix);
+
 }  // namespace frangia

@@ -6,6 +6,7 @@
 
 #include <Eigen/Geometry>
 
+#include "frangia/core/matrix_products.h"
 #include "frangia/core/student_95.h"
 #include "frangia/core/symmetric_eigen.h"
 #include "frangia/features/internal/weighted_sums.h"
@@ -57,13 +58,13 @@ Eigen::MatrixXd block_covariance(const FeaturePoints& points,
     for (std::size_t i = begin; i < end; ++i)
       add_point(sums, points, order[i], fit.shape, weights, fit.gate_mm, true);
     const Eigen::VectorXd gradient = sums.gradient.head(count);
-    spread += gradient * gradient.transpose();
+    spread += product_transposed(gradient, gradient);
   };
   visit(visit, 0, order.size(), levels);
   const auto free = static_cast<double>(blocks) - static_cast<double>(count);
   // The variances of the blocks differ, which costs degrees of freedom.
   const double factor = student_95(0.5 * free);
-  return factor * factor * static_cast<double>(blocks) / free * inverse * spread * inverse;
+  return factor * factor * static_cast<double>(blocks) / free * congruence(inverse, spread);
 }
 
 /// The covariance from 2^levels blocks, and the square root of their number: the share of errors
@@ -98,13 +99,11 @@ Eigen::MatrixXd without_borders(const BlockCovariance& few,
 Eigen::MatrixXd inverse_of(const Eigen::MatrixXd& hessian) {
   const Eigen::VectorXd scale = hessian.diagonal().cwiseSqrt().cwiseInverse();
   if (!scale.allFinite()) return {};
-  const Eigen::MatrixXd scaled = scale.asDiagonal() * hessian * scale.asDiagonal();
-  const auto eigen = symmetric_eigen(scaled);
+  const auto eigen = symmetric_eigen(scaled(hessian, scale));
   constexpr double kSingular = 1e-12;
   if (!(eigen.values[0] > kSingular)) return {};
-  const Eigen::MatrixXd inverse =
-      eigen.vectors * eigen.values.cwiseInverse().asDiagonal() * eigen.vectors.transpose();
-  return scale.asDiagonal() * inverse * scale.asDiagonal();
+  const Eigen::MatrixXd root = eigen.vectors * eigen.values.cwiseSqrt().cwiseInverse().asDiagonal();
+  return scaled(product_transposed(root, root), scale);
 }
 
 /// First parameter and number of the parameters of the center or of the axis.
@@ -145,11 +144,12 @@ Eigen::MatrixXd calibration_response(const FeaturePoints& points,
     if (!(std::abs(at.distance_mm) < fit.gate_mm) || !at.derivatives.allFinite()) continue;
     const double weight = weights.of(point) * tukey_weight(at.distance_mm, fit.gate_mm);
     const double outward = at.normal.dot(points.normals[point]);
-    sums.noalias() +=
-        weight * outward * at.derivatives.head(inverse.rows()) *
-        points.calibration_mm.col(static_cast<Eigen::Index>(point)).cast<double>().transpose();
+    const Eigen::VectorXd by_parameter = weight * outward * at.derivatives.head(inverse.rows());
+    const auto displacement = points.calibration_mm.col(static_cast<Eigen::Index>(point));
+    for (Eigen::Index i = 0; i < sums.cols(); ++i)
+      sums.col(i) += static_cast<double>(displacement[i]) * by_parameter;
   }
-  return -inverse * sums;
+  return -product(inverse, sums);
 }
 
 }  // namespace
@@ -182,19 +182,20 @@ ShapeUncertainty shape_uncertainty(const FeaturePoints& points,
   Eigen::MatrixXd covariance =
       without_borders(in_blocks(kFew), in_blocks(kMany), in_blocks(kMost), size);
   const Eigen::MatrixXd stated =
-      kNormal95 * kNormal95 * inverse * sums.noise.topLeftCorner(count, count) * inverse;
+      kNormal95 * kNormal95 * congruence(inverse, sums.noise.topLeftCorner(count, count));
   if (stated(size, size) > covariance(size, size)) covariance = stated;
-  const Eigen::VectorXd shared = kNormal95 * inverse * sums.shared.head(count);
+  const Eigen::VectorXd shared = kNormal95 * product(inverse, sums.shared.head(count));
   const bool is_diameter = fit.shape.kind != ShapeKind::Plane;
   const double to_size = is_diameter ? 2.0 : 1.0;
   result.noise_mm = to_size * std::sqrt(covariance(size, size)) / kNormal95;
-  covariance += shared * shared.transpose();
+  covariance += product_transposed(shared, shared);
   result.center_local_u95_mm = worst_direction(covariance, center_parameters(fit.shape.kind));
   result.axis_local_u95_rad = worst_direction(covariance, axis_parameters(fit.shape.kind));
   double systematic = shared[size] * shared[size] / (kNormal95 * kNormal95);
   result.calibration = calibration_response(points, chosen, fit, weights, inverse);
   if (result.calibration.size() > 0) {
-    covariance += kNormal95 * kNormal95 * result.calibration * result.calibration.transpose();
+    covariance +=
+        kNormal95 * kNormal95 * product_transposed(result.calibration, result.calibration);
     systematic += result.calibration.row(size).squaredNorm();
   }
   result.systematic_mm = to_size * std::sqrt(systematic);

@@ -7,10 +7,11 @@
 #include <utility>
 #include <vector>
 
-#include <Eigen/Cholesky>
 #include <fmt/format.h>
 
+#include "frangia/core/matrix_products.h"
 #include "frangia/core/median.h"
+#include "frangia/core/solve_symmetric.h"
 #include "frangia/diagnose/score.h"
 #include "frangia/range/fringe_ray.h"
 #include "frangia/rig/rig_covariance.h"
@@ -134,10 +135,10 @@ RigFit fit_rig(std::span<const DepthPair> samples,
     }
     const Eigen::VectorXd safe = (weights > 0.0).select(residuals.array(), 0.0).matrix();
     const Eigen::MatrixXd weighted = weights.matrix().asDiagonal() * slopes;
-    Eigen::MatrixXd normal = slopes.transpose() * weighted / scale2;
+    Eigen::MatrixXd normal = transposed_product(slopes, weighted) / scale2;
     normal.diagonal().array() += 1.0;
     const Eigen::VectorXd step =
-        normal.ldlt().solve(-(weighted.transpose() * safe) / scale2 - units);
+        solve_symmetric(normal, -transposed_product(weighted, safe) / scale2 - units);
     const Eigen::VectorXd next = normalized(units + step);
     if (!(chi_squared_of(next) <= chi_squared_of(residuals))) break;
     units += step;

@@ -5,6 +5,8 @@
 #include <utility>
 
 #include "frangia/core/error.h"
+#include "frangia/core/least_squares.h"
+#include "frangia/core/matrix_products.h"
 #include "frangia/core/median.h"
 #include "frangia/core/symmetric_eigen.h"
 #include "frangia/registration/internal/drift_bundle.h"
@@ -39,7 +41,7 @@ std::vector<RefinedParameter> describe(const DriftModel& model,
                                        const RigCovariance& after,
                                        const RigRefinement& result) {
   constexpr double kDetermined = 1.0 / 3.0;  // of the prior's standard deviation
-  Eigen::VectorXd changes = model.factor() * w;
+  Eigen::VectorXd changes = product(model.factor(), w);
   // The translation is the last of the parameters, and the scale changes it alone.
   const Projector& projector = result.rig.projector;
   changes.tail<3>() -= (1.0 - 1.0 / result.scale) * (projector.rotation * projector.position_mm);
@@ -85,7 +87,7 @@ void hold_undetermined(DriftBundle& bundle, double min_gain) {
     ++first;
   bundle.free_directions = eigen.vectors.rightCols(eigen.values.size() - first);
   bundle.state.w =
-      (bundle.free_directions * (bundle.free_directions.transpose() * bundle.state.w)).eval();
+      product(bundle.free_directions, transposed_product(bundle.free_directions, bundle.state.w));
 }
 
 /// A refinement in progress: the rig and the surfaces that it is refined by.
@@ -136,8 +138,7 @@ class RigFit {
     const Eigen::MatrixXd all = information_of(bundle_, sum_drift(bundle_, kComparedSurfels));
     result.directions = static_cast<std::size_t>(model_.count());
     result.held = result.directions - static_cast<std::size_t>(free_directions.cols());
-    const Eigen::MatrixXd projection = free_directions * free_directions.transpose();
-    return projection * all * projection;
+    return congruence(product_transposed(free_directions, free_directions), all);
   }
 
   /// Compares both rigs by the wider of their gates, and keeps the better one.
@@ -176,21 +177,20 @@ class RigFit {
     DriftBundle all = bundle_;
     all.free_directions = Eigen::MatrixXd::Identity(model_.count(), model_.count());
     const DriftEvidence evidence = evidence_of(all, sum_drift(all, kComparedSurfels));
-    const auto present = model_.factor().colPivHouseholderQr();
-    const Eigen::VectorXd wider =
-        widening_by_evidence({model_.groups(),
-                              static_cast<Eigen::Index>(model_.parameters().size()),
-                              [&](const Eigen::VectorXd& widening) -> Eigen::MatrixXd {
-                                return present.solve(model_widened_by(widening).factor());
-                              }},
-                             evidence,
-                             bundle_.state.w);
+    const Eigen::VectorXd wider = widening_by_evidence(
+        {model_.groups(),
+         static_cast<Eigen::Index>(model_.parameters().size()),
+         [&](const Eigen::VectorXd& widening) -> Eigen::MatrixXd {
+           return least_squares(model_.factor(), model_widened_by(widening).factor());
+         }},
+        evidence,
+        bundle_.state.w);
     if (widening_.size() == 0) widening_ = Eigen::VectorXd::Ones(wider.size());
     if ((wider.cwiseQuotient(widening_)).maxCoeff() < kNoticeably) return false;
     widening_ = wider;
-    const Eigen::VectorXd changes = model_.factor() * bundle_.state.w;
+    const Eigen::VectorXd changes = product(model_.factor(), bundle_.state.w);
     model_ = model_widened_by(widening_);
-    bundle_.state.w = model_.factor().colPivHouseholderQr().solve(changes);
+    bundle_.state.w = least_squares(model_.factor(), changes);
     linearize();
     return true;
   }

@@ -7,6 +7,7 @@
 #include <ceres/rotation.h>
 
 #include "frangia/core/least_squares.h"
+#include "frangia/core/matrix_products.h"
 
 namespace frangia {
 namespace {
@@ -99,7 +100,7 @@ void remove_rigid_motions(const std::vector<Eigen::Vector3d>& points, Eigen::Mat
           Eigen::Vector3d::Unit(axis).cross(points[i] - center) / center.norm();
     }
   }
-  response -= motions * least_squares(motions, response);
+  response -= product(motions, least_squares(motions, response));
 }
 
 }  // namespace
@@ -133,7 +134,7 @@ ShapeResponse shape_response(const Board& board,
 
 double point_sigma_mm(const ShapeResponse& shape, const Eigen::MatrixXd& covariance) {
   const Eigen::MatrixXd& response = shape.by_parameter;
-  const double sum = (response * covariance).cwiseProduct(response).sum();
+  const double sum = product(response, covariance).cwiseProduct(response).sum();
   return std::sqrt(3.0 * sum / static_cast<double>(response.rows()));
 }
 

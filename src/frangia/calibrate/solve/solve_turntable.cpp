@@ -10,6 +10,7 @@
 
 #include "frangia/core/angles.h"
 #include "frangia/core/error.h"
+#include "frangia/core/matrix_products.h"
 #include "frangia/core/solve_symmetric.h"
 
 namespace frangia {
@@ -141,9 +142,9 @@ Eigen::VectorXd adjust_table(const TableProblem& problem, TableModel& model) {
   constexpr double kSettled = 1e-10;
   for (int i = 0; i < kMost; ++i) {
     const Eigen::MatrixXd jacobian = table_jacobian(problem, model, residuals);
-    Eigen::MatrixXd normal = jacobian.transpose() * jacobian;
+    Eigen::MatrixXd normal = transposed_product(jacobian, jacobian);
     normal.diagonal() *= 1.0 + damping;
-    const TableStep step = -solve_symmetric(normal, jacobian.transpose() * residuals);
+    const TableStep step = -solve_symmetric(normal, transposed_product(jacobian, residuals));
     const TableModel tried = model.moved(step);
     const Eigen::VectorXd next = residuals_of(problem, tried);
     if (next.squaredNorm() < residuals.squaredNorm()) {
@@ -301,7 +302,7 @@ TurntableSolution solve_turntable(const Board& board,
       residuals.squaredNorm() / static_cast<double>(residuals.size() - kTableParameters);
   const Eigen::MatrixXd covariance =
       variance *
-      solve_symmetric_columns(jacobian.transpose() * jacobian,
+      solve_symmetric_columns(transposed_product(jacobian, jacobian),
                               Eigen::MatrixXd::Identity(kTableParameters, kTableParameters));
   out.axis_sigma_rad = std::sqrt(covariance.diagonal().head<2>().maxCoeff());
   out.point_sigma_mm = std::sqrt(covariance.diagonal().segment<2>(2).maxCoeff());

@@ -3,11 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/Cholesky>
 #include <Eigen/LU>
 
 #include "frangia/core/angles.h"
+#include "frangia/core/cholesky.h"
 #include "frangia/core/error.h"
+#include "frangia/core/matrix_products.h"
 #include "frangia/core/solve_symmetric.h"
 #include "frangia/phase/internal/fringe_model.h"
 #include "frangia/phase/waveform/frame_samples.h"
@@ -27,9 +28,9 @@ constexpr double kMaxExcess = 1.5;
 /// The least-squares fit of the fringe model to the frames, given their shifts. With n frames it
 /// takes n^2 operations.
 struct FringeFit {
-  Eigen::MatrixX3d model;    ///< one row a frame: 1, cos(shift), -sin(shift)
-  Eigen::Matrix3Xd inverse;  ///< its pseudoinverse
-  Eigen::Matrix3Xd fringes;  ///< mean, cosine and sine: `inverse * root`
+  Eigen::MatrixXd model;     ///< one row a frame: 1, cos(shift), -sin(shift)
+  Eigen::MatrixXd inverse;   ///< its pseudoinverse
+  Eigen::MatrixXd fringes;   ///< mean, cosine and sine: `inverse * root`
   Eigen::MatrixXd residual;  ///< `root - model * fringes`
 
   /// `root * root^T` are the inner products of the frames over all pixels, so that an iteration
@@ -38,10 +39,10 @@ struct FringeFit {
       : model(std::ssize(shifts), 3) {
     for (Eigen::Index k = 0; k < model.rows(); ++k)
       model.row(k) = fringe_model_row(shifts[static_cast<std::size_t>(k)]);
-    const Eigen::Matrix3d normal = model.transpose() * model;
-    inverse = normal.inverse() * model.transpose();
-    fringes = inverse * root;
-    residual = root - model * fringes;
+    const Eigen::Matrix3d normal = transposed_product(model, model);
+    inverse = product_transposed(normal.inverse(), model);
+    fringes = product(inverse, root);
+    residual = root - product(model, fringes);
   }
   [[nodiscard]] double cost() const { return residual.squaredNorm(); }
 };
@@ -59,21 +60,21 @@ struct ShiftEquations {
 /// @source   variable projection: Golub and Pereyra 1973
 ShiftEquations equations_of(const FringeFit& fit, const Eigen::MatrixXd& products) {
   const Eigen::Index frames = fit.model.rows();
-  Eigen::MatrixX3d slope = Eigen::MatrixX3d::Zero(frames, 3);  // of the model's rows, by the shift
+  Eigen::MatrixXd slope = Eigen::MatrixXd::Zero(frames, 3);  // of the model's rows, by the shift
   slope.col(1) = fit.model.col(2);
   slope.col(2) = -fit.model.col(1);
-  const Eigen::Matrix3d fringe_products = fit.fringes * fit.fringes.transpose();
-  const Eigen::Matrix3d covariance = fit.inverse * fit.inverse.transpose();
   // P = I - model * inverse projects on the residuals.
-  Eigen::MatrixXd projection = -fit.model * fit.inverse;
+  Eigen::MatrixXd projection = -product(fit.model, fit.inverse);
   projection.diagonal().array() += 1.0;
-  const Eigen::Matrix3Xd half = fit.inverse * products;
   Eigen::MatrixXd residual_products = products;
-  residual_products -= fit.model * half;
-  residual_products -= (residual_products * fit.inverse.transpose()) * fit.model.transpose();
-  const Eigen::MatrixXd fringe_term = slope * fringe_products * slope.transpose();
-  const Eigen::MatrixXd shift_term = slope * covariance * slope.transpose();
-  const Eigen::MatrixX3d by_fringe = fit.residual * fit.fringes.transpose();
+  residual_products -= product(fit.model, product(fit.inverse, products));
+  residual_products -=
+      product_transposed(product_transposed(residual_products, fit.inverse), fit.model);
+  const Eigen::MatrixXd by_fringes = product(slope, fit.fringes);
+  const Eigen::MatrixXd by_shifts = product(slope, fit.inverse);
+  const Eigen::MatrixXd fringe_term = product_transposed(by_fringes, by_fringes);
+  const Eigen::MatrixXd shift_term = product_transposed(by_shifts, by_shifts);
+  const Eigen::MatrixXd by_fringe = product_transposed(fit.residual, fit.fringes);
   return {fringe_term.cwiseProduct(projection) + shift_term.cwiseProduct(residual_products),
           -by_fringe.cwiseProduct(slope).rowwise().sum()};
 }
@@ -135,8 +136,8 @@ ShiftEstimate estimate_shifts(const FrameStack& stack, const NoiseModel& noise) 
   ShiftEstimate out{.shifts_rad = nominal};
   const Eigen::ArrayXXd counts = sample_frames(stack, kShiftSamples).cast<double>();
   if (counts.rows() < kMinShiftSamples) return out;
-  const Eigen::MatrixXd products = counts.matrix().transpose() * counts.matrix();
-  const Eigen::MatrixXd root = products.llt().matrixL();
+  const Eigen::MatrixXd products = transposed_product(counts.matrix(), counts.matrix());
+  const Eigen::MatrixXd root = Cholesky(products).lower();
   std::vector<double> shifts = nominal;
   double damping = 1e-3;
   bool converged = false;

@@ -6,9 +6,10 @@
 #include <numbers>
 
 #include <Eigen/Core>
-#include <Eigen/QR>
 
 #include "frangia/core/angles.h"
+#include "frangia/core/least_squares.h"
+#include "frangia/core/matrix_products.h"
 #include "frangia/core/symmetric_eigen.h"
 #include "frangia/frames/frame_stack.h"
 #include "frangia/phase/internal/fit_residuals.h"
@@ -49,16 +50,14 @@ class FreeHarmonics {
         model(k, 2 * n) = std::sin(angle);
       }
     }
-    const Eigen::MatrixXd basis =
-        Eigen::MatrixXd(Eigen::HouseholderQR<Eigen::MatrixXd>(model).householderQ())
-            .leftCols(model.cols());
-    return std::max(products_.trace() - (basis.transpose() * products_ * basis).trace(), 0.0);
+    const double explained = congruence(orthonormal_basis(model), products_).trace();
+    return std::max(products_.trace() - explained, 0.0);
   }
 
  private:
   static Eigen::MatrixXd products_of(const Eigen::ArrayXXf& counts) {
     const Eigen::MatrixXd all = counts.matrix().cast<double>();
-    return all.transpose() * all;
+    return transposed_product(all, all);
   }
   Eigen::MatrixXd products_;
   int harmonics_;

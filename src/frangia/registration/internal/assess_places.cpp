@@ -6,9 +6,9 @@
 #include <utility>
 #include <vector>
 
-#include <Eigen/Cholesky>
-
+#include "frangia/core/matrix_products.h"
 #include "frangia/core/median.h"
+#include "frangia/core/solve_symmetric.h"
 #include "frangia/registration/internal/state_motions.h"
 #include "frangia/registration/internal/turntable_bundle.h"
 
@@ -39,13 +39,13 @@ Eigen::MatrixXd information_of(const Bundle& bundle,
       std::max(1.0, static_cast<double>(median(sums.over_sigma)) / kMedianOfNormal);
   const double region_mm = shared_error_mm(bundle, sums) / std::sqrt(2.0);  // of either view
   const Eigen::VectorXd unit = sigma.unaryExpr([](double s) { return s > 0.0 ? s : 1.0; });
-  const Eigen::MatrixXd hessian = unit.asDiagonal() * sums.hessian * unit.asDiagonal();
+  const Eigen::MatrixXd hessian = scaled(sums.hessian, unit);
   const Eigen::MatrixXd repeated = 2.0 * region_mm * (unit.asDiagonal() * sums.region_gradients);
-  Eigen::MatrixXd covariance = excess * excess * hessian + repeated * repeated.transpose();
+  Eigen::MatrixXd covariance = excess * excess * hessian + product_transposed(repeated, repeated);
   covariance.diagonal().array() += 1e-12 * covariance.trace();
-  const Eigen::MatrixXd information = hessian * covariance.ldlt().solve(hessian);
-  const Eigen::VectorXd back = unit.cwiseInverse();
-  return back.asDiagonal() * (0.5 * (information + information.transpose())) * back.asDiagonal();
+  const Eigen::MatrixXd information =
+      product(hessian, solve_symmetric_columns(covariance, hessian));
+  return scaled(0.5 * (information + information.transpose()), unit.cwiseInverse());
 }
 
 /// The information of points that several views measured.

@@ -4,10 +4,10 @@
 #include <array>
 #include <cmath>
 
-#include <Eigen/Cholesky>
-
+#include "frangia/core/matrix_products.h"
 #include "frangia/core/median.h"
 #include "frangia/core/parallel.h"
+#include "frangia/core/solve_symmetric.h"
 #include "frangia/geometry/robust_gauss_newton.h"
 #include "frangia/registration/internal/surfel_pair.h"
 #include "frangia/registration/internal/turntable_bundle.h"
@@ -174,14 +174,14 @@ void optimize_drift(DriftBundle& bundle, std::size_t surfels, int max_iterations
     at.hessian.diagonal().head(changes).array() += 1.0;
     at.hessian.diagonal().tail(table_information.size()) += table_information;
     at.gradient = weight * sums.gradient;
-    at.gradient.head(changes) += bundle.free_directions.transpose() * bundle.state.w;
+    at.gradient.head(changes) += transposed_product(bundle.free_directions, bundle.state.w);
     at.gradient.tail(table_information.size()) +=
         table_information.cwiseProduct(deviation(bundle.state.table, bundle.given));
     at.median_residual = static_cast<double>(median(std::move(sums.distances_mm)));
     return at;
   };
   const auto update = [&](const Eigen::VectorXd& step) {
-    bundle.state.w += bundle.free_directions * step.head(changes);
+    bundle.state.w += product(bundle.free_directions, step.head(changes));
     bundle.state.table = apply_update(bundle.state.table, step.tail(step.size() - changes));
   };
   const auto result = minimize_robustly(
@@ -203,13 +203,13 @@ DriftEvidence without_table(const DriftBundle& bundle,
   hessian.diagonal().tail(table) += prior;
   gradient.tail(table) += prior.cwiseProduct(deviation(bundle.state.table, bundle.given));
   const Eigen::MatrixXd across = hessian.topRightCorner(changes, table);
-  const auto of_table = hessian.bottomRightCorner(table, table).ldlt();
+  const Eigen::MatrixXd by_table =
+      solve_symmetric_columns(hessian.bottomRightCorner(table, table), across.transpose());
   const Eigen::MatrixXd& free = bundle.free_directions;
   return {
-      free *
-          (hessian.topLeftCorner(changes, changes) - across * of_table.solve(across.transpose())) *
-          free.transpose(),
-      free * (gradient.head(changes) - across * of_table.solve(gradient.tail(table)))};
+      congruence(free.transpose(),
+                 hessian.topLeftCorner(changes, changes) - product(across, by_table)),
+      product(free, gradient.head(changes) - transposed_product(by_table, gradient.tail(table)))};
 }
 
 }  // namespace
@@ -225,17 +225,16 @@ Eigen::MatrixXd information_of(const DriftBundle& bundle, const DriftSums& sums)
   // In units of the prior, so that one ridge suits all unknowns.
   Eigen::VectorXd unit = Eigen::VectorXd::Ones(changes + bundle.table_sigma.size());
   unit.tail(bundle.table_sigma.size()) = bundle.table_sigma;
-  const Eigen::MatrixXd hessian = weight * (unit.asDiagonal() * sums.hessian * unit.asDiagonal());
+  const Eigen::MatrixXd hessian = weight * scaled(sums.hessian, unit);
   const Eigen::MatrixXd pulls = weight * (unit.asDiagonal() * sums.region_gradients);
   const auto regions = static_cast<double>(pulls.cols());
   // The unknowns have been fitted to the same regions, and either view of a pair repeats an error.
   const double left = std::max(1.0, regions - static_cast<double>(hessian.rows()));
-  Eigen::MatrixXd covariance = hessian + 2.0 * regions / left * pulls * pulls.transpose();
+  Eigen::MatrixXd covariance = hessian + 2.0 * regions / left * product_transposed(pulls, pulls);
   covariance.diagonal().array() += 1e-9 * covariance.trace();
-  const Eigen::MatrixXd all = hessian * covariance.ldlt().solve(hessian);
-  const Eigen::VectorXd back = unit.cwiseInverse();
+  const Eigen::MatrixXd all = product(hessian, solve_symmetric_columns(covariance, hessian));
   return without_table(bundle,
-                       back.asDiagonal() * (0.5 * (all + all.transpose())) * back.asDiagonal(),
+                       scaled(0.5 * (all + all.transpose()), unit.cwiseInverse()),
                        Eigen::VectorXd::Zero(unit.size()))
       .hessian;
 }

@@ -5,9 +5,9 @@
 #include <variant>
 
 #include <Eigen/Geometry>
-#include <Eigen/LU>
-#include <Eigen/QR>
 
+#include "frangia/core/least_squares.h"
+#include "frangia/core/matrix_products.h"
 #include "frangia/core/symmetric_eigen.h"
 #include "frangia/range/fringe_ray.h"
 #include "frangia/rig/rig_covariance.h"
@@ -105,7 +105,7 @@ DriftModel::DriftModel(const Rig& given,
   pose.tail<3>().setConstant(options.relative_position_sigma * working_distance_mm);
   physical.bottomRightCorner<6, 6>() = pose_by_drift(given.projector) * pose.asDiagonal();
   if (widening.size() == count) physical *= widening.asDiagonal();
-  drift_ = physical * physical.transpose();
+  drift_ = product_transposed(physical, physical);
   if (!given.calibration || given.calibration->covariance.empty()) {
     factor_ = physical;
     return;
@@ -127,11 +127,11 @@ Eigen::MatrixXd DriftModel::by_motions_of_projector(double tilt_rad, double shif
   }
   Eigen::MatrixXd changes = Eigen::MatrixXd::Zero(factor_.rows(), 6);
   changes.bottomRows<6>() = pose_by_drift(projector) * own;
-  return factor_.colPivHouseholderQr().solve(changes);
+  return least_squares(factor_, changes);
 }
 
 Rig DriftModel::rig_at(const Eigen::VectorXd& w) const {
-  return change_parameters(given_, parameters_, factor_ * w);
+  return change_parameters(given_, parameters_, product(factor_, w));
 }
 
 RigCovariance DriftModel::updated(const Eigen::MatrixXd& information) const {
@@ -158,11 +158,10 @@ RigCovariance DriftModel::updated(const Eigen::MatrixXd& information) const {
     of_refined.row(static_cast<Eigen::Index>(i)) =
         all.covariance.row(static_cast<Eigen::Index>(index_of(all.parameters, parameters_[i])));
   }
-  const Eigen::MatrixXd gram = factor_.transpose() * factor_;
-  const Eigen::MatrixXd of_w = gram.fullPivLu().solve(factor_.transpose() * of_refined);
+  const Eigen::MatrixXd of_w = least_squares(factor_, of_refined);
   const Eigen::MatrixXd identity = Eigen::MatrixXd::Identity(this->count(), this->count());
-  const Eigen::MatrixXd gained = (identity + information).partialPivLu().solve(information);
-  all.covariance -= of_w.transpose() * gained * of_w;
+  const Eigen::MatrixXd gained = least_squares(identity + information, information);
+  all.covariance -= congruence(of_w, gained);
   all.covariance = (0.5 * (all.covariance + all.covariance.transpose())).eval();
   return all;
 }

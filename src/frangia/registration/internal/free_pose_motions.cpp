@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "frangia/core/matrix_products.h"
 #include "frangia/core/median.h"
 #include "frangia/core/symmetric_eigen.h"
 #include "frangia/registration/internal/turntable_bundle.h"
@@ -55,10 +56,10 @@ void remove_open(Eigen::MatrixXd& information) {
     for (Eigen::Index i = 0; i < 6 && eigen.values[i] < kOpenMotion * kOpenMotion; ++i) {
       Eigen::VectorXd open = Eigen::VectorXd::Zero(all.rows());
       open.segment<6>(at) = eigen.vectors.col(i);
-      const Eigen::VectorXd along = information * open;
+      const Eigen::VectorXd along = product(information, open);
       const double within = open.dot(along);
-      information +=
-          within * open * open.transpose() - along * open.transpose() - open * along.transpose();
+      const Eigen::MatrixXd across = product_transposed(along, open);
+      information += within * product_transposed(open, open) - across - across.transpose();
     }
   }
 }
@@ -84,14 +85,14 @@ ViewMotions motions_of_free_poses(const FreePoseBundle& bundle,
     to.block<6, 6>(at, at) =
         about_center(place_of(bundle.surfels[view], bundle.rig_from_world[view].inverse()));
   }
-  Eigen::MatrixXd information = to.transpose() * sums.hessian * to;
+  Eigen::MatrixXd information = congruence(to, sums.hessian);
   information = 0.5 * (information + information.transpose()).eval();
   remove_open(information);
   information *= counted / (excess * excess);
   information.diagonal().array() += 1.0 / (prior_mm * prior_mm);
   const auto eigen = symmetric_eigen(information);
   const Eigen::MatrixXd factor =
-      to * eigen.vectors *
+      product(to, eigen.vectors) *
       eigen.values.array().max(1e-12 * eigen.values[unknowns - 1]).rsqrt().matrix().asDiagonal();
   ViewMotions motions(1, Eigen::Matrix<double, 6, Eigen::Dynamic>::Zero(6, unknowns));
   for (Eigen::Index at = 0; at < unknowns; at += 6) {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 
+#include "frangia/core/matrix_products.h"
 #include "frangia/core/symmetric_eigen.h"
 #include "frangia/registration/register_views.h"
 
@@ -71,22 +72,21 @@ ViewMotions state_motions(const TableState& state,
                           const Eigen::VectorXd& offset) {
   Eigen::MatrixXd factor = prior_sigma.asDiagonal();
   if (information.size() > 0) {
-    const Eigen::MatrixXd gain = prior_sigma.asDiagonal() * information * prior_sigma.asDiagonal();
-    const auto eigen = symmetric_eigen(gain);
+    const auto eigen = symmetric_eigen(scaled(information, prior_sigma));
     const Eigen::VectorXd left = (1.0 + eigen.values.array().max(0.0)).rsqrt();
-    factor = (factor * eigen.vectors * left.asDiagonal()).eval();
+    factor = product(factor, eigen.vectors) * left.asDiagonal();
     // Where views overlap well, the offset is the error of the state that they fit best, and below
     // what they distinguish.
     constexpr double kWell = 400.0;  // information over that of the prior: 20 times less sigma
     const Eigen::VectorXd weak = (eigen.values.array() < kWell).cast<double>();
-    const Eigen::VectorXd towards =
-        factor * weak.cwiseProduct(factor.transpose() * (information * offset));
+    const Eigen::VectorXd towards = product(
+        factor, weak.cwiseProduct(transposed_product(factor, product(information, offset))));
     factor.conservativeResize(Eigen::NoChange, factor.cols() + 1);
     factor.rightCols<1>() = towards;
   }
   ViewMotions motions = motions_by_unknown(state);
   for (auto& motion : motions)
-    motion = (motion * factor).eval();
+    motion = product(motion, factor);
   return motions;
 }
 

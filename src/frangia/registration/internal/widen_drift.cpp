@@ -5,7 +5,8 @@
 #include <cmath>
 #include <utility>
 
-#include <Eigen/Cholesky>
+#include "frangia/core/cholesky.h"
+#include "frangia/core/matrix_products.h"
 
 namespace frangia {
 namespace {
@@ -19,11 +20,11 @@ constexpr double kStatementsHold = -6.9;
 
 /// Natural logarithm of the evidence of a prior of w, over that of no change at all.
 double log_evidence(const DriftEvidence& about_zero, const Eigen::MatrixXd& factor) {
-  Eigen::MatrixXd hessian = factor.transpose() * about_zero.hessian * factor;
+  Eigen::MatrixXd hessian = congruence(factor, about_zero.hessian);
   hessian.diagonal().array() += 1.0;
-  const Eigen::LLT<Eigen::MatrixXd> llt(hessian);
-  const Eigen::VectorXd gradient = factor.transpose() * about_zero.gradient;
-  return 0.5 * gradient.dot(llt.solve(gradient)) - llt.matrixLLT().diagonal().array().log().sum();
+  const Cholesky factors(hessian);
+  const Eigen::VectorXd gradient = transposed_product(factor, about_zero.gradient);
+  return 0.5 * (gradient.dot(factors.solve(gradient)) - factors.log_determinant());
 }
 
 }  // namespace
@@ -31,7 +32,8 @@ double log_evidence(const DriftEvidence& about_zero, const Eigen::MatrixXd& fact
 Eigen::VectorXd widening_by_evidence(const DriftHypotheses& hypotheses,
                                      const DriftEvidence& evidence,
                                      const Eigen::VectorXd& w) {
-  const DriftEvidence about_zero{evidence.hessian, evidence.gradient - evidence.hessian * w};
+  const DriftEvidence about_zero{evidence.hessian,
+                                 evidence.gradient - product(evidence.hessian, w)};
   const Eigen::VectorXd none = Eigen::VectorXd::Ones(hypotheses.parameters);
   std::vector<Eigen::VectorXd> widenings{none, kAllWider * none};
   const double rare =

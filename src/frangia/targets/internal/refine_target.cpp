@@ -5,7 +5,8 @@
 #include <cmath>
 #include <vector>
 
-#include <Eigen/Cholesky>
+#include "frangia/core/matrix_products.h"
+#include "frangia/core/solve_symmetric.h"
 
 namespace frangia {
 namespace {
@@ -188,7 +189,7 @@ std::vector<double> covered(const OutlineWindow& window,
 /// Residuals with the tones that fit best.
 struct Comparison {
   Eigen::VectorXd residual;
-  Eigen::Matrix<double, kTones, 1> tones = Eigen::Matrix<double, kTones, 1>::Zero();
+  Eigen::VectorXd tones = Eigen::VectorXd::Zero(kTones);
 };
 
 Comparison compare(const Eigen::VectorXd& counts,
@@ -196,18 +197,18 @@ Comparison compare(const Eigen::VectorXd& counts,
                    const TargetOutline& outline,
                    const Unknowns& at) {
   const std::vector<double> shares = covered(window, outline, at);
-  Eigen::Matrix<double, Eigen::Dynamic, kTones> terms(counts.size(), kTones);
+  Eigen::MatrixXd terms(counts.size(), kTones);
   for (Eigen::Index i = 0; i < counts.size(); ++i) {
     const std::size_t pixel = window.used[static_cast<std::size_t>(i)];
     const Eigen::Vector2d place = window.plane_mm[pixel] / outline.size_mm;
     const double share = shares[pixel];
     terms.row(i) << 1.0, share, place.x(), place.y(), share * place.x(), share * place.y();
   }
-  Eigen::Matrix<double, kTones, kTones> normal = terms.transpose() * terms;
+  Eigen::MatrixXd normal = transposed_product(terms, terms);
   normal.diagonal() *= 1.0 + 1e-9;
   Comparison out;
-  out.tones = normal.ldlt().solve(terms.transpose() * counts);
-  out.residual = counts - terms * out.tones;
+  out.tones = solve_symmetric(normal, transposed_product(terms, counts));
+  out.residual = counts - product(terms, out.tones);
   return out;
 }
 
@@ -272,15 +273,15 @@ std::optional<OutlineFit> refine_target(const Image<float>& counts,
                          compare(seen, *window, outline, less).residual) /
                         (2.0 * step);
     }
-    normal = jacobian.transpose() * jacobian;
-    const Eigen::VectorXd gradient = jacobian.transpose() * now.residual;
+    normal = transposed_product(jacobian, jacobian);
+    const Eigen::VectorXd gradient = transposed_product(jacobian, now.residual);
     for (int trial = 0; trial < 8; ++trial) {
       Eigen::MatrixXd damped = normal;
       damped.diagonal() *= 1.0 + damping;
       // The blur of an edge that is sharper than a pixel is not determined: it keeps its value.
       damped(3, 3) += 1e-6 * normal.diagonal().head(2).sum() * window->pixel_mm * window->pixel_mm;
       Unknowns next = at;
-      const Eigen::VectorXd step = damped.ldlt().solve(-gradient);
+      const Eigen::VectorXd step = solve_symmetric(damped, -gradient);
       next.head(free) += step;
       next[3] = std::clamp(next[3], std::log(0.1), std::log(3.0));
       const Comparison then = compare(seen, *window, outline, next);
@@ -304,7 +305,7 @@ std::optional<OutlineFit> refine_target(const Image<float>& counts,
   const double variance = now.residual.squaredNorm() / freedom;
   normal.diagonal() *= 1.0 + 1e-9;
   const Eigen::MatrixXd covariance =
-      variance * normal.ldlt().solve(Eigen::MatrixXd::Identity(free, free));
+      variance * solve_symmetric_columns(normal, Eigen::MatrixXd::Identity(free, free));
   fit.covariance_mm2 = covariance.topLeftCorner<2, 2>();
   fit.size_ratio = std::exp(at[2]);
   fit.blur_px = std::exp(at[3]);

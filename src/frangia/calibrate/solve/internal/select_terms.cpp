@@ -2,6 +2,7 @@
 
 #include <initializer_list>
 
+#include "frangia/core/matrix_products.h"
 #include "frangia/core/solve_symmetric.h"
 
 namespace frangia {
@@ -70,8 +71,8 @@ std::optional<std::size_t> best_term(std::span<const RigObservation> observation
                                      const RigParameters& parameters,
                                      double min_gain) {
   const RigLinearization full = linearize_rig(observations, freedom.layout, noise, parameters);
-  const Eigen::MatrixXd normal = full.jacobian.transpose() * full.jacobian;
-  const Eigen::VectorXd gradient = full.jacobian.transpose() * full.residuals;
+  const Eigen::MatrixXd normal = transposed_product(full.jacobian, full.jacobian);
+  const Eigen::VectorXd gradient = transposed_product(full.jacobian, full.residuals);
   const std::vector<Eigen::Index> active = free_columns(freedom, normal.cols());
   const Eigen::MatrixXd own = normal(active, active);
   const Eigen::VectorXd slope_of_own = gradient(active);
@@ -83,8 +84,8 @@ std::optional<std::size_t> best_term(std::span<const RigObservation> observation
     if (added.empty()) continue;
     const Eigen::MatrixXd coupling = normal(active, added);
     const Eigen::MatrixXd free =
-        normal(added, added) - coupling.transpose() * solve_symmetric_columns(own, coupling);
-    const Eigen::VectorXd slope = gradient(added) - coupling.transpose() * settled;
+        normal(added, added) - transposed_product(coupling, solve_symmetric_columns(own, coupling));
+    const Eigen::VectorXd slope = gradient(added) - transposed_product(coupling, settled);
     const double gain =
         slope.dot(solve_symmetric(free, slope)) - min_gain * static_cast<double>(added.size());
     if (gain > most) {
