@@ -1,5 +1,6 @@
 #include "frangia/registration/explain/internal/cause_motions.h"
 
+#include "frangia/core/matrix_products.h"
 #include "frangia/registration/explain/internal/moved_rig.h"
 #include "frangia/registration/explain/internal/time_profiles.h"
 
@@ -34,7 +35,7 @@ Eigen::MatrixXd of_rig(const Eigen::MatrixXd& functions,
                        const PoseSetting& setting,
                        Eigen::Index unknowns) {
   const Eigen::Index terms = setting.rig_changes;
-  const Eigen::MatrixXd shares = setting.rig_basis.transpose() * functions;
+  const Eigen::MatrixXd shares = transposed_product(setting.rig_basis, functions);
   const Eigen::Index first = unknowns - terms * shares.rows();
   Eigen::MatrixXd all = Eigen::MatrixXd::Zero(unknowns, terms * shares.cols());
   for (Eigen::Index row = 0; row < shares.rows(); ++row) {
@@ -125,8 +126,8 @@ Eigen::MatrixXd unit_motions(PoseCause cause,
     case PoseCause::TableMoved:
       return motions_in_rig(setting, from_on(at[0], setting.views), unknowns).leftCols<6>();
     case PoseCause::RigMoved:
-      return motions_in_rig(setting, from_on(at[0], setting.views), unknowns) *
-             motions_of_knock(static_cast<MovedRig>(profile));
+      return product(motions_in_rig(setting, from_on(at[0], setting.views), unknowns),
+                     motions_of_knock(static_cast<MovedRig>(profile)));
     case PoseCause::RigDrift: {
       // The rig may be as stated at the beginning, at the end or between: its mean change is half
       // of its drift.

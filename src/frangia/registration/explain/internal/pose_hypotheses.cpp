@@ -7,8 +7,8 @@
 #include <map>
 #include <utility>
 
-#include <Eigen/Cholesky>
-
+#include "frangia/core/cholesky.h"
+#include "frangia/core/matrix_products.h"
 #include "frangia/core/symmetric_eigen.h"
 #include "frangia/registration/explain/internal/cause_motions.h"
 #include "frangia/registration/explain/internal/moved_rig.h"
@@ -194,13 +194,12 @@ std::pair<std::size_t, double> most_displaced(const NormalEquations& of_views,
 /// Reduces equations to what is left once a view moves by itself, with a prior of 1.
 void explain_view(NormalEquations& of_views, std::size_t view) {
   const auto at = static_cast<Eigen::Index>(6 * view);
-  Matrix6 own = of_views.hessian.block<6, 6>(at, at);
+  Eigen::MatrixXd own = of_views.hessian.block<6, 6>(at, at);
   own.diagonal().array() += 1.0;
   const Eigen::MatrixXd across = of_views.hessian.middleCols<6>(at);
-  const Eigen::LLT<Matrix6> llt(own);
-  const Eigen::Matrix<double, 6, 1> gradient = of_views.gradient.segment<6>(at);
-  of_views.gradient -= across * llt.solve(gradient);
-  of_views.hessian -= across * llt.solve(across.transpose());
+  const Cholesky factors(own);
+  of_views.gradient -= product(across, factors.solve(of_views.gradient.segment<6>(at)));
+  of_views.hessian -= product(across, factors.solve_columns(across.transpose()));
 }
 
 void add_part(CauseScores& scores, const PartEquations& part, double distance_mm) {

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "frangia/core/angles.h"
+#include "frangia/core/matrix_products.h"
 #include "frangia/core/median.h"
 #include "frangia/core/symmetric_eigen.h"
 #include "frangia/geometry/robust_gauss_newton.h"
@@ -66,8 +67,7 @@ void hold_open_motions(Linearization& at,
   const double pairs = sums.weight_of(view);
   const Eigen::Matrix<double, 6, 6> by = motions_of_part(setting);
   const auto first = static_cast<Eigen::Index>(6 * view);
-  const Eigen::MatrixXd own = by.transpose() * data.block<6, 6>(first, first) * by;
-  const auto eigen = symmetric_eigen(own);
+  const auto eigen = symmetric_eigen(congruence(by, data.block<6, 6>(first, first)));
   const Eigen::Matrix<double, 6, 6> from = by.inverse();
   for (Eigen::Index i = 0; i < 6; ++i) {
     if (eigen.values[i] > kOpenMotion * kOpenMotion * pairs) continue;
@@ -162,8 +162,8 @@ PoseChart make_chart(const Bundle& bundle,
       (bundle.prior_sigma.cwiseAbs2() - chart.table_sigma.cwiseAbs2()).cwiseMax(0.0).cwiseSqrt();
   if (beyond.maxCoeff() > 0.0) setting.beyond_stated = stacked(motions, beyond);
   chart.table = stacked(motions, chart.table_sigma);
-  chart.stated =
-      stacked(motions, Eigen::VectorXd::Ones(state.unknowns())) * deviation(state, bundle.given);
+  chart.stated = product(stacked(motions, Eigen::VectorXd::Ones(state.unknowns())),
+                         deviation(state, bundle.given));
   return chart;
 }
 
@@ -234,7 +234,7 @@ PairNoise noise_after(const Bundle& bundle,
 }
 
 NormalEquations from_stated(NormalEquations data, const Eigen::VectorXd& at) {
-  data.gradient -= data.hessian * at;
+  data.gradient -= product(data.hessian, at);
   return data;
 }
 

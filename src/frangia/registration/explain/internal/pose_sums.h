@@ -7,6 +7,7 @@
 
 #include <Eigen/Geometry>
 
+#include "frangia/core/matrix_products.h"
 #include "frangia/registration/internal/drift_model.h"
 #include "frangia/registration/internal/optimize_bundle.h"
 
@@ -30,7 +31,7 @@ struct RigChanges {
 [[nodiscard]] inline Eigen::MatrixXd changes_of_views(const Eigen::VectorXd& of_rig,
                                                       const Eigen::MatrixXd& basis) {
   const Eigen::Index terms = of_rig.size() / basis.cols();
-  return of_rig.reshaped(terms, basis.cols()) * basis.transpose();
+  return product_transposed(of_rig.reshaped(terms, basis.cols()), basis);
 }
 
 /// Views in free poses.

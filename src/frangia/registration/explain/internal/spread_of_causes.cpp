@@ -4,7 +4,8 @@
 #include <cmath>
 #include <utility>
 
-#include <Eigen/Cholesky>
+#include "frangia/core/matrix_products.h"
+#include "frangia/core/solve_symmetric.h"
 
 namespace frangia {
 namespace {
@@ -18,24 +19,25 @@ Rows6 rigid_part(const RigChanges& rig,
   constexpr std::size_t kSome = 300;  // surfels that represent the view
   constexpr double kAlong = 0.01;     // weight of motions along the surface
   const std::size_t step = surfels.size() / kSome + 1;
-  Eigen::Matrix<double, 6, 6> squares = Eigen::Matrix<double, 6, 6>::Zero();
+  Eigen::MatrixXd squares = Eigen::MatrixXd::Zero(6, 6);
   Rows6 products = Rows6::Zero(6, rig.count);
   for (std::size_t i = 0; i < surfels.size(); i += step) {
     const Eigen::Vector3d seen = surfels[i].point_mm.cast<double>();
     const Eigen::Vector3d point = object_from_rig * seen;
     const Eigen::Vector3d normal = object_from_rig.linear() * surfels[i].normal.cast<double>();
     const Eigen::MatrixXd moved =
-        object_from_rig.linear() * rig.drift.of(seen, rig.pattern).cast<double>();
+        product(object_from_rig.linear(), rig.drift.of(seen, rig.pattern).cast<double>());
     Eigen::Matrix<double, 3, 6> by;
     by << 0.0, point.z(), -point.y(), 1.0, 0.0, 0.0, -point.z(), 0.0, point.x(), 0.0, 1.0, 0.0,
         point.y(), -point.x(), 0.0, 0.0, 0.0, 1.0;
     const Eigen::Matrix3d weight =
         normal * normal.transpose() + kAlong * Eigen::Matrix3d::Identity();
-    squares += by.transpose() * weight * by;
-    products += by.transpose() * weight * moved;
+    const Eigen::MatrixXd weighted = weight * by;
+    squares += transposed_product(weighted, by);
+    products += transposed_product(weighted, moved);
   }
   if (!(squares(5, 5) > 0.0)) return products;
-  return squares.ldlt().solve(products);
+  return solve_symmetric_columns(squares, products);
 }
 
 /// Motions of the views alone that are nearest to motions of views and rig.
@@ -59,7 +61,7 @@ class ViewsAlone {
         changes += basis_(static_cast<Eigen::Index>(view), i) *
                    motions.middleRows(views + count * i, count);
       }
-      all.middleRows(static_cast<Eigen::Index>(6 * view), 6) += by_rig_[view] * changes;
+      all.middleRows(static_cast<Eigen::Index>(6 * view), 6) += product(by_rig_[view], changes);
     }
     return all;
   }
@@ -199,13 +201,13 @@ RigCovariance open_rig(const PoseRound& scored,
     const double least_mm = wins ? noticeable_mm(scored) : scored.noise.shared_mm;
     if (scored.effect_mm(found.motion - scored.stated()) < least_mm) continue;
     const Eigen::MatrixXd open = mean_of_views(found.factor);
-    covariance += share * open * open.transpose();
+    covariance += share * product_transposed(open, open);
     if (applied == cause.cause) continue;
     const Eigen::VectorXd change = mean_of_views(found.motion);
-    covariance += share * change * change.transpose();
+    covariance += share * product_transposed(change, change);
   }
   if (covariance.isZero()) return {};
-  return {model.parameters(), model.factor() * covariance * model.factor().transpose()};
+  return {model.parameters(), congruence(model.factor().transpose(), covariance)};
 }
 
 }  // namespace frangia

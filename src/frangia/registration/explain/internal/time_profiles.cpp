@@ -5,8 +5,7 @@
 #include <cmath>
 #include <numeric>
 
-#include <Eigen/SVD>
-
+#include "frangia/core/least_squares.h"
 #include "frangia/core/missing.h"
 
 namespace frangia {
@@ -87,7 +86,7 @@ Eigen::MatrixXd basis_of_profiles(std::span<const double> times) {
     all.middleCols(next, functions.cols()) = functions;
     next += functions.cols();
   }
-  return all.jacobiSvd(Eigen::ComputeThinU).matrixU();
+  return orthonormal_basis(all);
 }
 
 }  // namespace frangia
