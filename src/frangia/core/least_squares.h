@@ -13,7 +13,20 @@ namespace frangia {
 [[nodiscard]] Eigen::MatrixXd least_squares(const Eigen::MatrixXd& matrix,
                                             const Eigen::MatrixXd& right);
 
-/// Orthonormal columns that span those of a matrix.
+/// The space of a matrix's columns.
+struct ColumnSpace {
+  Eigen::MatrixXd span;  ///< orthonormal columns that span it
+  Eigen::MatrixXd rest;  ///< those of what is orthogonal to it
+};
+
+/// Splits all vectors into those that the columns of a matrix span and the others.
+///
+/// @shape    m x n; together the result has m columns of m rows
+/// @source   Householder QR of Eigen with column pivoting: pivots below `threshold` of the largest
+///           span nothing
+[[nodiscard]] ColumnSpace column_space(const Eigen::MatrixXd& matrix, double threshold);
+
+/// Orthonormal columns that span those of a matrix, or more where it has not full rank.
 ///
 /// @shape    m x n with m >= n; the result is m x n
 /// @source   Householder QR of Eigen

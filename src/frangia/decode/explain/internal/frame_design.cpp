@@ -2,9 +2,11 @@
 
 #include <cmath>
 #include <cstddef>
+#include <utility>
 
-#include <Eigen/Cholesky>
-#include <Eigen/QR>
+#include "frangia/core/least_squares.h"
+#include "frangia/core/matrix_products.h"
+#include "frangia/core/solve_symmetric.h"
 
 namespace frangia {
 
@@ -20,31 +22,29 @@ FrameDesign design_of(const FrameHypothesis& hypothesis) {
     out.design.row(row).head<3>() << 1.0, std::cos(shift), -std::sin(shift);
     out.design.row(row) *= hypothesis.gains[k];
   }
-  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(out.design);
   constexpr double kSingular = 1e-6;  // of the largest pivot: shifts that differ by less are equal
-  qr.setThreshold(kSingular);
-  const Eigen::Index rank = qr.rank();
-  const Eigen::MatrixXd basis = qr.householderQ() * Eigen::MatrixXd::Identity(rows, rows);
-  out.span = basis.leftCols(rank);
-  out.rest = basis.rightCols(rows - rank);
-  if (rank < out.design.cols()) return out;
-  out.inverse = (out.design.transpose() * out.design).ldlt().solve(out.design.transpose());
+  ColumnSpace space = column_space(out.design, kSingular);
+  out.span = std::move(space.span);
+  out.rest = std::move(space.rest);
+  if (out.span.cols() < out.design.cols()) return out;
+  out.inverse =
+      solve_symmetric_columns(transposed_product(out.design, out.design), out.design.transpose());
   return out;
 }
 
 Eigen::MatrixXd explained_space(const FrameHypothesis& hypothesis) {
   const FrameDesign design = design_of(hypothesis);
   const Eigen::Index frames = std::ssize(hypothesis.shifts_rad);
-  Eigen::MatrixXd shown = design.span * design.span.transpose();
+  Eigen::MatrixXd shown = product_transposed(design.span, design.span);
   if (hypothesis.lamp_on) {
     Eigen::VectorXd lamp(shown.rows());
     for (Eigen::Index row = 0; row < lamp.size(); ++row) {
       const auto k = static_cast<std::size_t>(design.shown[static_cast<std::size_t>(row)]);
       lamp(row) = is_lit_by_lamp(hypothesis, k) ? 1.0 : 0.0;
     }
-    lamp -= shown * lamp;
+    lamp -= product(shown, lamp);
     constexpr double kNone = 1e-6;  // the lamp is part of the fringes
-    if (lamp.norm() > kNone) shown += lamp.normalized() * lamp.normalized().transpose();
+    if (lamp.norm() > kNone) shown += product_transposed(lamp.normalized(), lamp.normalized());
   }
   Eigen::MatrixXd out = Eigen::MatrixXd::Zero(frames, frames);
   for (std::size_t row = 0; row < design.shown.size(); ++row) {

@@ -6,9 +6,10 @@
 #include <cstddef>
 #include <limits>
 
-#include <Eigen/Cholesky>
-
 #include "frangia/core/angles.h"
+#include "frangia/core/cholesky.h"
+#include "frangia/core/matrix_products.h"
+#include "frangia/core/solve_symmetric.h"
 #include "frangia/decode/explain/internal/frame_design.h"
 #include "frangia/decode/explain/internal/frame_priors.h"
 
@@ -53,18 +54,19 @@ class FrameFit {
     shown_.resize(pixels_, std::ssize(design_.shown));
     for (std::size_t i = 0; i < design_.shown.size(); ++i)
       shown_.col(static_cast<Eigen::Index>(i)) = sample.counts.col(design_.shown[i]).matrix();
-    rest_ = shown_ * design_.rest;
+    rest_ = product(shown_, design_.rest);
     shown_scale_ = shown_.rowwise().maxCoeff().array().max(1.0);
     // The slopes of the fitted fringes have less noise than those of a frame.
     if (hypothesis.moves_part) {
       const auto of_fringes = [&](const Eigen::ArrayXXd& slopes) -> Eigen::MatrixXd {
-        return slopes(Eigen::all, design_.shown).matrix() * design_.span * design_.span.transpose();
+        return product(slopes(Eigen::all, design_.shown).matrix(),
+                       product_transposed(design_.span, design_.span));
       };
       slope_x_ = of_fringes(sample.slope_x);
       slope_y_ = of_fringes(sample.slope_y);
     }
     if (design_.inverse.size() > 0) {
-      values_ = shown_ * design_.inverse.transpose();
+      values_ = product_transposed(shown_, design_.inverse);
       modulation_ = (values_.col(1).array().square() + values_.col(2).array().square()).sqrt();
       modulation_ = modulation_.min(sample.scale_counts).max(sample.variance.sqrt());
     } else {
@@ -149,9 +151,9 @@ class FrameFit {
   /// each other would lower it, and so raise the density of the same residuals.
   void refine_values(const Eigen::VectorXd& found, const std::vector<Eigen::MatrixXd>& effects) {
     for (Eigen::Index i = 0; i < pixels_; ++i) {
-      values_.row(i) = (design_.inverse *
-                        (shown_.row(i).transpose() - effects[static_cast<std::size_t>(i)] * found))
-                           .transpose();
+      const Eigen::VectorXd without =
+          shown_.row(i).transpose() - product(effects[static_cast<std::size_t>(i)], found);
+      values_.row(i) = product(design_.inverse, without).transpose();
     }
   }
 
@@ -165,8 +167,8 @@ class FrameFit {
         cosine(i) = hypothesis_.gains[k] * std::cos(order * hypothesis_.shifts_rad[k]);
         sine(i) = hypothesis_.gains[k] * std::sin(order * hypothesis_.shifts_rad[k]);
       }
-      const double visible = (design_.rest.transpose() * cosine).squaredNorm() +
-                             (design_.rest.transpose() * sine).squaredNorm();
+      const double visible = transposed_product(design_.rest, cosine).squaredNorm() +
+                             transposed_product(design_.rest, sine).squaredNorm();
       if (visible > kVisible) waves_.push_back(order);
     }
   }
@@ -182,7 +184,7 @@ class FrameFit {
     const auto find_rows = [&] {
       for (std::size_t i = 0; i < rows.size(); ++i) {
         add_nuisances(static_cast<Eigen::Index>(i), effects[i]);
-        rows[i].noalias() = design_.rest.transpose() * effects[i];
+        rows[i] = transposed_product(design_.rest, effects[i]);
       }
     };
     find_rows();
@@ -200,14 +202,15 @@ class FrameFit {
             residual_.row(i).squaredNorm() / (static_cast<double>(freedom) * variance_(i));
         const double weight = std::min(1.0, kLimit / std::max(over, 1e-9)) / variance_(i);
         normal.selfadjointView<Eigen::Lower>().rankUpdate(row.transpose(), weight);
-        right.noalias() += weight * row.transpose() * rest_.row(i).transpose();
+        right += weight * transposed_product(row, rest_.row(i).transpose());
       }
       normal = Eigen::MatrixXd(normal.selfadjointView<Eigen::Lower>());
       Eigen::MatrixXd with_prior = normal;
       with_prior.diagonal().array() += 1.0;
-      found = with_prior.ldlt().solve(right);
+      found = solve_symmetric(with_prior, right);
       for (Eigen::Index i = 0; i < pixels_; ++i) {
-        residual_.row(i) = rest_.row(i) - (rows[static_cast<std::size_t>(i)] * found).transpose();
+        residual_.row(i) =
+            rest_.row(i) - product(rows[static_cast<std::size_t>(i)], found).transpose();
       }
       relative = excess_over_modulation(relative);
       if (round + 1 == kRounds) break;
@@ -353,14 +356,11 @@ class FrameFit {
 }  // namespace
 
 double FrameScore::log_evidence(double share) const {
-  double out = share * log_density - nuisance_price;
+  const double out = share * log_density - nuisance_price;
   if (nuisances.size() == 0) return out;
   Eigen::MatrixXd scaled = share * nuisances;
   scaled.diagonal().array() += 1.0;
-  const Eigen::LLT<Eigen::MatrixXd> factor(scaled);
-  for (Eigen::Index i = 0; i < scaled.rows(); ++i)
-    out -= std::log(factor.matrixLLT()(i, i));
-  return out;
+  return out - 0.5 * Cholesky(scaled).log_determinant();
 }
 
 FrameScore score_frames(const FrameSample& sample, const FrameHypothesis& hypothesis) {
@@ -382,7 +382,7 @@ double rough_score(const Eigen::MatrixXd& moments,
   const Eigen::Index freedom = design.rest.cols();
   if (freedom == 0) return out;
   const Eigen::MatrixXd shown = moments(design.shown, design.shown);
-  const double left = (design.rest.transpose() * shown * design.rest).trace();
+  const double left = congruence(design.rest, shown).trace();
   const auto count = static_cast<double>(freedom);
   return out - 0.5 * count * std::log(left / count + noise);
 }
