@@ -6,10 +6,10 @@
 #include <complex>
 #include <cstddef>
 
-#include <Eigen/Cholesky>
 #include <Eigen/Core>
 
 #include "frangia/core/angles.h"
+#include "frangia/core/solve_symmetric.h"
 
 namespace frangia {
 namespace {
@@ -50,7 +50,7 @@ double contrast_residuals(std::span<const AlbedoSample> samples, std::size_t m, 
       normal += weight * row * row.transpose();
       right += weight * y * row;
     }
-    found = normal.ldlt().solve(right);
+    found = solve_symmetric(normal, right);
     // Neither is negative.
     if (found.y() < 0.0) found = {right.x() / normal(0, 0), 0.0};
   }

@@ -2,7 +2,7 @@
 
 #include <variant>
 
-#include <Eigen/Cholesky>
+#include "frangia/core/solve_symmetric.h"
 
 namespace frangia {
 namespace {
@@ -23,9 +23,8 @@ Eigen::Vector3d crossing_of_axes(const Rig& rig) {
   const Eigen::Vector3d light = rig.projector.rotation.transpose() * forward;
   Eigen::Matrix<double, 3, 2> directions;
   directions << camera, -light;
-  const Eigen::Vector2d distances = (directions.transpose() * directions)
-                                        .ldlt()
-                                        .solve(directions.transpose() * rig.projector.position_mm);
+  const Eigen::Vector2d distances = solve_symmetric(
+      directions.transpose() * directions, directions.transpose() * rig.projector.position_mm);
   return 0.5 * (distances[0] * camera + rig.projector.position_mm + distances[1] * light);
 }
 

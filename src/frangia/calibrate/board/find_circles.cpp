@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <opencv2/calib3d.hpp>
 #include <opencv2/core.hpp>
@@ -11,6 +10,7 @@
 
 #include "frangia/calibrate/board/internal/even_light.h"
 #include "frangia/calibrate/board/internal/opencv_image.h"
+#include "frangia/core/solve_symmetric.h"
 
 namespace frangia {
 namespace {
@@ -66,7 +66,7 @@ cv::Point2f refine_circle(const cv::Mat& counts,
       target -= line * line * terms;
     }
   }
-  const Coefficients conic = normal.ldlt().solve(target);
+  const Coefficients conic = solve_symmetric(normal, target);
   const Eigen::Vector2d shift = 0.5 * size_px * conic.tail<2>();
   constexpr double kFarthest = 0.1;  // steps
   if (!((circles_by_px * shift).norm() < kFarthest)) return center;

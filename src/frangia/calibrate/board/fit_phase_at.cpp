@@ -4,9 +4,8 @@
 #include <cmath>
 #include <vector>
 
-#include <Eigen/Cholesky>
-
 #include "frangia/core/median.h"
+#include "frangia/core/solve_symmetric.h"
 
 namespace frangia {
 namespace {
@@ -88,10 +87,10 @@ PhaseAt fit_phase_at(const Image<float>& phase_rad,
       used += trust;
     }
     if (used < options.min_pixels) return {};
-    fitted = normal.ldlt().solve(right);
+    fitted = solve_symmetric(normal, right);
     gate = std::max(kTukey * median(residuals), kTukey * 0.5);
   }
-  const double variance = normal.ldlt().solve(Terms::Unit(0))[0];
+  const double variance = solve_symmetric(normal, Terms::Unit(0))[0];
   const double excess = std::max(1.0, left_over / std::max(1.0, used - kTerms));
   if (!(variance > 0.0) || !std::isfinite(fitted[0])) return {};
   return {fitted[0],

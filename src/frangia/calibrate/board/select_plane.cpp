@@ -4,10 +4,9 @@
 #include <cmath>
 #include <limits>
 
-#include <Eigen/Cholesky>
-
 #include "frangia/core/error.h"
 #include "frangia/core/random.h"
+#include "frangia/core/solve_symmetric.h"
 
 namespace frangia {
 namespace {
@@ -36,7 +35,7 @@ PlaneTerms fit_terms(std::span<const Eigen::Vector2d> rays,
     normal += terms * terms.transpose();
     right += light[i] * terms;
   }
-  return normal.ldlt().solve(right);
+  return solve_symmetric(normal, right);
 }
 
 }  // namespace

@@ -3,9 +3,9 @@
 #include <cmath>
 #include <optional>
 
-#include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 
+#include "frangia/core/solve_symmetric.h"
 #include "frangia/core/symmetric_eigen.h"
 
 namespace frangia {
@@ -48,7 +48,7 @@ std::optional<Shape> sphere_of(const PatchMoments& sums, Span3 points) {
   // Nearest point to all normal lines.
   const Matrix3d across = Matrix3d::Identity() - sums.normals;
   const Vector3d right = -sums.heights;
-  const Vector3d center = across.ldlt().solve(right);
+  const Vector3d center = solve_symmetric(across, right);
   if (!center.allFinite()) return std::nullopt;
   Shape shape{ShapeKind::Sphere};
   shape.center_mm = sums.mean + center;
@@ -89,7 +89,7 @@ std::optional<Shape> cylinder_of(const PatchMoments& sums, Span3 points, Span3 n
     right += across * p;
   }
   left += left.trace() * shape.axis * shape.axis.transpose();
-  const Vector3d center = left.ldlt().solve(right);
+  const Vector3d center = solve_symmetric(left, right);
   if (!center.allFinite()) return std::nullopt;
   shape.center_mm = sums.mean + center;
   const Profile profile = profile_of(shape, points);
@@ -103,7 +103,7 @@ std::optional<Shape> cone_of(const PatchMoments& sums, Span3 points) {
   Shape shape{ShapeKind::Cone};
   shape.axis = symmetric_eigen(spread).vectors.col(0);
   // All tangent planes contain the apex.
-  const Vector3d apex = sums.normals.ldlt().solve(sums.heights);
+  const Vector3d apex = solve_symmetric(sums.normals, sums.heights);
   if (!apex.allFinite()) return std::nullopt;
   if (shape.axis.dot(apex) > 0.0) shape.axis = -shape.axis;  // grows along the axis
   shape.center_mm = sums.mean + apex - apex.dot(shape.axis) * shape.axis;
@@ -122,11 +122,11 @@ std::optional<Shape> cone_of(const PatchMoments& sums, Span3 points) {
 std::optional<Shape> torus_of(const PatchMoments& sums, Span3 points) {
   // The normals of a surface of revolution intersect its axis: n . b + m . a = 0 for the axis'
   // direction a and moment b. Eliminating b leaves a quadratic form in a.
-  const auto normals = sums.normals.ldlt();
-  const Matrix3d form = sums.moments - sums.mixed.transpose() * normals.solve(sums.mixed);
+  const Matrix3d by_direction = solve_symmetric_columns(sums.normals, sums.mixed);
+  const Matrix3d form = sums.moments - sums.mixed.transpose() * by_direction;
   Shape shape{ShapeKind::Torus};
   shape.axis = symmetric_eigen(form).vectors.col(0);
-  const Vector3d moment = -normals.solve(sums.mixed * shape.axis);
+  const Vector3d moment = -by_direction * shape.axis;
   if (!moment.allFinite()) return std::nullopt;
   shape.center_mm = sums.mean + shape.axis.cross(moment);
   // A circle through the profile, by algebraic least squares.
@@ -138,7 +138,7 @@ std::optional<Shape> torus_of(const PatchMoments& sums, Span3 points) {
     left += row * row.transpose();
     right += row * (row.x() * row.x() + row.y() * row.y());
   }
-  const Vector3d circle = left.ldlt().solve(right);
+  const Vector3d circle = solve_symmetric(left, right);
   const double squared = circle.z() + 0.25 * circle.head<2>().squaredNorm();
   if (!circle.allFinite() || !(squared > 0.0) || !(circle.x() > 0.0)) return std::nullopt;
   shape.radius_mm = 0.5 * circle.x();

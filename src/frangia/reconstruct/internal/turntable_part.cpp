@@ -4,10 +4,10 @@
 #include <cmath>
 #include <cstddef>
 
-#include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 
 #include "frangia/core/interruptible_chunks.h"
+#include "frangia/core/solve_symmetric.h"
 #include "frangia/geometry/vertex_data.h"
 #include "frangia/uncertainty/combined_sigma.h"
 
@@ -79,7 +79,7 @@ Motion rigid_part(const Mesh& mesh,
     products += square * mean_motion(motions, weights, column);
   }
   if (!(squares(5, 5) > 0.0)) return Motion::Zero(6, motions.front().cols());
-  return squares.ldlt().solve(products);
+  return solve_symmetric_columns(squares, products);
 }
 
 std::vector<float> parts_of(const Mesh& mesh,

@@ -5,10 +5,10 @@
 #include <cstddef>
 #include <vector>
 
-#include <Eigen/Cholesky>
 #include <Eigen/Core>
 
 #include "frangia/core/angles.h"
+#include "frangia/core/solve_symmetric.h"
 
 namespace frangia {
 namespace {
@@ -48,11 +48,11 @@ double phase_ripple(std::span<const float> phases_rad, std::span<const double> e
       one->right += error * row;
     }
   }
-  const RippleVector found = all.normal.ldlt().solve(all.right);
+  const RippleVector found = solve_symmetric(all.normal, all.right);
   RippleVector variance = RippleVector::Zero();  // jackknife
   for (const RippleEquations& block : blocks) {
     const RippleVector without =
-        RippleMatrix(all.normal - block.normal).ldlt().solve(RippleVector(all.right - block.right));
+        solve_symmetric(all.normal - block.normal, all.right - block.right);
     variance += (without - found).cwiseAbs2();
   }
   constexpr auto kCount = static_cast<double>(kRippleBlocks);

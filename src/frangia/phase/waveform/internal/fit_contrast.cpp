@@ -12,6 +12,7 @@
 #include <Eigen/Core>
 
 #include "frangia/core/angles.h"
+#include "frangia/core/solve_symmetric.h"
 #include "frangia/phase/algorithm/phase_algorithm.h"
 
 namespace frangia {
@@ -54,11 +55,10 @@ MeanRipple fit_mean_ripple(const FringeBins& bins, int multiple) {
     all_normal += normal;
     all_right += right;
   }
-  const Eigen::Vector2d found = all_normal.ldlt().solve(all_right);
+  const Eigen::Vector2d found = solve_symmetric(all_normal, all_right);
   double variance = 0.0;
   for (const auto& [normal, right] : tiles) {
-    const Eigen::Vector2d without =
-        Eigen::Matrix2d(all_normal - normal).ldlt().solve(Eigen::Vector2d(all_right - right));
+    const Eigen::Vector2d without = solve_symmetric(all_normal - normal, all_right - right);
     variance += 0.5 * (without - found).squaredNorm();
   }
   const auto count = static_cast<double>(std::max<std::size_t>(tiles.size(), 2));
@@ -227,8 +227,7 @@ TileEquations sum_of(const std::vector<TileEquations>& tiles) {
 Vector4 jackknife_variance(const std::vector<TileEquations>& tiles, const TileEquations& all) {
   Vector4 variance = Vector4::Zero();
   for (const TileEquations& tile : tiles) {
-    const Vector4 without =
-        Matrix4(all.normal - tile.normal).ldlt().solve(Vector4(all.right - tile.right));
+    const Vector4 without = solve_symmetric(all.normal - tile.normal, all.right - tile.right);
     variance += without.cwiseAbs2();
   }
   const auto count = static_cast<double>(tiles.size());
