@@ -26,5 +26,24 @@ TEST(LeastSquares, SetsWhatIsNotDeterminedToZero) {
   EXPECT_EQ(found(1), 0.0);
 }
 
+TEST(LeastSquares, SplitsASpaceByTheRankOfTheColumns) {
+  // The third column is the sum of the others.
+  const Eigen::MatrixXd matrix{{1.0, 0.0, 1.0}, {1.0, 1.0, 2.0}, {0.0, 2.0, 2.0}, {0.0, 0.0, 0.0}};
+  const ColumnSpace space = column_space(matrix, 1e-6);
+  ASSERT_EQ(space.span.cols(), 2);
+  ASSERT_EQ(space.rest.cols(), 2);
+  Eigen::MatrixXd all(4, 4);
+  all << space.span, space.rest;
+  EXPECT_LT((all.transpose() * all - Eigen::MatrixXd::Identity(4, 4)).norm(), 1e-12);
+  EXPECT_LT((space.rest.transpose() * matrix).norm(), 1e-12);
+}
+
+TEST(LeastSquares, SpansTheColumnsByOrthonormalOnes) {
+  const Eigen::MatrixXd matrix{{1.0, 0.0}, {1.0, 1.0}, {0.0, 2.0}};
+  const Eigen::MatrixXd basis = orthonormal_basis(matrix);
+  EXPECT_LT((basis.transpose() * basis - Eigen::MatrixXd::Identity(2, 2)).norm(), 1e-12);
+  EXPECT_LT((basis * (basis.transpose() * matrix) - matrix).norm(), 1e-12);
+}
+
 }  // namespace
 }  // namespace frangia

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "frangia/core/error.h"
+#include "frangia/core/rigid_motion.h"
 #include "frangia/core/student_95.h"
 #include "frangia/core/symmetric_eigen.h"
 
@@ -103,7 +104,7 @@ PointAlignment align_to_points(std::span<const PointPair> pairs) {
   }
   check_pairs(scan, reference);
   PointAlignment found;
-  found.reference_from_mesh = Eigen::Isometry3d(Eigen::umeyama(scan, reference, false));
+  found.reference_from_mesh = rigid_motion(scan, reference);
   std::size_t worst = 0;
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     found.distances_mm.push_back(

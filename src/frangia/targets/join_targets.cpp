@@ -2,8 +2,8 @@
 #include <cmath>
 
 #include <Eigen/Geometry>
-#include <Eigen/SVD>
 
+#include "frangia/core/rigid_motion.h"
 #include "frangia/targets/match_targets.h"
 
 namespace frangia {
@@ -91,7 +91,7 @@ class TargetJoiner {
       source.col(i) = from_[pairs[static_cast<std::size_t>(i)].from].center_mm;
       target.col(i) = to_[pairs[static_cast<std::size_t>(i)].to].center_mm;
     }
-    return Eigen::Isometry3d(Eigen::umeyama(source, target, false));
+    return rigid_motion(source, target);
   }
 
   /// The targets that a motion brings together, each with the nearest that is left.

@@ -3,9 +3,9 @@
 #include <array>
 #include <cmath>
 
-#include <Eigen/QR>
-
 #include "frangia/core/angles.h"
+#include "frangia/core/least_squares.h"
+#include "frangia/core/matrix_products.h"
 
 namespace frangia {
 namespace {
@@ -39,7 +39,7 @@ double scatter_of(DisplayProbe& probe, const LitPixels& lit, double exposure_ms)
     line.row(row) << 1.0, static_cast<double>(row);
     light(row) = mean;
   }
-  const Eigen::VectorXd left = light - line * line.householderQr().solve(light);
+  const Eigen::VectorXd left = light - product(line, least_squares(line, light).col(0));
   return left.norm() / std::sqrt(static_cast<double>(kFrames - 2));
 }
 

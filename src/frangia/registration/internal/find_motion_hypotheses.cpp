@@ -7,9 +7,10 @@
 #include <iterator>
 #include <numeric>
 
-#include <Eigen/Dense>
+#include <Eigen/Geometry>
 
 #include "frangia/core/parallel.h"
+#include "frangia/core/rigid_motion.h"
 
 namespace frangia {
 namespace {
@@ -119,8 +120,6 @@ std::vector<std::size_t> consensus_of(std::size_t seed, const CompatibilityGraph
 
 /// Least-squares motion of matched points and normals. A normal counts as a point at a distance of
 /// `arm_mm` from the centroid.
-///
-/// @source   Kabsch 1976
 Eigen::Isometry3d fit_motion(const Pairs& pairs,
                              const std::vector<std::size_t>& which,
                              float arm_mm) {
@@ -137,12 +136,8 @@ Eigen::Isometry3d fit_motion(const Pairs& pairs,
     spread += (pairs[i].to - to) * (pairs[i].from - from).transpose();
     spread += arm_mm * arm_mm * pairs[i].to_normal * pairs[i].from_normal.transpose();
   }
-  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(spread.cast<double>(),
-                                              Eigen::ComputeFullU | Eigen::ComputeFullV);
-  Eigen::Vector3d signs(1.0, 1.0, 1.0);
-  if ((svd.matrixU() * svd.matrixV().transpose()).determinant() < 0.0) signs.z() = -1.0;
   Eigen::Isometry3d motion = Eigen::Isometry3d::Identity();
-  motion.linear() = svd.matrixU() * signs.asDiagonal() * svd.matrixV().transpose();
+  motion.linear() = nearest_rotation(spread.cast<double>());
   motion.translation() = to.cast<double>() - motion.linear() * from.cast<double>();
   return motion;
 }
