@@ -82,10 +82,7 @@ TEST(ExplainPoses, FollowsADriftByTheTimesOfTheViews) {
   });
   const Registered out = registered(scan, ball_bar());
   const PoseExplanation& found = out.report.explanation;
-  // Four fifths of this drift happen in the pause, as a knock between those views would.
-  const bool in_the_pause =
-      found.best == PoseCause::RigMoved && found.views == std::vector<std::size_t>{4};
-  EXPECT_TRUE(found.best == PoseCause::RigDrift || in_the_pause) << found.text;
+  EXPECT_EQ(found.best, PoseCause::RigDrift) << found.text;
   EXPECT_TRUE(found.decided) << found.text;
   EXPECT_LT(out.error_mm, 0.012) << found.text;
   EXPECT_EQ(found.text.find("evenly spaced in time"), std::string::npos) << found.text;

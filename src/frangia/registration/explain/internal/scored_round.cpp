@@ -16,8 +16,8 @@ constexpr double kFaultsAreRare = -3.0;
 constexpr double kStatementsHold = -4.6;
 /// Share of its effect by which a simpler cause may differ from one that explains more.
 constexpr double kAlike = 0.05;
-/// The same between changes of the rig from what is stated, with which points hardly move linearly,
-/// and from a rig that was found.
+/// The same between a change of the rig all through the scan and one that differs from view to view:
+/// from the rig that is stated, with which points hardly move linearly, and from one that was found.
 constexpr double kAlikeRigs = 0.25;
 constexpr double kAlikeFoundRigs = 0.1;
 
@@ -185,7 +185,9 @@ int freedom_of(PoseCause cause) {
 }
 
 bool are_alike(const PoseRound& round, const CauseMotion& one, const CauseMotion& other) {
-  const bool rigs = changes_rig(one.cause) && changes_rig(other.cause);
+  // Knocks and drifts, which differ between the views, are in error by the same.
+  const bool constant = one.cause == PoseCause::Rig || other.cause == PoseCause::Rig;
+  const bool rigs = constant && changes_rig(one.cause) && changes_rig(other.cause);
   const double of_rigs = round.rig_at.isZero() ? kAlikeRigs : kAlikeFoundRigs;
   const double share = rigs ? of_rigs : kAlike;
   const Eigen::VectorXd none = round.stated();
