@@ -218,6 +218,17 @@ TEST(ExplainPoses, CountsInSigmaAMoveThatTheScatterOfThePairsHides) {
   }
 }
 
+TEST(ExplainPoses, CountsInSigmaTwoViewsThatWereElsewhereAlongFlatFaces) {
+  // 0.1 mm along the faces changes the distances of the pairs by less than is noticeable.
+  FaultyScan scan(6);
+  scan.displace(1, 0.1 * Eigen::Vector3d(std::cos(0.4), std::sin(0.4), 0.0));
+  scan.displace(4, 0.1 * Eigen::Vector3d(std::cos(2.6), std::sin(2.6), 0.0));
+  const Registered out = registered(scan, bracket());
+  EXPECT_LT(out.error.share_beyond, 0.02)
+      << out.error.rms_mm << " " << out.error.over_sigma << out.report.explanation.text;
+  EXPECT_LT(out.error.over_sigma, 2.0);
+}
+
 TEST(ExplainPoses, AdvisesNoRefinementOfARigThatWasRefined) {
   FaultyScan scan(8);
   scan.drift_projector(rad_from_deg(0.1), 0.5, true);

@@ -141,7 +141,8 @@ PoseSpread spread_of_causes(const PoseRound& scored,
   const auto views = static_cast<Eigen::Index>(6 * work.surfels.size());
   const ViewsAlone alone(scored, work);
   Eigen::MatrixXd columns(views, 0);
-  const bool faulty = winner.cause != PoseCause::AsStated;
+  // Also where no fault is noticeable: those of flat faces are larger than what their pairs show.
+  const bool faulty = scored.causes.front().cause != PoseCause::AsStated;
   const Probabilities probability(scored, faulty ? SmallOdds::HardlyCount : SmallOdds::Count);
   const auto add = [&](double share, const CauseHypothesis& hypothesis) {
     if (share < kLeastProbable) return;
