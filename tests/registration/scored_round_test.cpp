@@ -1,39 +1,40 @@
 // Which of the scored causes wins.
 #include "frangia/registration/explain/internal/scored_round.h"
 
-#include <vector>
+#include <utility>
 
 #include <gtest/gtest.h>
 
 namespace frangia {
 namespace {
 
-constexpr double kPairs = 1e10;  // in units of their variance
-constexpr Eigen::Index kViews = 3;
-constexpr Eigen::Index kUnknowns = 6 * kViews;
-constexpr double kAngleSigma_rad = 0.001;
+constexpr double kPairsWeight = 1e10;  // in units of their variance
+constexpr Eigen::Index kScoredViews = 3;
+constexpr Eigen::Index kScoredUnknowns = 6 * kScoredViews;
+constexpr double kTableSigma_rad = 0.001;
 
 /// Three views whose pairs show by as much how each of them is turned or shifted. They agree once
 /// the later two are turned about the axis by `turn_rad`, which the table does by its angles.
 PoseRound turned_views(double turn_rad) {
-  PoseRound round;
+  PoseRound round{.bundle = {{}, FastCameraModel(CameraModel{}), {}, {}, {}}, .chart = {}};
   PoseSetting& setting = round.chart.setting;
-  setting.views = static_cast<std::size_t>(kViews);
+  setting.views = static_cast<std::size_t>(kScoredViews);
   setting.angles_rad = {0.0, 1.0, 2.0};
   setting.times = {-0.5, 0.0, 0.5};
   setting.center_mm.setZero();
   setting.radius_mm = 10.0;
-  round.chart.exact_share = Eigen::VectorXd::Ones(kViews + 3);
-  round.chart.table = Eigen::MatrixXd::Zero(kUnknowns, kViews + 3);
-  Eigen::VectorXd right = Eigen::VectorXd::Zero(kUnknowns);
-  for (Eigen::Index view = 1; view < kViews; ++view) {
-    round.chart.table(6 * view + 2, 3 + view) = kAngleSigma_rad;
+  round.chart.exact_share = Eigen::VectorXd::Ones(kScoredViews + 3);
+  round.chart.table = Eigen::MatrixXd::Zero(kScoredUnknowns, kScoredViews + 3);
+  Eigen::VectorXd right = Eigen::VectorXd::Zero(kScoredUnknowns);
+  for (Eigen::Index view = 1; view < kScoredViews; ++view) {
+    round.chart.table(6 * view + 2, 3 + view) = kTableSigma_rad;
     right[6 * view + 2] = turn_rad;
   }
-  NormalEquations data{kPairs * Eigen::MatrixXd::Identity(kUnknowns, kUnknowns), -kPairs * right};
+  NormalEquations data{kPairsWeight * Eigen::MatrixXd::Identity(kScoredUnknowns, kScoredUnknowns),
+                       -kPairsWeight * right};
   round.evidence.emplace(data, round.chart.table);
   round.exact.emplace(data, round.chart.table);
-  round.sums.weight = kPairs;
+  round.sums.weight = kPairsWeight;
   round.noise.scatter_mm = 0.001;
   round.noise.shared_mm = 0.0001;
   return round;
@@ -46,7 +47,7 @@ void add_cause(PoseRound& round, double log_odds, CauseHypothesis hypothesis) {
 }
 
 TEST(ScoredRound, NamesWhatTurnedTheViewsThoughAHardlyNoticeableCauseIsMoreProbable) {
-  PoseRound round = turned_views(50.0 * kAngleSigma_rad);
+  PoseRound round = turned_views(50.0 * kTableSigma_rad);
   add_cause(round, 500.0, {PoseCause::ViewMoved, {1}, 1e-6});
   add_cause(round, 200.0, {PoseCause::Turned, {1}, 1.0});
   add_cause(round, 0.0, {PoseCause::AsStated, {}, 0.0});
@@ -57,7 +58,7 @@ TEST(ScoredRound, NamesWhatTurnedTheViewsThoughAHardlyNoticeableCauseIsMoreProba
 }
 
 TEST(ScoredRound, NamesNothingWhereNoCauseIsNoticeable) {
-  PoseRound round = turned_views(0.5 * kAngleSigma_rad);
+  PoseRound round = turned_views(0.5 * kTableSigma_rad);
   add_cause(round, 500.0, {PoseCause::ViewMoved, {1}, 1e-6});
   add_cause(round, 0.0, {PoseCause::AsStated, {}, 0.0});
   EXPECT_FALSE(is_beyond_prior(round));
