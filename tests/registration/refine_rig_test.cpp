@@ -225,6 +225,17 @@ TEST_F(RefineRig, StatesHowFarARigIsOpenThatChangedMoreThanExpected) {
   }
 }
 
+TEST_F(RefineRig, HoldsTheScaleThoughTheProjectorMayBeFarFromWhereItIsStated) {
+  Rig given = true_rig();
+  CameraModel& camera = given.reference().model;
+  camera.focal_px *= 1.005;  // 17 standard deviations
+  const RigRefinement found = refine_stated(given);
+  for (const RefinedParameter& parameter : found.parameters) {
+    const double truth = parameter.name == "camera.focal_px" ? 800.0 - camera.focal_px.x() : 0.0;
+    EXPECT_LT(std::abs(parameter.change - truth), 3.0 * parameter.sigma) << parameter.name;
+  }
+}
+
 TEST_F(RefineRig, BehavesAlikeForARigOfTenTimesTheSize) {
   const Refined& one = of_unit_size();
   const Refined ten = refine(scaled(knobbly_views(), 10.0), 10.0);

@@ -76,12 +76,16 @@ Calibration refined_calibration(const Rig& given, RigCovariance covariance, std:
 
 /// Holds the directions of w in which the information of the surfaces falls short of a share of the
 /// prior's. The scale is one: shrinking all surfaces shrinks their distances, too, and would go on
-/// without end.
+/// without end, whatever prior the axis has.
 void hold_undetermined(DriftBundle& bundle, double min_gain) {
+  constexpr double kUnknown = 100.0;  // times the standard deviations of axis and angles
   const Eigen::Index count = bundle.state.w.size();
   bundle.free_directions = Eigen::MatrixXd::Identity(count, count);
+  const Eigen::VectorXd table_sigma = bundle.table_sigma;
+  bundle.table_sigma *= kUnknown;
   const auto eigen =
       symmetric_eigen(evidence_of(bundle, sum_drift(bundle, kComparedSurfels)).hessian);
+  bundle.table_sigma = table_sigma;
   Eigen::Index first = 0;
   while (first < eigen.values.size() && eigen.values[first] < min_gain)
     ++first;

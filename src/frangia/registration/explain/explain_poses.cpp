@@ -283,12 +283,7 @@ ExplainedPoses explain_poses(const Registration& work,
   const ScoredCause winner = round.causes[first];
   PoseExplanation& explanation = all.explanation;
   explanation = explanation_by(round, first, work);
-  // Views that all move by themselves follow what their rims have in common, too.
-  constexpr double kEach = 1.5;
-  const bool each_moves =
-      winner.cause == PoseCause::Unexplained || winner.cause == PoseCause::Wobble;
-  const double least_mm = (each_moves ? kEach : 1.0) * noticeable_mm(round);
-  if (winner.cause == PoseCause::AsStated || explanation.effect_mm < least_mm) {
+  if (winner.cause == PoseCause::AsStated || !is_noticeable(round, first)) {
     explanation = {};
     all.spread = spread_of_causes(round, as_stated(round), work).of_views();
     if (model) all.rig_open = open_rig(round, *model, std::nullopt);

@@ -68,18 +68,14 @@ void measure_knock(PoseExplanation& explanation,
 }
 
 /// What the winner found, in numbers.
-PoseExplanation measured(const PoseRound& round,
-                         const ScoredCause& winner,
-                         const Registration& work) {
+PoseExplanation measured(const PoseRound& round, std::size_t first, const Registration& work) {
   PoseExplanation explanation;
+  const ScoredCause& winner = round.causes[first];
   explanation.best = winner.cause;
   const PosePosterior found = round.posterior(winner.best);
   const double scale = winner.best.scale;
   explanation.views = winner.best.views;
-  // A table that the views put beyond its prior is an explanation only in want of a better one.
-  const Eigen::VectorXd stated =
-      is_beyond_prior(round) ? Eigen::VectorXd::Zero(found.motion.size()) : round.stated();
-  explanation.effect_mm = round.effect_mm(found.motion - stated);
+  explanation.effect_mm = effect_of(round, first);
   explanation.unexplained_mm = round.noise.shared_mm;
   if (is_drift(winner.cause)) {
     explanation.time_constant = time_constant_of(winner.best.profile);
@@ -116,8 +112,9 @@ PoseExplanation measured(const PoseRound& round,
 /// The second best of the causes, and those that move the views as the winner does.
 void compare(PoseExplanation& explanation, const PoseRound& round, std::size_t first) {
   const ScoredCause& winner = round.causes[first];
+  const std::size_t most = most_probable_of(round);
   bool has_second = false;
-  for (std::size_t i = 0; i < round.causes.size(); ++i) {
+  for (std::size_t i = most; i < round.causes.size(); ++i) {
     const ScoredCause& other = round.causes[i];
     if (i == first) continue;
     if (are_alike(round, first, i)) {
@@ -127,7 +124,7 @@ void compare(PoseExplanation& explanation, const PoseRound& round, std::size_t f
     } else if (!has_second) {
       has_second = true;
       explanation.second = other.cause;
-      explanation.log_odds = round.causes.front().log_odds - other.log_odds;
+      explanation.log_odds = round.causes[most].log_odds - other.log_odds;
     }
   }
   // The same cause at other views counts against it, too.
@@ -149,12 +146,6 @@ void compare(PoseExplanation& explanation, const PoseRound& round, std::size_t f
 
 }  // namespace
 
-bool is_beyond_prior(const PoseRound& round) {
-  constexpr double kUnlikely = 3.5;  // standard deviations of a change
-  const auto own = static_cast<Eigen::Index>(round.chart.setting.views) + 3;
-  return round.posterior({}).table.head(own).cwiseAbs().maxCoeff() > kUnlikely;
-}
-
 std::vector<std::string> terms_of(const DriftModel& model,
                                   const Eigen::MatrixXd& changes,
                                   bool drifts) {
@@ -175,7 +166,7 @@ std::vector<std::string> terms_of(const DriftModel& model,
 PoseExplanation explanation_by(const PoseRound& round,
                                std::size_t first,
                                const Registration& work) {
-  PoseExplanation explanation = measured(round, round.causes[first], work);
+  PoseExplanation explanation = measured(round, first, work);
   compare(explanation, round, first);
   return explanation;
 }

@@ -9,9 +9,6 @@
 
 namespace frangia {
 
-/// Whether the views are where only axis or angles would put them that are not to be expected.
-[[nodiscard]] bool is_beyond_prior(const PoseRound& round);
-
 /// The parameters of the rig that changed most, in standard deviations of their prior: from what is
 /// stated, or by the way between the views.
 ///

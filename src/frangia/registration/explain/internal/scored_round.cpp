@@ -16,8 +16,9 @@ constexpr double kFaultsAreRare = -3.0;
 constexpr double kStatementsHold = -4.6;
 /// Share of its effect by which a simpler cause may differ from one that explains more.
 constexpr double kAlike = 0.05;
-/// The same between changes of the rig from what is stated, with which points hardly move linearly,
-/// and from a rig that was found.
+/// The same between a change of the rig all through the scan and one that differs from view to
+/// view: from the rig that is stated, with which points hardly move linearly, and from one that was
+/// found.
 constexpr double kAlikeRigs = 0.25;
 constexpr double kAlikeFoundRigs = 0.1;
 
@@ -68,6 +69,15 @@ std::vector<ScoredCause> with_either_table(const PoseRound& round) {
       other.log_odds -= stated;
   }
   return causes;
+}
+
+/// Whether a cause puts axis or angles where they are not to be expected.
+bool leaves_prior(const PoseRound& round, const CauseHypothesis& cause) {
+  constexpr double kUnlikely = 3.5;  // standard deviations of a change
+  const auto own = static_cast<Eigen::Index>(round.chart.setting.views) + 3;
+  Eigen::VectorXd table = round.posterior(cause).table;
+  if (cause.exact_table) table = table.cwiseProduct(round.chart.exact_share).eval();
+  return table.head(own).cwiseAbs().maxCoeff() > kUnlikely;
 }
 
 }  // namespace
@@ -147,6 +157,25 @@ double noticeable_mm(const PoseRound& round) {
   return std::max(kCommon * round.noise.shared_mm, round.noise.scatter_mm);
 }
 
+bool is_beyond_prior(const PoseRound& round) {
+  return leaves_prior(round, {});
+}
+
+double effect_of(const PoseRound& round, std::size_t cause) {
+  const bool explains_table =
+      is_beyond_prior(round) && !leaves_prior(round, round.causes[cause].best);
+  const Eigen::VectorXd& motion = round.motions[cause];
+  return round.effect_mm(explains_table ? motion : Eigen::VectorXd(motion - round.stated()));
+}
+
+bool is_noticeable(const PoseRound& round, std::size_t cause) {
+  // Views that all move by themselves follow what their rims have in common, too.
+  constexpr double kEach = 1.5;
+  const PoseCause of = round.causes[cause].cause;
+  const bool each_moves = of == PoseCause::Unexplained || of == PoseCause::Wobble;
+  return effect_of(round, cause) >= (each_moves ? kEach : 1.0) * noticeable_mm(round);
+}
+
 bool changes_rig(PoseCause cause) {
   return cause == PoseCause::Rig || cause == PoseCause::RigDrift || cause == PoseCause::RigMoved;
 }
@@ -185,7 +214,9 @@ int freedom_of(PoseCause cause) {
 }
 
 bool are_alike(const PoseRound& round, const CauseMotion& one, const CauseMotion& other) {
-  const bool rigs = changes_rig(one.cause) && changes_rig(other.cause);
+  // Knocks and drifts, which differ between the views, are in error by the same.
+  const bool constant = one.cause == PoseCause::Rig || other.cause == PoseCause::Rig;
+  const bool rigs = constant && changes_rig(one.cause) && changes_rig(other.cause);
   const double of_rigs = round.rig_at.isZero() ? kAlikeRigs : kAlikeFoundRigs;
   const double share = rigs ? of_rigs : kAlike;
   const Eigen::VectorXd none = round.stated();
@@ -205,12 +236,20 @@ bool are_alike(const PoseRound& round, std::size_t one, std::size_t other) {
                    {round.causes[other].cause, round.motions[other]});
 }
 
+std::size_t most_probable_of(const PoseRound& round) {
+  std::size_t first = 0;
+  while (round.causes[first].cause != PoseCause::AsStated && !is_noticeable(round, first))
+    ++first;
+  return first;
+}
+
 std::size_t winner_of(const PoseRound& round) {
-  std::size_t best = 0;
-  for (std::size_t i = 1; i < round.causes.size(); ++i) {
+  const std::size_t first = most_probable_of(round);
+  std::size_t best = first;
+  for (std::size_t i = first + 1; i < round.causes.size(); ++i) {
     const ScoredCause& cause = round.causes[i];
     if (cause.log_odds > kNamed && freedom_of(cause.cause) < freedom_of(round.causes[best].cause) &&
-        are_alike(round, 0, i))
+        are_alike(round, first, i))
       best = i;
   }
   return best;

@@ -143,7 +143,10 @@ PoseSpread spread_of_causes(const PoseRound& scored,
   const auto views = static_cast<Eigen::Index>(6 * work.surfels.size());
   const ViewsAlone alone(scored, work);
   Eigen::MatrixXd columns(views, 0);
-  const bool faulty = winner.cause != PoseCause::AsStated;
+  // Also where the pairs speak for a fault that is not noticeable: along flat faces it is larger
+  // than what they show.
+  const bool faulty =
+      winner.cause != PoseCause::AsStated || scored.causes.front().log_odds > kNamed;
   const Probabilities probability(scored, faulty ? SmallOdds::HardlyCount : SmallOdds::Count);
   const auto add = [&](double share, const CauseHypothesis& hypothesis) {
     if (share < kLeastProbable) return;
