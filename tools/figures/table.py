@@ -12,7 +12,9 @@ SECTIONS = {
     "misaligned_turntable": Inputs(SCAN, case_s=30),
     "large": Inputs("simulate reconstruct", files="benchmarks/large_rig.toml", case_s=180),
     "views": Inputs(SCAN, case_s=20),
-    "poses": Inputs(modules="registration simulate", files="benchmarks/pose_study.cpp benchmarks/study.h tests/support", case_s=120),
+    "poses": Inputs(
+        modules="registration simulate", files="benchmarks/pose_study.cpp benchmarks/study.h tests/support", case_s=120
+    ),
     "moved_parts": Inputs("reconstruct", case_s=20),
     "targets": Inputs("reconstruct", case_s=10),
     "edits": Inputs(SCAN + " edit", case_s=25),
