@@ -130,7 +130,7 @@ TEST_F(RegisterViews, LeavesOutAViewWhoseSurfaceContradictsAllOthers) {
       if ((x / kPatch_px + y / kPatch_px) % 3 == 0) faulty.range.depth_mm(x, y) -= 6.0F;
   views.replace(kFaulty, faulty);
   std::vector<std::string> warnings;
-  Run run;
+  frangia::Run run;
   run.on_warning = [&](const std::string& text) { warnings.push_back(text); };
   const auto report = register_views(
       views, small_camera_model(), {table.given, table.stations()}, RegisterOptions{}, run);
