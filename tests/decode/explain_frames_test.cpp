@@ -384,5 +384,11 @@ TEST(FindCeiling, FindsNoneInFramesThatEndBelowTheWhiteLevel) {
   }
 }
 
+TEST(FindCeiling, FindsNoneInBlackFrames) {
+  RenderedFrames frames({.light = 300.0, .seed = 12}, 4);
+  const FrameStack stack = frames.stack(255, 0.0);
+  EXPECT_FALSE(find_ceiling({&stack, 1}, {.floor_counts2 = 1.0}));
+}
+
 }  // namespace
 }  // namespace frangia

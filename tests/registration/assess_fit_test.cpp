@@ -1,6 +1,7 @@
 #include "frangia/registration/internal/assess_fit.h"
 
 #include <cmath>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -58,6 +59,45 @@ TEST(ContradictionOf, IsTheLargestShareOfViolationsOfAViewWithEnoughComparisons)
   tally(2, 1, 2) = {.agree = 40, .violations = 10};
   EXPECT_NEAR(contradiction_of(sums, lists_of({1000, 1000, 900})), 0.2, 1e-12);
   EXPECT_NEAR(contradiction_of(sums, lists_of({1000, 1000, 1001})), 0.1, 1e-12) << "15 of 150";
+}
+
+TEST(ContradictingView, IsTheOneWithoutWhichNoViewsContradictEachOther) {
+  constexpr std::size_t kViews = 4;
+  BundleSums sums = counted_sums({0, 0, 0, 0}, {0, 0, 0, 0});
+  const auto tally = [&](std::size_t from, std::size_t to) -> PairTally& {
+    return sums.regions[kRegionsPerView * (kViews * from + to)];
+  };
+  const SurfelLists lists = lists_of({1000, 1000, 1000, 1000});
+  for (std::size_t from = 0; from < kViews; ++from)
+    for (std::size_t to = 0; to < kViews; ++to)
+      if (from != to) tally(from, to) = {.agree = 300, .violations = 1};
+  tally(2, 1).violations = 30;
+  EXPECT_EQ(contradicting_view(sums, lists, 0.01), std::nullopt) << "1 or 2";
+  tally(3, 2).violations = 30;
+  EXPECT_EQ(contradicting_view(sums, lists, 0.01), 2U);
+  tally(3, 0).violations = 30;
+  EXPECT_EQ(contradicting_view(sums, lists, 0.01), std::nullopt) << "two views";
+}
+
+TEST(DisagreeingView, IsTheOneThatIsOffFromAllOthersWhichAgree) {
+  constexpr std::size_t kViews = 4;
+  BundleSums sums = counted_sums({0, 0, 0, 0}, {0, 0, 0, 0});
+  const auto put = [&](std::size_t from, std::size_t to, double over_sigma) {
+    PairTally& pair = sums.regions[kRegionsPerView * (kViews * from + to)];
+    pair.weight = 100.0;
+    pair.weighted_mm = over_sigma * 10.0;
+  };
+  for (std::size_t from = 0; from < kViews; ++from)
+    for (std::size_t to = 0; to < kViews; ++to)
+      if (from != to) put(from, to, 1.0);
+  EXPECT_EQ(disagreeing_view(sums), std::nullopt) << "noise";
+  put(3, 0, 5.0);
+  EXPECT_EQ(disagreeing_view(sums), std::nullopt) << "0 or 3";
+  put(3, 1, -5.0);
+  put(3, 2, 5.0);
+  EXPECT_EQ(disagreeing_view(sums), 3U);
+  put(0, 1, 9.0);
+  EXPECT_EQ(disagreeing_view(sums), std::nullopt) << "0 and 1, too";
 }
 
 /// A bundle of three views in one setup: two tilts, two shifts and two angles.

@@ -118,6 +118,29 @@ TEST_F(RegisterViews, LeavesOutAMovedViewOfMany) {
   EXPECT_LT(shift_mm(report.table, table.truth), 0.02);
 }
 
+TEST_F(RegisterViews, LeavesOutAViewWhoseSurfaceContradictsAllOthers) {
+  const Table& table = eight_views().table;
+  ViewStore views = knobbly_views(8);
+  constexpr std::size_t kFaulty = 3;
+  View faulty = views.load(kFaulty);
+  // Patches of a surface that is not there, in no pose of the view: before the part for the others.
+  constexpr int kPatch_px = 12;
+  for (int y = 0; y < faulty.range.depth_mm.height(); ++y)
+    for (int x = 0; x < faulty.range.depth_mm.width(); ++x)
+      if ((x / kPatch_px + y / kPatch_px) % 3 == 0) faulty.range.depth_mm(x, y) -= 6.0F;
+  views.replace(kFaulty, faulty);
+  std::vector<std::string> warnings;
+  frangia::Run run;
+  run.on_warning = [&](const std::string& text) { warnings.push_back(text); };
+  const auto report = register_views(
+      views, small_camera_model(), {table.given, table.stations()}, RegisterOptions{}, run);
+  EXPECT_EQ(report.outliers, (std::vector<std::size_t>{kFaulty}));
+  EXPECT_EQ(report.untrusted_reason(), "");
+  EXPECT_LT(shift_mm(report.table, table.truth), 0.01);
+  ASSERT_EQ(warnings.size(), 1U);
+  EXPECT_NE(warnings.front().find("view 3 "), std::string::npos) << warnings.front();
+}
+
 TEST_F(RegisterViews, KeepsAGivenRigThatFitsAsWell) {
   Table table(6, 0.0);
   table.given = table.truth;

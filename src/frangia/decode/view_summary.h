@@ -16,10 +16,10 @@ struct ViewSummary {
   std::size_t points = 0;      ///< measured, before the background is removed
   double sigma_mm = kMissing;  ///< median noise of the points along their rays; NaN without points
   bool left_out = false;       ///< not part of the mesh; a warning gives the reason
-  std::string reason{};        ///< why its frames are not used; empty if they are
-  std::string same_as{};       ///< an earlier view with the same phase at every pixel, to the last
-                               ///< bit; empty for none
-  ViewQuality quality{};       ///< of the frames of the reference camera
+  std::string reason{};   ///< why its frames, or parts of them, are not used; empty if they are
+  std::string same_as{};  ///< an earlier view with the same phase at every pixel, to the last
+                          ///< bit; empty for none
+  ViewQuality quality{};  ///< of the frames of the reference camera
 };
 
 }  // namespace frangia

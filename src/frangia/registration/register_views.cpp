@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -65,11 +68,12 @@ bool has_slid(const Bundle& bundle, const SurfelLists& surfels, double found_con
 }
 
 /// Marks a report whose views contradict each other although no single view explains it.
-void assess_contradiction(RegistrationReport& report,
-                          const BundleSums& sums,
-                          const Registration& work) {
+void assess_contradiction(RegistrationReport& report, const BundleSums& sums, Registration& work) {
   report.contradiction = contradiction_of(sums, work.surfels);
   report.trustworthy = report.contradiction <= work.options.max_contradiction;
+  work.contradicting.reset();
+  if (!report.trustworthy)
+    work.contradicting = contradicting_view(sums, work.surfels, work.options.max_contradiction);
 }
 
 /// Sets the poses of the views, and reports the state in the frame of its own table.
@@ -115,7 +119,7 @@ void report_rig_alone(RegistrationReport& report, const BundleSums& sums, Regist
                 report.rig_alone_text());
 }
 
-void report_sums(RegistrationReport& report, const BundleSums& sums, const Registration& work) {
+void report_sums(RegistrationReport& report, const BundleSums& sums, Registration& work) {
   assess_contradiction(report, sums, work);
   report_fit(report, sums);
   report.overlap = overlap_of(sums, work.surfels);
@@ -240,28 +244,36 @@ bool keep_better_state(RegistrationReport& report, const BundleSums& refined, Re
   return slid;
 }
 
-}  // namespace
+/// Messages that are passed on once it is clear that what they report remains.
+class HeldMessages {
+ public:
+  [[nodiscard]] Run in_place_of(const Run& run) {
+    Run held = run;
+    held.on_warning = [this](const std::string& text) { texts_.emplace_back(true, text); };
+    held.on_note = [this](const std::string& text) { texts_.emplace_back(false, text); };
+    return held;
+  }
+  void pass_on(const Run& run) const {
+    for (const auto& [is_warning, text] : texts_)
+      is_warning ? run.warn(text) : run.note(text);
+  }
 
-void RegisterOptions::check() const {
-  require(angle_sigma_rad > 0.0, "RegisterOptions: angle_sigma_rad must be above 0");
-  require(tilt_sigma_rad > 0.0, "RegisterOptions: tilt_sigma_rad must be above 0");
-  require(relative_shift_sigma > 0.0, "RegisterOptions: relative_shift_sigma must be above 0");
-  require(relative_reach > 0.0, "RegisterOptions: relative_reach must be above 0");
-  require(relative_systematic > 0.0, "RegisterOptions: relative_systematic must be above 0");
-  require(max_contradiction >= 0.0, "RegisterOptions: max_contradiction must not be negative");
-  require(unverified_share >= 0.0, "RegisterOptions: unverified_share must not be negative");
-  require(max_iterations >= 1, "RegisterOptions: max_iterations must be at least 1");
-}
+ private:
+  std::vector<std::pair<bool, std::string>> texts_;
+};
 
-RegistrationReport register_views(ViewStore& views,
-                                  const CameraModel& camera,
-                                  const TurntableStations& given,
-                                  const RegisterOptions& options,
-                                  const Run& run) {
+/// A registration of all views, and the one for which it is not trusted.
+struct Attempt {
+  RegistrationReport report;
+  std::optional<std::size_t> at_fault{};
+};
+
+Attempt register_once(ViewStore& views,
+                      const CameraModel& camera,
+                      const TurntableStations& given,
+                      const RegisterOptions& options,
+                      const Run& run) {
   const std::size_t many_surfels = surfels_per_view(20000, views.size());
-  options.check();
-  require(given.stations.size() == views.size(),
-          "register_views: the number of stations differs from the number of views");
   RegistrationReport report;
   report.given = given.table;
   const TableState start = given_state(given, options);
@@ -269,7 +281,7 @@ RegistrationReport register_views(ViewStore& views,
   apply_state(report, views, start);
   if (views.size() < 2) {
     run.warn("one view alone cannot be registered: the axis and angles of the rig are kept");
-    return report;
+    return {report};
   }
   Bundle made = make_bundle(views, camera, start, options, run);
   made.ties.assign(given.ties.begin(), given.ties.end());
@@ -284,7 +296,7 @@ RegistrationReport register_views(ViewStore& views,
   report.overlap = overlap_of(before, surfels);
   if (report.overlap < kMinOverlap && bundle.ties.empty()) {
     report_rig_alone(report, before, work);
-    return report;
+    return {report, work.contradicting};
   }
   optimize_bundle(bundle, surfels, options.max_iterations, run);
   run.report(0.5);
@@ -306,12 +318,14 @@ RegistrationReport register_views(ViewStore& views,
   // What a wrong rig does to the views is judged once it is refined.
   const bool is_refined = explanation.best == PoseCause::Rig && explanation.decided &&
                           options.wrong_rig == WrongRig::IsRefined;
+  // Points that were triangulated again by other rigs are not those of the views any more.
+  const bool may_blame = explained.rigs.empty() && !is_refined;
   const auto warn_if_untrusted = [&] {
     if (!is_refined && !report.untrusted_reason().empty()) run.warn(report.untrusted_reason());
   };
   if (apply_correction(report, explained, work)) {
     warn_if_untrusted();
-    return report;
+    return {report, may_blame ? view_at_fault(report, work) : std::nullopt};
   }
   if (explanation.best == PoseCause::AsStated || explanation.best == PoseCause::ViewMoved)
     leave_out_outliers(report, work);
@@ -329,7 +343,54 @@ RegistrationReport register_views(ViewStore& views,
   assess_observability(report, bundle, after, scale.radius_mm);
   warn_of_uncertain_axis(report, scale, options, run);
   apply_state(report, views, bundle.state);
-  return report;
+  return {report, may_blame ? view_at_fault(report, work) : std::nullopt};
+}
+
+}  // namespace
+
+void RegisterOptions::check() const {
+  require(angle_sigma_rad > 0.0, "RegisterOptions: angle_sigma_rad must be above 0");
+  require(tilt_sigma_rad > 0.0, "RegisterOptions: tilt_sigma_rad must be above 0");
+  require(relative_shift_sigma > 0.0, "RegisterOptions: relative_shift_sigma must be above 0");
+  require(relative_reach > 0.0, "RegisterOptions: relative_reach must be above 0");
+  require(relative_systematic > 0.0, "RegisterOptions: relative_systematic must be above 0");
+  require(max_contradiction >= 0.0, "RegisterOptions: max_contradiction must not be negative");
+  require(unverified_share >= 0.0, "RegisterOptions: unverified_share must not be negative");
+  require(max_iterations >= 1, "RegisterOptions: max_iterations must be at least 1");
+}
+
+RegistrationReport register_views(ViewStore& views,
+                                  const CameraModel& camera,
+                                  const TurntableStations& given,
+                                  const RegisterOptions& options,
+                                  const Run& run) {
+  options.check();
+  require(given.stations.size() == views.size(),
+          "register_views: the number of stations differs from the number of views");
+  TurntableStations used = given;
+  std::vector<PointTie> ties(given.ties.begin(), given.ties.end());
+  std::vector<std::size_t> outliers;
+  for (;;) {
+    HeldMessages held;
+    Attempt found = register_once(views, camera, used, options, held.in_place_of(run));
+    const auto& own = found.report.outliers;
+    outliers.insert(outliers.end(), own.begin(), own.end());
+    if (!found.at_fault || 4 * (outliers.size() + 1) > views.size()) {
+      held.pass_on(run);
+      found.report.outliers = std::move(outliers);
+      return std::move(found.report);
+    }
+    const std::size_t view = *found.at_fault;
+    run.warn(fmt::format(
+        "view {} contradicts the surfaces of the others, which agree without it, and is left out: "
+        "check that nothing moved while it was captured or covered the part, and that it is in "
+        "focus",
+        given.stations[view].name.empty() ? std::to_string(view) : given.stations[view].name));
+    views.clear(view);
+    outliers.push_back(view);
+    std::erase_if(ties, [&](const PointTie& tie) { return tie.from == view || tie.to == view; });
+    used.ties = ties;
+  }
 }
 
 }  // namespace frangia

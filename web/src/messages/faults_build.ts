@@ -73,6 +73,11 @@ export const FAULTS_BUILD = {
     'die Ansichten widersprechen sich, bis zu {0} % der Punkte einer Ansicht liegen vor der Fläche einer anderen: das Teil bewegte sich, oder die Kalibrierung stimmt nicht',
     'le viste si contraddicono, fino al {0} % dei punti di una sta davanti alla superficie di un’altra: il pezzo si è mosso, o la calibrazione è sbagliata',
   ],
+  'fault.viewContradictsOthers': [
+    'view {0} contradicts the surfaces of the others, which agree without it, and is left out: check that nothing moved while it was captured or covered the part, and that it is in focus',
+    'Ansicht {0} widerspricht den Flächen der anderen, die ohne sie übereinstimmen, und bleibt weg: prüfen, ob sich bei ihrer Aufnahme etwas bewegte oder das Teil verdeckte und ob sie scharf ist',
+    'la vista {0} contraddice le superfici delle altre, che senza di essa concordano, ed è esclusa: controllare che durante la ripresa nulla si sia mosso o abbia coperto il pezzo e che sia a fuoco',
+  ],
   'fault.calibrateTable': [
     'where the views overlap, they disagree by {0} mm, {1} times what noise and the standard deviations of the turntable ({2}) explain: calibrate the turntable',
     'wo die Ansichten überlappen, weichen sie um {0} mm ab, das {1}-Fache dessen, was Rauschen und Drehtisch ({2}) erklären: die Achse neu bestimmen',

@@ -238,6 +238,11 @@ export const FAULTS_PHASE = {
     'ein Kontrast von {0} ist mehr als der jedes Sinus: Projektor oder Kamera sind nicht linear, oder die Kamera schneidet dunkle Pixel bei 0 ab; die Kennlinie messen und den Schwarzwert der Kamera anheben',
     'un contrasto di {0} è più di quello di qualsiasi seno: il proiettore o la camera non è lineare, o la camera taglia a 0 i pixel scuri; misurare la curva di risposta e alzare il livello del nero',
   ],
+  'fault.framesContradictThere': [
+    'pattern "{0}": at {1} % of the measured pixels the frames contradict each other, and these pixels are left out: check that nothing covered the part or shook while they were captured',
+    'Muster „{0}“: an {1} % der gemessenen Pixel widersprechen sich die Bilder, und diese Pixel bleiben weg: prüfen, ob bei der Aufnahme etwas das Teil verdeckte oder wackelte',
+    'motivo «{0}»: nel {1} % dei pixel misurati i fotogrammi si contraddicono, e questi pixel sono esclusi: controllare che durante la ripresa nulla abbia coperto il pezzo o vibrato',
+  ],
   'fault.lightFlickeredRms': [
     'the light flickered by {0} % rms between the frames, which is compensated',
     'das Licht flackerte zwischen den Bildern um {0} % rms, was ausgeglichen ist',

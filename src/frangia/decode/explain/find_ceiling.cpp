@@ -41,6 +41,7 @@ std::optional<Ceiling> find_ceiling(std::span<const FrameStack> stacks, const No
   if (levels.empty()) return std::nullopt;
   const auto [ceiling, at] = *levels.rbegin();
   if (ceiling >= stacks.front().white_level) return std::nullopt;
+  if (ceiling == 0) return std::nullopt;  // black frames
   if (std::sqrt(noise.variance(ceiling)) < kLeastNoise) return std::nullopt;
   double all = 0.0;
   double most = 1.0;

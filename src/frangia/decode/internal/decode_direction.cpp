@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <string>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -178,7 +179,9 @@ DecodedDirection decode_from(const FromGrayCode& /*source*/, const DirectionInpu
   DirectionMaps maps = wrap_maps(input, fit_maps(input));
   DecodedDirection& view = maps.view;
   const auto gray = gray_of(input.stacks, input.plan.direction);
+  const std::string finding = view.check->finding;
   view.check = check_code(input, gray.front(), view);
+  if (view.check->consistent) view.check->finding = finding;
   const WrappedPhase& coarsest = view.wrapped.front();
   unwrap_finer(
       input,

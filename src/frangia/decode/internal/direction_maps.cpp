@@ -17,6 +17,7 @@
 #include "frangia/phase/blur/estimate_blur.h"
 #include "frangia/phase/temporal/check_sequence.h"
 #include "frangia/phase/temporal/predict_frames.h"
+#include "frangia/phase/waveform/contradicting_frames.h"
 #include "frangia/phase/waveform/frame_samples.h"
 #include "frangia/phase/waveform/systematic_phase.h"
 #include "frangia/phase/wrap/decode_sequence.h"
@@ -25,23 +26,53 @@
 namespace frangia {
 namespace {
 
-/// The systematic uncertainty of the slope of phase over frequency through all maps, whose
-/// modulations are taken as equal.
-SystematicPhase sequence_systematic(const DirectionMaps& maps) {
+/// The weights of the errors of all maps in the slope of phase over frequency, if their modulations
+/// are equal.
+std::vector<double> sequence_weights(const DirectionMaps& maps) {
   const double top = maps.fringes.back()->pattern.fringes_per_unit();
-  double weights = 0.0;
+  std::vector<double> weights;
+  double sum = 0.0;
+  for (std::size_t m = 0; m < maps.fits.size(); ++m) {
+    const double ratio = maps.fringes[m]->pattern.fringes_per_unit() / top;
+    weights.push_back(ratio / std::pow(maps.fits[m].algorithm.noise_gain, 2));
+    sum += weights.back() * ratio;
+  }
+  for (double& weight : weights)
+    weight /= sum;
+  return weights;
+}
+
+/// The systematic uncertainty of the slope of phase over frequency through all maps.
+SystematicPhase sequence_systematic(const DirectionMaps& maps) {
+  const std::vector<double> weights = sequence_weights(maps);
   double square = 0.0;
   double differing = 0.0;
   for (std::size_t m = 0; m < maps.fits.size(); ++m) {
-    const double ratio = maps.fringes[m]->pattern.fringes_per_unit() / top;
-    const double weight = ratio / std::pow(maps.fits[m].algorithm.noise_gain, 2);
-    weights += weight * ratio;
     const SystematicPhase part = systematic_phase(maps.fits[m]);
-    square += std::pow(weight * part.rad, 2);
-    differing += std::pow(weight * part.rad, 2) * part.differing_share;
+    square += std::pow(weights[m] * part.rad, 2);
+    differing += std::pow(weights[m] * part.rad, 2) * part.differing_share;
   }
   if (square == 0.0) return {};
-  return {std::sqrt(square) / weights, differing / square};
+  return {std::sqrt(square), differing / square};
+}
+
+/// Counts what the frames of each pattern leave unexplained from place to place, where they do.
+void count_places(const DirectionInput& input, DirectionMaps& maps) {
+  const std::vector<double> weights = sequence_weights(maps);
+  AbsolutePhase& phase = maps.view.phase;
+  for (std::size_t m = 0; m < maps.fits.size(); ++m) {
+    if (!maps.view.assessments[m].exceeds_noise) continue;
+    const FittedAlgorithm& fit = maps.fits[m];
+    const double discarded =
+        count_unexplained(unexplained_phase(*maps.fringes[m], fit, maps.view.noise),
+                          {fit.unexplained_rad, input.options.wrap.max_sigma_rad, weights[m]},
+                          {phase.phase_rad, phase.sigma_rad, phase.status, phase.systematic_rad});
+    const std::string warning = describe_contradicting(maps.fringes[m]->pattern.name, discarded);
+    if (warning.empty()) continue;
+    input.run.warn(warning);
+    if (maps.view.check->consistent && maps.view.check->finding.empty())
+      maps.view.check->finding = warning;
+  }
 }
 
 /// Every how many pixels of an image the maps are kept: a multiple of four, so that views of every
@@ -223,6 +254,7 @@ DirectionMaps decode_in_one_pass(const DirectionInput& input, DirectionMaps fitt
   const SystematicPhase systematic = sequence_systematic(out);
   view.phase.systematic_rad = uniform_systematic(systematic.rad, view.phase.status);
   view.phase.differing_share = static_cast<float>(systematic.differing_share);
+  count_places(input, out);
   return out;
 }
 

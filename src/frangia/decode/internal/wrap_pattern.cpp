@@ -1,10 +1,12 @@
 #include "frangia/decode/internal/wrap_pattern.h"
 
 #include <optional>
+#include <string>
 
 #include <fmt/format.h>
 
 #include "frangia/decode/select_stacks.h"
+#include "frangia/phase/waveform/contradicting_frames.h"
 #include "frangia/phase/waveform/correct_response.h"
 #include "frangia/phase/waveform/share_waveforms.h"
 #include "frangia/phase/waveform/systematic_phase.h"
@@ -67,6 +69,25 @@ void finish_wrapped(const FittedAlgorithm& of_frames,
   FrameAssessment& assessment = out.assessments.back();
   assessment.harmonics_corrected = table.has_value();
   assessment.harmonic_error_rad = harmonic_phase_error(fitted, applied);
+}
+
+/// Counts what the frames leave unexplained from place to place, where they do.
+void count_places(const FrameStack& stack,
+                  const FittedAlgorithm& fitted,
+                  const DecodeOptions& options,
+                  const Run& run,
+                  DecodedDirection& out) {
+  if (!out.assessments.back().exceeds_noise || options.own.wrap) return;
+  WrappedPhase& map = out.wrapped.back();
+  const double discarded =
+      count_unexplained(unexplained_phase(stack, fitted, out.noise),
+                        {fitted.unexplained_rad, options.wrap.max_sigma_rad},
+                        {map.phase_rad, map.sigma_rad, map.status, map.systematic_rad});
+  const std::string warning = describe_contradicting(stack.pattern.name, discarded);
+  if (warning.empty()) return;
+  run.warn(warning);
+  if (out.check && out.check->consistent && out.check->finding.empty())
+    out.check->finding = warning;
 }
 
 /// The wrapped phase that the caller's function finds.
@@ -142,6 +163,7 @@ void wrap_pattern(const FrameStack& taken,
                             : wrap_phase(stack, fitted.algorithm, out.noise, options.wrap));
   out.assessments.push_back(assess_frames(stack, fitted, out.wrapped.back(), out.noise));
   finish_wrapped(fitted, options, out);
+  count_places(stack, fitted, options, run, out);
 }
 
 }  // namespace frangia

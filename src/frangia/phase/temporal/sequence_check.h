@@ -61,7 +61,7 @@ struct SequenceCheck {
   /// patterns contradict, RMS; 0 where they tell none.
   std::vector<double> ripples_rad{};
   /// What is wrong with the frames of one pattern by themselves, as a clause; it takes precedence
-  /// over `fits`.
+  /// over `fits`. If the patterns are consistent: at some of the pixels, which are left out.
   std::string finding;
   std::vector<SequenceFault> fits;  ///< declarations that fit equally well; empty if none is found
 };

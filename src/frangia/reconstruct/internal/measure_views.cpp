@@ -5,6 +5,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -160,6 +161,16 @@ std::vector<std::unique_ptr<CameraScan>> survey_cameras(const Scan& scan,
   return cameras;
 }
 
+/// What is wrong with some of the frames of a view whose phase is used elsewhere; empty for
+/// nothing.
+std::string partial_finding(const DecodedCamera& camera) {
+  for (const std::size_t used : camera.fit.used) {
+    const std::optional<SequenceCheck>& check = camera.decoded.directions[used].check;
+    if (check && check->consistent && !check->finding.empty()) return check->finding;
+  }
+  return {};
+}
+
 /// Decodes a view of a camera and decides which of its phases are used.
 DecodedCamera decode_camera(CameraScan& camera, std::size_t view, const Run& run) {
   DecodedCamera out{camera.scan.rig, camera.rays, camera.decoder->next()};
@@ -261,6 +272,7 @@ MeasuredViews measure_views(const Scan& scan,
       all.summaries.push_back(summary);
       continue;
     }
+    summary.reason = partial_finding(decoded.front());
     DecodedDirection& leading = decoded.front().decoded.directions[fit.leading()];
     all.coarsest = leading.coarsest;
     const auto [earlier, is_new] =

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "frangia/registration/internal/optimize_bundle.h"
@@ -28,5 +29,15 @@ inline constexpr double kMinOverlap = 0.05;
 /// Largest share of a view's comparisons, in both directions, that violate free space. A view with
 /// few comparisons does not count.
 [[nodiscard]] double contradiction_of(const BundleSums& sums, const SurfelLists& surfels);
+
+/// The one view that is in all contradictions above `limit`: without it the others have none, and
+/// without any other view some remain. Nothing where no view or several are such.
+[[nodiscard]] std::optional<std::size_t> contradicting_view(const BundleSums& sums,
+                                                            const SurfelLists& surfels,
+                                                            double limit);
+
+/// The one view whose regions are off from those of the others by more than noise, while the
+/// others agree. Nothing where no view or several are such.
+[[nodiscard]] std::optional<std::size_t> disagreeing_view(const BundleSums& sums);
 
 }  // namespace frangia

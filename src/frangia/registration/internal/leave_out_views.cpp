@@ -38,4 +38,13 @@ void leave_out_outliers(RegistrationReport& report, Registration& work) {
   if (some) work.optimize_again();
 }
 
+std::optional<std::size_t> view_at_fault(const RegistrationReport& report,
+                                         const Registration& work) {
+  if (!report.trustworthy) return work.contradicting;
+  if (report.explanation.best != PoseCause::Unexplained) return std::nullopt;
+  Bundle as_given = work.bundle;
+  as_given.state = work.bundle.given;
+  return disagreeing_view(sum(as_given, work.surfels));
+}
+
 }  // namespace frangia

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <string>
 
@@ -27,6 +28,8 @@ struct Registration {
   const RegisterOptions& options;
   const Run& run;
   double angle_factor = 1.0;  ///< of the commanded angles, in `bundle.given`
+  /// The one view that is in all contradictions of the views.
+  std::optional<std::size_t> contradicting{};
 
   [[nodiscard]] std::string name_of(std::size_t view) const {
     return stations[view].name.empty() ? std::to_string(view) : stations[view].name;
@@ -37,5 +40,9 @@ struct Registration {
 
 /// Leaves out views that fit no other one.
 void leave_out_outliers(RegistrationReport& report, Registration& work);
+
+/// The one view that is the reason why a registration is not trusted: the others agree without it.
+[[nodiscard]] std::optional<std::size_t> view_at_fault(const RegistrationReport& report,
+                                                       const Registration& work);
 
 }  // namespace frangia
