@@ -47,7 +47,6 @@ std::vector<std::vector<std::uint32_t>> continuous_walls(const Mesh& mesh,
       if (!counts[a] || !counts[b]) continue;
       float most = kMostSlope * (mesh.vertices_mm[a] - mesh.vertices_mm[b]).norm();
       if (!walls.u_mm.empty()) most += kSigmas * std::hypot(walls.u_mm[a], walls.u_mm[b]);
-      // A noise that is not known joins nothing by itself, but must not split a wall either.
       if (!(std::abs(walls.thickness_mm[a] - walls.thickness_mm[b]) > most)) sets.unite(a, b);
     }
   }
