@@ -1,10 +1,13 @@
 #include "inspect_batch.h"
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "frangia/core/error.h"
 #include "frangia/core/lowercase_extension.h"
 #include "frangia/core/write_text_file.h"
 #include "frangia/report/batch.h"
@@ -30,9 +33,28 @@ void inspect_batch(const InspectArguments& arguments,
   std::vector<BatchPart> parts;
   bool out = false;
   for (const auto& mesh : arguments.meshes) {
-    const Inspection part = inspector.inspect(mesh, run);
-    out = out || part.verdict == Conformity::Out;
-    parts.push_back({mesh.filename().string(), part.characteristics});
+    try {
+      const Inspection part = inspector.inspect(mesh, run);
+      out = out || part.verdict == Conformity::Out;
+      parts.push_back({mesh.filename().string(),
+                       part.characteristics,
+                       part.verdict,
+                       part.reasons.empty() ? "" : part.reasons.front().text()});
+    } catch (const Error& error) {
+      // One wrong file must not cost the others.
+      if (error.kind() == ErrorKind::Cancelled || arguments.meshes.size() == 1) throw;
+      run.warn(fmt::format("{} was not inspected: {}", mesh.filename().string(), error.what()));
+      parts.push_back({mesh.filename().string(), {}, Conformity::Undecided, error.what(), false});
+    }
+  }
+  const auto inspected = static_cast<std::size_t>(
+      std::count_if(parts.begin(), parts.end(), [](const auto& part) { return part.inspected; }));
+  if (inspected == 0) {
+    throw Error(ErrorKind::Input,
+                fmt::format("none of the {} meshes could be inspected; {}: {}",
+                            parts.size(),
+                            parts.front().name,
+                            parts.front().reason));
   }
   const auto characteristics = batch_characteristics(parts);
   const std::string csv = batch_csv(parts, characteristics);
@@ -40,10 +62,17 @@ void inspect_batch(const InspectArguments& arguments,
   const std::string title = plan.part.empty() ? "Batch" : "Batch: " + plan.part;
   write_text_file(arguments.batch, page ? batch_html(title, parts, characteristics) : csv);
   terminal.finish();
+  if (inspected < parts.size()) terminal.exit_code = BadInput;
   if (arguments.fail_out_of_tolerance && out) terminal.exit_code = OutOfTolerance;
   if (terminal.json) {
     nlohmann::ordered_json json;
     json["parts"] = parts.size();
+    for (const BatchPart& part : parts) {
+      json["verdicts"].push_back(
+          {{"mesh", part.name},
+           {"verdict", part.inspected ? nlohmann::ordered_json(name_of(part.verdict)) : nullptr},
+           {"reason", part.reason}});
+    }
     for (const BatchCharacteristic& one : characteristics) {
       json["characteristics"].push_back({{"name", one.name},
                                          {"mean", number_or_null(one.mean)},

@@ -199,15 +199,31 @@ std::string characteristics_text(const std::vector<MeasuredCharacteristic>& rows
   TextColumn name{"characteristic", {}, false};
   TextColumn value{"measured", {}};
   TextColumn u95{"U95", {}};
+  TextColumn unit{"unit", {}, false};
   TextColumn decision{"decision", {}, false};
   for (const MeasuredCharacteristic& row : rows) {
     name.values.push_back(row.name);
     value.values.push_back(std::isfinite(row.value) ? fmt::format("{:.4f}", row.value)
                                                     : "not found");
     u95.values.push_back(std::isfinite(row.u95) ? fmt::format("{:.4f}", row.u95) : "");
+    unit.values.push_back(row.unit);
     decision.values.emplace_back(row.limits ? name_of(row.conformity) : "");
   }
-  return text_table({name, value, u95, decision});
+  std::string text = text_table({name, value, u95, unit, decision});
+  for (const MeasuredCharacteristic& row : rows) {
+    if (!row.reason.empty()) text += fmt::format("{}: {}\n", row.name, row.reason);
+  }
+  return text;
+}
+
+/// The decision about the whole part, where characteristics decide beside the surface.
+std::string verdict_text(const Inspection& part) {
+  const bool limited = std::any_of(part.characteristics.begin(),
+                                   part.characteristics.end(),
+                                   [](const auto& row) { return row.limits.has_value(); });
+  if (!limited || part.reasons.empty()) return {};
+  return fmt::format(
+      "verdict about the part: {}; {}\n", name_of(part.verdict), part.reasons.front().text());
 }
 
 std::string section_text(const SectionResult& section) {
@@ -252,7 +268,7 @@ std::string inspection_text(const Inspection& part, bool features) {
   if (!part.characteristics.empty()) text += characteristics_text(part.characteristics);
   for (const SectionResult& section : part.sections)
     text += section_text(section);
-  return text;
+  return text + verdict_text(part);
 }
 
 }  // namespace frangia

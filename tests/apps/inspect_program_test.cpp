@@ -208,6 +208,7 @@ normal = [0, 0, 1]
       at("report.html") + " -o " + at("out.ply") + " -o " + at("out.csv") + " -o " + at("out.glb"));
   ASSERT_EQ(answer.exit_code, 0) << answer.output;
   const auto json = nlohmann::json::parse(answer.output);
+  EXPECT_EQ(json.at("verdict"), "out");
   EXPECT_EQ(json.at("deviation").at("verdict"), "out");
   EXPECT_NEAR(json.at("deviation").at("mean_mm").get<double>(), 0.2, 0.005);
   EXPECT_NEAR(json.at("deviation").at("median_u_mm").get<double>(), 0.01, 1e-6);
@@ -231,13 +232,23 @@ normal = [0, 0, 1]
   EXPECT_NE(text_of("report-equator.svg").find("<svg"), std::string::npos);
 
   const std::string asked = "inspect " + at("mesh.ply") + " --plan " + at("inspection.toml");
-  EXPECT_EQ(run_program(asked + " --fail-out-of-tolerance").exit_code, 1);
+  const Answer failed = run_program(asked + " --fail-out-of-tolerance");
+  EXPECT_EQ(failed.exit_code, 1);
+  EXPECT_NE(failed.output.find("verdict about the part: out; "), std::string::npos)
+      << failed.output;
   EXPECT_EQ(run_program(asked + " --tolerance 1 --fail-out-of-tolerance").exit_code, 1)
       << "the diameter stays out";
   const Answer batch = run_program("inspect " + at("mesh.ply") + " " + at("mesh.ply") + " --plan " +
                                    at("inspection.toml") + " --batch " + at("batch.html"));
   ASSERT_EQ(batch.exit_code, 0) << batch.output;
   EXPECT_NE(text_of("batch.html").find("Cpk"), std::string::npos);
+  EXPECT_NE(batch.output.find(",out,\"characteristics: "), std::string::npos) << batch.output;
+  const Answer lacking =
+      run_program("inspect " + at("absent.ply") + " " + at("mesh.ply") + " --plan " +
+                  at("inspection.toml") + " --batch " + at("lacking.csv"));
+  EXPECT_EQ(lacking.exit_code, 3) << lacking.output;
+  EXPECT_NE(text_of("lacking.csv").find("not inspected"), std::string::npos);
+  EXPECT_NE(text_of("lacking.csv").find("mesh.ply"), std::string::npos);
   const Answer two =
       run_program("inspect " + at("mesh.ply") + " " + at("mesh.ply") + " --features");
   EXPECT_EQ(two.exit_code, 2) << two.output;

@@ -135,6 +135,40 @@ TEST(BetweenViewVariance, InterpolatesBetweenTheCentersOfBlocksAlongEachAxis) {
   }
 }
 
+/// A face in the middle of three blocks in a row, of which two rows at its lower end lie on the
+/// edge of a step that the views see differently.
+TEST(BetweenViewVariance, OfTheEdgeOfAStepStaysBesideIt) {
+  EdgeCrossings crossings;
+  crossings.voxel_mm = 1.0;
+  for (int block = 0; block < 3; ++block) {
+    auto made = std::make_unique<EdgeCrossings::Block>();
+    made->crossings_before = static_cast<std::uint32_t>(64 * block);
+    crossings.block_coords.emplace_back(block, 0, 0);
+    crossings.index.add(block_key(crossings.block_coords.back()),
+                        static_cast<std::uint32_t>(block));
+    crossings.blocks.push_back(std::move(made));
+    for (int x = 0; x < 8; ++x) {
+      for (int y = 0; y < 8; ++y)
+        crossings.points_mm.emplace_back(
+            static_cast<float>(8 * block + x) + 0.5F, static_cast<float>(y) + 0.5F, 4.0F);
+    }
+  }
+  HermiteAccumulators hermite(crossings.points_mm.size());
+  for (std::size_t i = 0; i < hermite.size(); ++i) {
+    const bool at_edge = i >= 64 && i < 80;  // 8 to 10 mm
+    add_views(hermite[i].first, {{1.0F, 0.0F, 0.0F}, {1.0F, at_edge ? 0.5F : 0.01F, 0.0F}});
+  }
+  add_between_view_variance(hermite, crossings);
+  const float usual = 0.5F * 0.5F * 0.01F * 0.01F;
+  for (std::size_t i = 0; i < hermite.size(); ++i) {
+    const float x = crossings.points_mm[i].x();
+    if (x > 6.0F && x < 12.0F)
+      EXPECT_GT(hermite[i].common_variance, 100.0F * usual) << x;
+    else
+      EXPECT_NEAR(hermite[i].common_variance, usual, 0.01F * usual) << x;
+  }
+}
+
 TEST(BetweenViewVariance, ScalesTheStatedVarianceThatDiffersByViewToWhatIsFound) {
   const EdgeCrossings crossings = row_through_two_blocks();
   for (const float stated : {0.5F, 0.1F}) {

@@ -147,6 +147,42 @@ TEST(InspectionPlan, ReportsAFeatureThatIsNotFound) {
   EXPECT_NE(warnings[0].find("B: no sphere was found"), std::string::npos) << warnings[0];
 }
 
+TEST(InspectionPlan, GivesNoFeatureTheSizeOfItsNeighbor) {
+  std::vector<std::string> warnings;
+  frangia::Run run;
+  run.on_warning = [&](const std::string& text) { warnings.push_back(text); };
+  const std::string ball_of =
+      "kind = \"sphere\"\ndiameter_mm = 4\ntolerance_mm = [-0.1, 0.1]\nnear_mm = ";
+  const auto named = [&](const char* name, const char* place) {
+    return "[[features]]\nname = \"" + std::string(name) + "\"\n" + ball_of + place + "\n";
+  };
+  const std::vector<MeasuredFeature> found{ball({0, 0, 0}, 4.0), ball({100, 0, 0}, 4.0)};
+  const auto rows = measure_characteristics(
+      plan_from(named("left", "[0, 0, 0]") + named("missing", "[9, 0, 0]")), found, run);
+  EXPECT_EQ(rows[0].conformity, Conformity::In);
+  EXPECT_TRUE(std::isnan(rows[1].value)) << rows[1].value;
+  EXPECT_EQ(rows[1].conformity, Conformity::Undecided);
+  ASSERT_EQ(warnings.size(), 1U);
+  EXPECT_NE(warnings[0].find("missing: the sphere that is nearest to it is that of left"),
+            std::string::npos)
+      << warnings[0];
+  // Two names of one feature.
+  warnings.clear();
+  const auto both = measure_characteristics(
+      plan_from(named("left", "[0, 0, 0]") + named("also left", "[1, 0, 0.5]")), found, run);
+  EXPECT_EQ(both[1].conformity, Conformity::In);
+  EXPECT_TRUE(warnings.empty());
+  // It may have moved so far, and be another one.
+  const auto moved = measure_characteristics(plan_from(named("left", "[9, 0, 0]")), found, run);
+  EXPECT_NEAR(moved[0].value, 4.0, 1e-9);
+  ASSERT_EQ(warnings.size(), 1U);
+  EXPECT_NE(warnings[0].find("a sphere that is 7.01 mm from its near_mm"), std::string::npos)
+      << warnings[0];
+  const auto names =
+      named_features(plan_from(named("left", "[0, 0, 0]") + named("missing", "[9, 0, 0]")), found);
+  EXPECT_EQ(names.size(), 1U);
+}
+
 TEST(InspectionPlan, NamesTheKeyThatIsWrong) {
   const auto message = [](const std::string& text) {
     try {
@@ -176,6 +212,12 @@ TEST(InspectionPlan, NamesTheKeyThatIsWrong) {
          "refers to \"A\"");
   expect("[[sections]]\nname = \"s\"\npoint_mm = [0, 0, 1]\nnormal = [0, 0, 0]\n",
          "sections[0].normal must not be zero");
+}
+
+TEST(InspectionPlan, RefusesAToleranceWithoutWidth) {
+  const auto refused =
+      testing::error_of([] { static_cast<void>(plan_from("tolerance_mm = [0, 0]\n")); });
+  EXPECT_NE(refused.find("tolerance_mm has no width"), std::string::npos) << refused;
 }
 
 TEST(InspectionPlan, RefusesAnUnknownKeyAndNamesTheNearest) {

@@ -147,6 +147,39 @@ TEST(MeasureOnSurface, HasNoUncertaintyWithoutSigmaAndSaysSo) {
     EXPECT_NE(reason.text().find("states no sigma"), std::string::npos) << reason.text();
 }
 
+/// A profile of which a part is not measured is undecided, although its value is well within.
+TEST(MeasureOnSurface, SaysWhyAProfileIsUndecidedWhoseValueIsIn) {
+  const InspectionReference reference = reference_of_mesh(lid(0.0, 0));
+  Mesh mesh = measured_lid(0.0, 1);
+  std::erase_if(mesh.triangles, [&](const Mesh::Triangle& triangle) {
+    const Eigen::Vector3f& at = mesh.vertices_mm[triangle[0]];
+    return at.z() > 2.5F && at.y() > 25.0F;
+  });
+  const Inspection found = inspect_part(std::move(mesh), &reference, plan_of_lid());
+  const MeasuredCharacteristic& row = row_of(found, "x=20 profile");
+  EXPECT_LT(row.value + row.u95, 0.1);
+  EXPECT_EQ(row.conformity, Conformity::Undecided);
+  EXPECT_NE(row.reason.find("not measured"), std::string::npos) << row.reason;
+  EXPECT_EQ(row_of(found, "base profile").conformity, Conformity::In);
+  EXPECT_EQ(row_of(found, "base profile").reason, "");
+}
+
+/// A face above which the part is 5 mm thick, and 30 mm from x = 37 mm: no wall is thicker.
+TEST(MeasureOnSurface, KeepsWallsApartBetweenWhichTheThicknessJumps) {
+  InspectionPlan plan;
+  plan.characteristics = {wanted("wall", Characteristic::Thickness)};
+  plan.characteristics.back().nominal = 5.0;
+  plan.characteristics.back().tolerance = ToleranceLimits{-0.05, 0.05};
+  Mesh mesh = measured_lid(0.0, 1);
+  for (Eigen::Vector3f& vertex : mesh.vertices_mm)
+    if (vertex.z() > 2.5F && vertex.x() > 36.5F) vertex.z() += 25.0F;
+  const Inspection found = inspect_part(std::move(mesh), nullptr, plan);
+  const MeasuredCharacteristic& row = row_of(found, "wall");
+  EXPECT_NEAR(row.value, 30.0, 0.02);
+  EXPECT_LT(row.u95, 0.05);
+  EXPECT_EQ(row.conformity, Conformity::Out);
+}
+
 TEST(MeasureOnSurface, RefusesAProfileWithoutAReference) {
   InspectionPlan plan = plan_of_lid();
   const std::string why =

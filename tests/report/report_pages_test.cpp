@@ -131,6 +131,24 @@ TEST(ReportPages, ShowTheWorstRowsFirst) {
   EXPECT_NE(page.find(" worst of 31 rows"), std::string::npos);
 }
 
+TEST(ReportPages, SayWhyARowIsUndecidedWhoseIntervalIsWithin) {
+  InspectionReport report;
+  report.characteristics.push_back(result("profile", 10.0));
+  report.characteristics.back().conformity = Conformity::Undecided;
+  report.characteristics.back().reason = "undecided: 20.0 % was not measured & more";
+  const std::string page = html_of(report);
+  EXPECT_NE(page.find("undecided: 20.0 % was not measured &amp; more"), std::string::npos);
+}
+
+TEST(ReportPages, NameTheFeaturesOfThePlan) {
+  InspectionReport report;
+  report.features.resize(2);
+  report.feature_names = {"datum <A>", ""};
+  const std::string page = html_of(report);
+  EXPECT_NE(page.find("<td>datum &lt;A&gt;: plane</td>"), std::string::npos);
+  EXPECT_NE(page.find("<td>plane</td>"), std::string::npos);
+}
+
 TEST(ReportPages, DrawTheToleranceThatAValueUses) {
   // The limits stand at 32 and 128 of 160.
   EXPECT_NE(tolerance_bar(result("", 10.0)).find("cx=\"80.00\""), std::string::npos);

@@ -37,6 +37,18 @@ bool labels(const ReportPicture& picture, const std::string& name) {
   });
 }
 
+TEST(ReportPictures, LabelValuesWithTheirUnit) {
+  Inspection part = box_with_faces({{"top", Eigen::Vector3d::UnitZ()}});
+  part.characteristics.push_back(part.characteristics.front());
+  part.characteristics.back().name = "slope";
+  part.characteristics.back().unit = "degrees";
+  std::string texts;
+  const std::vector<ReportPicture> pictures = report_pictures(part);
+  for (const PictureLabel& label : pictures.front().labels)
+    texts += label.text + "\n";
+  EXPECT_EQ(texts, "0.0100 mm\n0.0100°\n");
+}
+
 TEST(ReportPictures, ShowAPlaceBelowThePartFromBelow) {
   const auto pictures = report_pictures(
       box_with_faces({{"top", Eigen::Vector3d::UnitZ()}, {"bottom", -Eigen::Vector3d::UnitZ()}}));

@@ -54,6 +54,52 @@ TEST(Batch, StatesTheCapabilityOfTheProcess) {
   EXPECT_THROW(static_cast<void>(batch_characteristics(parts)), Error);
 }
 
+/// The table says of a part what its own report says.
+TEST(Batch, DecidesByTheSurfaceTooAndKeepsPartsThatWereNotInspected) {
+  const std::vector<BatchPart> parts{
+      {"first", {}, Conformity::Undecided, "another part", false},
+      {"good", {row_of(10.0)}, Conformity::In, "surface: in"},
+      {"dented", {row_of(10.0)}, Conformity::Out, "surface: out at (1, 2, 3) mm"}};
+  const auto all = batch_characteristics(parts);
+  ASSERT_EQ(all.size(), 1U);
+  ASSERT_EQ(all[0].values.size(), 3U);
+  EXPECT_TRUE(std::isnan(all[0].values[0]));
+  EXPECT_NEAR(all[0].mean, 10.0, 1e-12);
+  const std::string csv = batch_csv(parts, all);
+  EXPECT_NE(csv.find("\"first\",,,not inspected,\"another part\"\n"), std::string::npos) << csv;
+  EXPECT_NE(csv.find("\"dented\",10.000000,0.002000,out,\"surface: out"), std::string::npos) << csv;
+  const std::string page = batch_html("batch", parts, all);
+  EXPECT_NE(page.find("dented: out; surface: out at (1, 2, 3) mm"), std::string::npos);
+  EXPECT_NE(page.find("first: not inspected; another part"), std::string::npos);
+  EXPECT_EQ(page.find("good: "), std::string::npos);
+}
+
+/// A sheet is as wide as the columns of four characteristics; each table has the decisions.
+TEST(Batch, IsNotCutOffHoweverManyCharacteristicsAPlanHas) {
+  std::vector<BatchPart> parts{{"a", {}, Conformity::In}};
+  for (int i = 0; i < 13; ++i) {
+    parts[0].rows.push_back(row_of(10.0));
+    parts[0].rows.back().name = "diameter " + std::to_string(i);
+  }
+  const std::string page = batch_html("batch", parts, batch_characteristics(parts));
+  std::size_t columns = 0;
+  std::size_t tables = 0;
+  for (std::size_t at = page.find("<th"); at != std::string::npos; at = page.find("<th", at + 1)) {
+    if (page.compare(at, 6, "<thead") != 0) ++columns;
+    if (page.compare(at, 6, "<thead") == 0) ++tables;
+    if (page.compare(at, 6, "<thead") == 0) columns = 0;
+    EXPECT_LE(columns, 6U);
+  }
+  EXPECT_EQ(tables, 4U);
+}
+
+TEST(Batch, StatesNoIntervalThatIsNotKnown) {
+  std::vector<BatchPart> parts{{"a", {row_of(10.0)}, Conformity::In}};
+  parts[0].rows[0].u95 = kMissing;
+  EXPECT_EQ(batch_html("batch", parts, batch_characteristics(parts)).find("nan"),
+            std::string::npos);
+}
+
 TEST(InspectionReport, IsOnePageWithEscapedTexts) {
   InspectionReport report;
   report.part = "<script>alert(1)</script>";

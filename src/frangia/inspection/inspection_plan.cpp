@@ -22,6 +22,8 @@ Eigen::Vector3d vector_of(TomlReader& reader, std::string_view key) {
 std::optional<ToleranceLimits> limits_of(TomlReader& reader, std::string_view key) {
   if (!reader.has(key)) return std::nullopt;
   const std::vector<double> values = reader.numbers(key, 2);
+  if (values[0] == values[1])
+    reader.fail(key, "has no width, which no part and no measurement keeps; state [LOWER, UPPER]");
   if (!(values[0] < values[1])) reader.fail(key, "must be [LOWER, UPPER], the lower one first");
   return ToleranceLimits{values[0], values[1]};
 }

@@ -16,6 +16,8 @@
 #include "frangia/core/student_95.h"
 #include "frangia/features/filtered_range.h"
 #include "frangia/geometry/vertex_data.h"
+#include "frangia/inspect/verdict_clause.h"
+#include "frangia/inspection/internal/continuous_walls.h"
 
 namespace frangia {
 namespace {
@@ -143,7 +145,10 @@ class OnSurface {
     // The zone lies on both sides of the nominal surface.
     row.value = 2.0 * std::abs(extreme.deviation_mm);
     row.u95 = 2.0 * extreme.u95_mm;
-    if (planned.limit) row.conformity = verdict.conformity;
+    if (!planned.limit) return;
+    row.conformity = verdict.conformity;
+    // The value is that of the patches that were measured: what lacks decides beside it.
+    if (row.conformity != Conformity::In) row.reason = sentence_of(verdict);
   }
 
   [[nodiscard]] SurfacePatches patches_of(const PlannedCharacteristic& planned) const {
@@ -174,39 +179,65 @@ class OnSurface {
   }
 
   void measure_thickness(const PlannedCharacteristic& planned, MeasuredCharacteristic& row) const {
-    std::vector<SurfaceValue> values;
-    std::vector<double> shared;
-    const std::vector<float>& systematic = on_.mesh->sigma_systematic_mm;
-    const auto add = [&](std::size_t v) {
-      const auto value = static_cast<double>(on_.walls->thickness_mm[v]);
-      if (!std::isfinite(value)) return;
-      values.push_back({on_.mesh->vertices_mm[v].cast<double>(), value});
-      if (!systematic.empty() && std::isfinite(systematic[v]))
-        shared.push_back(static_cast<double>(systematic[v]));
-    };
     const NamedFeature* feature = feature_of(planned);
     if (!planned.feature.empty() && feature == nullptr) return;
+    const std::vector<float>& walls_mm = on_.walls->thickness_mm;
     std::vector<Vector3d> fitted;
     if (feature != nullptr)
       for (const std::uint32_t v : feature->vertices)
         fitted.push_back(on_.mesh->vertices_mm[v].cast<double>());
     std::optional<FeatureRegion> region;
     if (feature != nullptr) region.emplace(feature->shape, fitted, default_feature_mm(*on_.mesh));
-    for (std::size_t v = 0; v < on_.mesh->vertices_mm.size(); ++v) {
-      if (!region ||
-          region->holds(on_.mesh->vertices_mm[v].cast<double>(), normals_[v].cast<double>()))
-        add(v);
+    std::vector<bool> counts(walls_mm.size());
+    std::vector<double> shared;
+    const std::vector<float>& systematic = on_.mesh->sigma_systematic_mm;
+    for (std::size_t v = 0; v < counts.size(); ++v) {
+      counts[v] = std::isfinite(walls_mm[v]) &&
+                  (!region || region->holds(on_.mesh->vertices_mm[v].cast<double>(),
+                                            normals_[v].cast<double>()));
+      if (counts[v] && !systematic.empty() && std::isfinite(systematic[v]))
+        shared.push_back(static_cast<double>(systematic[v]));
     }
-    if (values.empty()) return;
-    const FilteredRange range = filtered_range(std::move(values));
+    const auto [low, high] = ends_of(inspection::continuous_walls(*on_.mesh, *on_.walls, counts));
+    if (!std::isfinite(low.value)) return;
     const bool is_low =
-        !planned.nominal || *planned.nominal - range.low > range.high - *planned.nominal;
-    row.value = is_low ? range.low : range.high;
+        !planned.nominal || *planned.nominal - low.value > high.value - *planned.nominal;
+    const WallEnd& end = is_low ? low : high;
+    row.value = end.value;
     if (!row.uncertainty_known) return;
     // Both ends of the range are alike and independent: one has the root of a half of its interval.
     // What is alike in both walls adds up.
     const double both_mm = shared.empty() ? 0.0 : 2.0 * median_in_place(std::span<double>(shared));
-    row.u95 = std::hypot(std::sqrt(0.5) * range.u95, kNormal95 * both_mm);
+    row.u95 = std::hypot(std::sqrt(0.5) * end.u95, kNormal95 * both_mm);
+  }
+
+  /// An end of the range of thicknesses, with that of the wall that holds it.
+  struct WallEnd {
+    double value = kMissing;
+    double u95 = kMissing;  ///< of the range of that wall
+  };
+
+  /// The least and the largest thickness of several walls, each without its noise; missing without
+  /// walls. A wall of few points counts only where there is no other.
+  [[nodiscard]] std::pair<WallEnd, WallEnd> ends_of(
+      const std::vector<std::vector<std::uint32_t>>& walls) const {
+    constexpr std::size_t kFewest = 12;  // a linear function leaves eight of their errors
+    std::size_t largest = 0;
+    for (const auto& wall : walls)
+      largest = std::max(largest, wall.size());
+    WallEnd low;
+    WallEnd high;
+    for (const auto& wall : walls) {
+      if (wall.size() < std::min(kFewest, largest)) continue;
+      std::vector<SurfaceValue> values;
+      for (const std::uint32_t v : wall)
+        values.push_back({on_.mesh->vertices_mm[v].cast<double>(),
+                          static_cast<double>(on_.walls->thickness_mm[v])});
+      const FilteredRange range = filtered_range(std::move(values));
+      if (!(range.low >= low.value)) low = {range.low, range.u95};
+      if (!(range.high <= high.value)) high = {range.high, range.u95};
+    }
+    return {low, high};
   }
 
   /// The feature that was found; null: none, or one whose vertices are not those of the mesh.

@@ -8,10 +8,14 @@
 #include <fmt/format.h>
 
 #include "frangia/core/student_95.h"
+#include "frangia/inspection/internal/assign_features.h"
 #include "frangia/inspection/internal/shape_mismatch.h"
 
 namespace frangia {
 namespace {
+
+using inspection::assign_features;
+using inspection::AssignedFeature;
 
 /// What a plan says of a feature, and what was found.
 struct FoundFeature {
@@ -19,30 +23,6 @@ struct FoundFeature {
   const PlannedFeature* planned = nullptr;
 };
 using FeatureByName = std::map<std::string, FoundFeature>;
-
-const Shape& shape_of(const Feature& feature) {
-  return feature.fit.shape;
-}
-const Shape& shape_of(const MeasuredFeature& feature) {
-  return feature.feature.fit.shape;
-}
-
-template <typename Item>
-const Item* nearest_of(const PlannedFeature& planned,
-                       const std::vector<Item>& features,
-                       double farthest_mm) {
-  const Item* best = nullptr;
-  double least = farthest_mm;
-  for (const Item& feature : features) {
-    const Shape& shape = shape_of(feature);
-    if (shape.kind != planned.kind) continue;
-    const double mismatch = shape_mismatch_mm(planned, shape);
-    if (mismatch >= least) continue;
-    least = mismatch;
-    best = &feature;
-  }
-  return best;
-}
 
 /// How far from its planned place a feature may be.
 double farthest_mm(const std::vector<MeasuredFeature>& features) {
@@ -131,37 +111,70 @@ MeasuredCharacteristic row_of(const PlannedCharacteristic& planned, const Featur
   return row;
 }
 
+/// Warns of a feature that was not found, and of one that may be another one.
+void warn_of(const PlannedFeature& planned, const AssignedFeature& found, const Run& run) {
+  if (found.claimed_by != nullptr) {
+    run.warn(
+        fmt::format("{}: the {} that is nearest to it is that of {}; its values are missing; scan "
+                    "it, or correct its near_mm",
+                    planned.name,
+                    name_of(planned.kind),
+                    found.claimed_by->name));
+  } else if (found.measured == nullptr) {
+    run.warn(fmt::format("{}: no {} was found near ({:g}, {:g}, {:g}); its values are missing",
+                         planned.name,
+                         name_of(planned.kind),
+                         planned.near_mm.x(),
+                         planned.near_mm.y(),
+                         planned.near_mm.z()));
+  } else if (found.off_mm > 0.0) {
+    run.warn(
+        fmt::format("{}: its values are those of a {} that is {:.3g} mm from its near_mm; check "
+                    "that it is not another one",
+                    planned.name,
+                    name_of(planned.kind),
+                    found.off_mm));
+  }
+}
+
 }  // namespace
 
 void decide(MeasuredCharacteristic& row) {
   if (!row.limits || !std::isfinite(row.value)) return;
   const double u = row.uncertainty_known ? row.u95 / kNormal95 : 0.0;
   row.conformity = conformity_of(row.value, u, *row.limits);
+  if (!std::isfinite(u)) {
+    row.reason =
+        "undecided: its uncertainty is not known, because too few points were measured; scan it "
+        "from more stations";
+  }
 }
 
 const Feature* nearest_feature(const PlannedFeature& planned,
                                const std::vector<Feature>& features,
                                double farthest_mm) {
-  return nearest_of(planned, features, farthest_mm);
+  const Feature* best = nullptr;
+  double least = farthest_mm;
+  for (const Feature& feature : features) {
+    if (feature.fit.shape.kind != planned.kind) continue;
+    const double mismatch = shape_mismatch_mm(planned, feature.fit.shape);
+    if (mismatch >= least) continue;
+    least = mismatch;
+    best = &feature;
+  }
+  return best;
 }
 
 std::vector<MeasuredCharacteristic> measure_characteristics(
     const InspectionPlan& plan, const std::vector<MeasuredFeature>& features, const Run& run) {
   std::vector<MeasuredCharacteristic> rows;
   FeatureByName found;
-  const double farthest = farthest_mm(features);
-  for (const PlannedFeature& planned : plan.features) {
-    const MeasuredFeature* feature = nearest_of(planned, features, farthest);
-    found[planned.name] = {feature, &planned};
-    if (feature == nullptr) {
-      run.warn(fmt::format("{}: no {} was found near ({:g}, {:g}, {:g}); its values are missing",
-                           planned.name,
-                           name_of(planned.kind),
-                           planned.near_mm.x(),
-                           planned.near_mm.y(),
-                           planned.near_mm.z()));
-    }
-    add_feature_rows(planned, feature, rows);
+  const auto assigned = assign_features(plan.features, features, farthest_mm(features));
+  for (std::size_t i = 0; i < plan.features.size(); ++i) {
+    const PlannedFeature& planned = plan.features[i];
+    found[planned.name] = {assigned[i].measured, &planned};
+    warn_of(planned, assigned[i], run);
+    add_feature_rows(planned, assigned[i].measured, rows);
   }
   for (const PlannedCharacteristic& planned : plan.characteristics)
     rows.push_back(row_of(planned, found));
@@ -171,10 +184,11 @@ std::vector<MeasuredCharacteristic> measure_characteristics(
 std::vector<NamedFeature> named_features(const InspectionPlan& plan,
                                          const std::vector<MeasuredFeature>& features) {
   std::vector<NamedFeature> named;
-  for (const PlannedFeature& planned : plan.features) {
-    const MeasuredFeature* found = nearest_of(planned, features, farthest_mm(features));
+  const auto assigned = assign_features(plan.features, features, farthest_mm(features));
+  for (std::size_t i = 0; i < plan.features.size(); ++i) {
+    const MeasuredFeature* found = assigned[i].measured;
     if (found == nullptr) continue;
-    named.push_back({planned.name,
+    named.push_back({plan.features[i].name,
                      found->feature.fit.shape,
                      found->feature.uncertainty,
                      found->low_mm,

@@ -28,6 +28,9 @@ struct MeasuredCharacteristic {
   /// By ISO 14253-1; by the limits alone where the mesh states no sigma; undecided where the value
   /// is not known, its uncertainty cannot be determined or no limit is stated.
   Conformity conformity = Conformity::Undecided;
+  /// Why a row with limits is not in, where value, interval and limits do not show it: a profile
+  /// that was not measured everywhere, an uncertainty that is not known. Otherwise empty.
+  std::string reason;
 };
 
 /// The feature of the planned kind whose center, or axis, and diameter come nearest to those of the
@@ -45,10 +48,10 @@ void decide(MeasuredCharacteristic& row);
 
 /// Measures what a plan asks for on a mesh in the frame of its reference. A planned feature is the
 /// one of its kind whose center, or axis, and diameter come nearest, within `kFarthestFeature` of
-/// the diagonal of all points.
+/// the diagonal of all points, unless that belongs to another planned feature that is nearer to it.
 ///
 /// Those that are `is_of_surface` have no value yet: `measure_on_surface` measures them. `run` is
-/// warned of planned features that are not found.
+/// warned of planned features that are not found, and of those that may be another feature.
 /// @units    mm, degrees
 /// @missing  values of features that are not found are NaN
 /// @errors   Error(Input) for a characteristic that the kind of its feature does not have

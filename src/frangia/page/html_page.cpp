@@ -46,6 +46,7 @@ figure img,figure svg{width:100%;height:auto;display:block}
 .results th{overflow-wrap:normal;font-size:8pt}.results th:first-child{width:22.5%}
 .results .unit{width:4.5%}.results .value{width:9.2%}.results .limits{width:13%}
 .results td.limits{white-space:nowrap}
+.results td.why{color:#5a6470;text-align:left}
 .results .bar{width:13.2%}.results .decision{width:10%}
 .results svg{width:22mm;height:2.75mm;display:block;margin-left:auto}
 .lead{break-after:avoid}

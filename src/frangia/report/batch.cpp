@@ -4,6 +4,8 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
+#include <span>
+#include <string_view>
 #include <utility>
 
 #include <fmt/format.h>
@@ -138,6 +140,11 @@ const std::vector<std::pair<const char*, TextOf>>& statistics_lines() {
   return lines;
 }
 
+/// The surface decides, too: a part with good diameters and a dent is out.
+std::string_view decision_of(const BatchPart& part) {
+  return part.inspected ? name_of(part.verdict) : "not inspected";
+}
+
 std::string quoted(const std::string& text) {
   std::string out = "\"";
   for (const char c : text)
@@ -145,19 +152,56 @@ std::string quoted(const std::string& text) {
   return out + "\"";
 }
 
+/// A table of some characteristics, with the parts and their decisions.
+void add_results(HtmlPage& page,
+                 const std::vector<BatchPart>& parts,
+                 std::span<const BatchCharacteristic> characteristics) {
+  std::vector<std::string> columns{"part"};
+  for (const BatchCharacteristic& one : characteristics)
+    columns.push_back(one.name + ", " + one.unit);
+  columns.emplace_back("decision");
+  std::vector<std::vector<std::string>> rows;
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    rows.push_back({parts[i].name});
+    for (const BatchCharacteristic& one : characteristics) {
+      std::string text = std::isfinite(one.values[i]) ? fmt::format("{:.4f}", one.values[i])
+                         : parts[i].inspected         ? "not found"
+                                                      : "";
+      if (std::isfinite(one.u95[i])) text += fmt::format(" ± {:.4f}", one.u95[i]);
+      rows.back().push_back(std::move(text));
+    }
+    rows.back().emplace_back(decision_of(parts[i]));
+  }
+  for (const auto& [name, text_of] : statistics_lines()) {
+    rows.push_back({name});
+    for (const BatchCharacteristic& one : characteristics)
+      rows.back().push_back(text_of(one));
+    rows.back().emplace_back("");
+  }
+  page.table(columns, rows);
+}
+
 }  // namespace
 
 std::vector<BatchCharacteristic> batch_characteristics(const std::vector<BatchPart>& parts) {
   std::vector<BatchCharacteristic> all;
+  const auto first =
+      std::find_if(parts.begin(), parts.end(), [](const auto& part) { return part.inspected; });
+  if (first == parts.end()) return all;
+  for (const MeasuredCharacteristic& row : first->rows) {
+    BatchCharacteristic one;
+    one.name = row.name;
+    one.unit = row.unit;
+    one.limits = row.limits;
+    all.push_back(std::move(one));
+  }
   for (const BatchPart& part : parts) {
-    if (all.empty()) {
-      for (const MeasuredCharacteristic& row : part.rows) {
-        BatchCharacteristic one;
-        one.name = row.name;
-        one.unit = row.unit;
-        one.limits = row.limits;
-        all.push_back(std::move(one));
+    if (!part.inspected) {
+      for (BatchCharacteristic& one : all) {
+        one.values.push_back(kMissing);
+        one.u95.push_back(kMissing);
       }
+      continue;
     }
     require(all.size() == part.rows.size(),
             "the parts of a batch must have the same characteristics; inspect them by one plan");
@@ -178,18 +222,18 @@ std::string batch_csv(const std::vector<BatchPart>& parts,
   std::string csv = "part";
   for (const BatchCharacteristic& one : characteristics)
     csv += fmt::format(",{},{}", quoted(one.name + " " + one.unit), quoted(one.name + " U95"));
-  csv += ",decision\n";
+  csv += ",decision,reason\n";
   for (std::size_t i = 0; i < parts.size(); ++i) {
     csv += quoted(parts[i].name);
     for (const BatchCharacteristic& one : characteristics)
       csv += fmt::format(",{},{}", value_text(one.values[i], 6), value_text(one.u95[i], 6));
-    csv += fmt::format(",{}\n", name_of(overall(parts[i].rows)));
+    csv += fmt::format(",{},{}\n", decision_of(parts[i]), quoted(parts[i].reason));
   }
   for (const auto& [name, text_of] : statistics_lines()) {
     csv += name;
     for (const BatchCharacteristic& one : characteristics)
       csv += fmt::format(",{},", text_of(one));
-    csv += ",\n";
+    csv += ",,\n";
   }
   return csv;
 }
@@ -197,35 +241,28 @@ std::string batch_csv(const std::vector<BatchPart>& parts,
 std::string batch_html(const std::string& title,
                        const std::vector<BatchPart>& parts,
                        const std::vector<BatchCharacteristic>& characteristics) {
+  constexpr std::size_t kColumns = 4;  // more do not fit the width of a sheet
   HtmlPage page(title);
-  std::vector<std::string> columns{"part"};
-  for (const BatchCharacteristic& one : characteristics)
-    columns.push_back(one.name + ", " + one.unit);
-  columns.emplace_back("decision");
-  std::vector<std::vector<std::string>> rows;
-  for (std::size_t i = 0; i < parts.size(); ++i) {
-    rows.push_back({parts[i].name});
-    for (const BatchCharacteristic& one : characteristics) {
-      rows.back().push_back(std::isfinite(one.values[i])
-                                ? fmt::format("{:.4f} ± {:.4f}", one.values[i], one.u95[i])
-                                : "not found");
-    }
-    rows.back().emplace_back(name_of(overall(parts[i].rows)));
-  }
-  for (const auto& [name, text_of] : statistics_lines()) {
-    rows.push_back({name});
-    for (const BatchCharacteristic& one : characteristics)
-      rows.back().push_back(text_of(one));
-    rows.back().emplace_back("");
-  }
   page.heading("Results");
-  page.table(columns, rows);
+  for (std::size_t first = 0; first == 0 || first < characteristics.size(); first += kColumns) {
+    const std::size_t count = std::min(kColumns, characteristics.size() - first);
+    add_results(page, parts, std::span(characteristics).subspan(first, count));
+  }
   page.paragraph(
       "Cp and Cpk are computed from the standard deviation of the measured values, which contains "
       "the uncertainty of the measurement. Few parts say little about a process: the last line "
       "states "
       "the Cpk that it exceeds with a probability of 95 %, or that too few were measured to prove "
       "any above 0.");
+  const bool all_in = std::all_of(parts.begin(), parts.end(), [](const auto& part) {
+    return part.inspected && part.verdict == Conformity::In;
+  });
+  if (!all_in) page.heading("Parts that are not in");
+  for (const BatchPart& part : parts) {
+    if (part.inspected && part.verdict == Conformity::In) continue;
+    page.paragraph(fmt::format(
+        "{}: {}{}{}", part.name, decision_of(part), part.reason.empty() ? "" : "; ", part.reason));
+  }
   page.heading("Trends");
   page.begin_figures();
   for (const BatchCharacteristic& one : characteristics)

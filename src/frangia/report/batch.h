@@ -13,6 +13,10 @@ namespace frangia {
 struct BatchPart {
   std::string name;                          ///< of its mesh
   std::vector<MeasuredCharacteristic> rows;  ///< the same characteristics for each part
+  /// About the part, by its surface and its characteristics.
+  Conformity verdict = Conformity::Undecided;
+  std::string reason;     ///< of the verdict, or why it was not inspected; may be empty
+  bool inspected = true;  ///< false: it has neither rows nor a verdict
 };
 
 /// A characteristic over all parts of a batch.
@@ -35,17 +39,20 @@ struct BatchCharacteristic {
 
 /// Gathers the characteristics of a batch.
 ///
+/// @missing  those of a part that was not inspected are NaN
 /// @errors   Error(Input) when the parts do not have the same characteristics
 /// @source   ISO 22514-2; Bissell 1990 for the lower limit of Cpk; the standard deviation contains
 /// the uncertainty of the measurement
 [[nodiscard]] std::vector<BatchCharacteristic> batch_characteristics(
     const std::vector<BatchPart>& parts);
 
-/// A table with a line for each part and lines of mean, standard deviation, Cp and Cpk.
+/// A table with a line for each part, with its verdict and the reason, and lines of mean, standard
+/// deviation, Cp and Cpk.
 [[nodiscard]] std::string batch_csv(const std::vector<BatchPart>& parts,
                                     const std::vector<BatchCharacteristic>& characteristics);
 
-/// The batch as one page of HTML: the table, and a trend plot for each characteristic.
+/// The batch as one page of HTML: the table, why parts are not in, and a trend plot for each
+/// characteristic.
 [[nodiscard]] std::string batch_html(const std::string& title,
                                      const std::vector<BatchPart>& parts,
                                      const std::vector<BatchCharacteristic>& characteristics);

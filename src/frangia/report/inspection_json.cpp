@@ -260,7 +260,8 @@ Json json_of_characteristics(const std::vector<MeasuredCharacteristic>& characte
                     {"limits", json_of_limits(row.limits)},
                     {"value", number_or_null(row.value)},
                     {"u95", number_or_null(row.u95)},
-                    {"conformity", row.limits ? Json(name_of(row.conformity)) : Json()}});
+                    {"conformity", row.limits ? Json(name_of(row.conformity)) : Json()},
+                    {"reason", row.reason.empty() ? Json() : Json(row.reason)}});
   }
   return rows;
 }
@@ -319,7 +320,10 @@ std::string inspection_json(const Inspection& part) {
   if (part.walls) json["thickness"] = json_of_walls(part.walls->summary);
   if (!part.characteristics.empty())
     json["characteristics"] = json_of_characteristics(part.characteristics);
-  if (!part.reasons.empty()) json["reasons"] = json_of_reasons(part.reasons);
+  if (!part.reasons.empty()) {
+    json["verdict"] = name_of(part.verdict);
+    json["reasons"] = json_of_reasons(part.reasons);
+  }
   if (!part.sections.empty()) json["sections"] = json_of_sections(part.sections);
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }

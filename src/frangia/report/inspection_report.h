@@ -36,6 +36,7 @@ struct InspectionReport {
   std::vector<ReportPicture> pictures;  ///< of deviations and thickness, the largest first
   std::vector<MeasuredCharacteristic> characteristics;  ///< that a plan asked for
   std::vector<Feature> features;                        ///< all that were found
+  std::vector<std::string> feature_names;               ///< of the plan; empty for none of its
   /// The face of the CAD reference of each feature; empty without such a reference.
   std::vector<std::optional<NominalFace>> nominals;
   std::vector<SectionResult> sections;  ///< that a plan asked for

@@ -32,6 +32,8 @@ std::size_t rows_on_cover(const InspectionReport& report,
   std::size_t count = 0;
   for (const MeasuredCharacteristic& row : rows) {
     room_mm -= 1.7 + kLine_mm * static_cast<double>(lines_of(row.name, 24));
+    if (!row.reason.empty())
+      room_mm -= 1.7 + kLine_mm * static_cast<double>(lines_of(row.reason, 110));
     if (room_mm < 0.0) break;
     ++count;
   }

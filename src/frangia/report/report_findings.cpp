@@ -101,7 +101,9 @@ void add_found_features(HtmlPage& page, const InspectionReport& report) {
     const bool fitted = is_surface(shape.kind);
     const Eigen::Vector3d& c = shape.center_mm;
     const Eigen::Vector3d& a = shape.axis;
-    rows.push_back({std::string(name_of(shape.kind)) + (feature.hole && round ? ", hole" : ""),
+    const std::string name = i < report.feature_names.size() ? report.feature_names[i] : "";
+    rows.push_back({(name.empty() ? "" : name + ": ") + std::string(name_of(shape.kind)) +
+                        (feature.hole && round ? ", hole" : ""),
                     round ? number_text(2.0 * shape.radius_mm, 4) : "",
                     number_text(feature.uncertainty.u95_mm, 4),
                     fitted ? number_text(feature.fit.form_mm, 4) : "",

@@ -88,7 +88,8 @@ std::vector<LabelledPlace> labelled_places(const Inspection& part) {
                                     [&](const auto& one) { return one.name == row.feature; });
     if (found == part.named_features.end() || !std::isfinite(row.value)) continue;
     const Shape& shape = found->shape;
-    PictureLabel label{fmt::format("{:.4f}", row.value),
+    const char* const unit = row.unit == "degrees" ? "°" : " mm";
+    PictureLabel label{fmt::format("{:.4f}{}", row.value, unit),
                        row.name,
                        row.limits ? row.conformity : Conformity::Undecided,
                        {}};
@@ -213,7 +214,9 @@ std::vector<ReportPicture> report_pictures(const Inspection& part,
                     what,
                     azimuth,
                     elevation,
-                    what.empty() ? "" : "; dark gray: no value; magenta: inside of the surface");
+                    what.empty() ? ""
+                                 : "; dark gray: no value; magenta: inside of the surface; labels: "
+                                   "deviation ± U95, mm");
     picture.picture = render_mesh(part.mesh, options, run);
     if (!options.values.empty()) {
       picture.scale = PictureScale{options.value_label,

@@ -113,6 +113,10 @@ std::string result_table(const std::vector<MeasuredCharacteristic>& rows, std::s
         tolerance_bar(row),
         row.limits ? name_of(row.conformity) : "",
         row.limits ? name_of(row.conformity) : "");
+    if (!row.reason.empty()) {
+      html += fmt::format("<tr><td class=\"why\" colspan=\"9\">{}</td></tr>\n",
+                          html_escaped(row.reason));
+    }
   }
   return html + "</tbody></table>\n";
 }

@@ -5,7 +5,6 @@
 #include <chrono>
 #include <cmath>
 #include <ctime>
-#include <iterator>
 #include <utility>
 
 #include <fmt/chrono.h>
@@ -25,11 +24,15 @@ namespace {
 
 using NamedTexts = std::vector<std::pair<std::string, std::string>>;
 
-double median_of_finite(const std::vector<float>& values) {
+/// Median over the vertices that were compared with the reference, of which the combined
+/// uncertainty is, too; over all without a reference.
+double median_of_finite(const std::vector<float>& values, const Inspection& part) {
   std::vector<float> known;
-  std::copy_if(values.begin(), values.end(), std::back_inserter(known), [](float value) {
-    return std::isfinite(value);
-  });
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const bool counts =
+        !part.surface || part.surface->deviations.status[i] == DeviationStatus::Compared;
+    if (counts && std::isfinite(values[i])) known.push_back(values[i]);
+  }
   return known.empty() ? static_cast<double>(kMissing)
                        : static_cast<double>(median(std::move(known)));
 }
@@ -53,10 +56,10 @@ std::vector<std::pair<std::string, double>> uncertainty_terms_of(const Inspectio
   const Mesh& mesh = part.mesh;
   if (mesh.sigma_mm.empty()) return terms;
   add("noise of a vertex, median (" + names_of(UncertaintyPart::Noise) + ")",
-      median_of_finite(mesh.sigma_noise_mm.empty() ? mesh.sigma_mm : mesh.sigma_noise_mm));
+      median_of_finite(mesh.sigma_noise_mm.empty() ? mesh.sigma_mm : mesh.sigma_noise_mm, part));
   if (!mesh.sigma_systematic_mm.empty()) {
     add("systematic part of a vertex, median (" + names_of(UncertaintyPart::Systematic) + ")",
-        median_of_finite(mesh.sigma_systematic_mm));
+        median_of_finite(mesh.sigma_systematic_mm, part));
   }
   if (part.surface) {
     if (part.alignment)
@@ -156,6 +159,16 @@ std::string json_of(const Inspection& part, const InspectionReport& report) {
   return json.dump(2, ' ', true, nlohmann::json::error_handler_t::replace) + "\n";
 }
 
+/// The names that the plan has for a feature.
+std::string names_in_plan(const Inspection& part, const Shape& shape) {
+  std::string names;
+  for (const NamedFeature& named : part.named_features) {
+    if (named.shape.kind == shape.kind && named.shape.center_mm == shape.center_mm)
+      names += (names.empty() ? "" : ", ") + named.name;
+  }
+  return names;
+}
+
 }  // namespace
 
 InspectionReport report_of(const Inspection& part,
@@ -180,6 +193,8 @@ InspectionReport report_of(const Inspection& part,
   report.pictures = report_pictures(part, sources.scale_mm, run);
   report.characteristics = part.characteristics;
   report.features = part.features;
+  for (const Feature& feature : part.features)
+    report.feature_names.push_back(names_in_plan(part, feature.fit.shape));
   report.nominals = part.nominals;
   report.sections = part.sections;
   report.uncertainty_mm = uncertainty_terms_of(part);

@@ -191,6 +191,16 @@ export const FAULTS_INSPECTION = {
     '{0}: die Ausrichtung ist {1}, aber es gibt keine Referenz dafür; eine angeben oder ohne Ausrichtung prüfen',
     "{0}: l'allineamento è {1}, ma non c'è un riferimento; darne uno o togliere l'allineamento",
   ],
+  'fault.hasNoWidth': [
+    'has no width, which no part and no measurement keeps; state [LOWER, UPPER]',
+    'hat keine Breite, die kein Teil und keine Messung einhält; [UNTEN, OBEN] angeben',
+    'non ha ampiezza, che nessun pezzo e nessuna misura rispetta; indicare [INFERIORE, SUPERIORE]',
+  ],
+  'fault.uncertaintyOfRow': [
+    'undecided: its uncertainty is not known, because too few points were measured; scan it from more stations',
+    'unentschieden: die Unsicherheit ist nicht bekannt, weil zu wenige Punkte gemessen sind; von mehr Stationen scannen',
+    'indeciso: la sua incertezza non è nota, perché sono stati misurati troppo pochi punti; scansionare da più stazioni',
+  ],
   'fault.lowerUpperLower': [
     'must be [LOWER, UPPER], the lower one first',
     'muss [UNTEN, OBEN] sein, die untere Grenze zuerst',
@@ -265,6 +275,16 @@ export const FAULTS_INSPECTION = {
     '{0}: no {1} was found near ({2}, {3}, {4}); its values are missing',
     '{0}: bei ({2}, {3}, {4}) ist kein Element {1} zu finden; seine Werte fehlen',
     '{0}: nessun {1} trovato presso ({2}, {3}, {4}); i suoi valori mancano',
+  ],
+  'fault.nearestIsThatOf': [
+    '{0}: the {1} that is nearest to it is that of {2}; its values are missing; scan it, or correct its near_mm',
+    '{0}: das nächste Element {1} gehört zu {2}; seine Werte fehlen; es scannen oder near_mm berichtigen',
+    '{0}: il {1} più vicino è quello di {2}; i suoi valori mancano; scansionarlo o correggere near_mm',
+  ],
+  'fault.farFromNearMm': [
+    '{0}: its values are those of a {1} that is {2} mm from its near_mm; check that it is not another one',
+    '{0}: seine Werte sind die eines Elements {1}, das {2} mm von near_mm entfernt ist; prüfen, ob es ein anderes ist',
+    '{0}: i suoi valori sono quelli di un {1} che dista {2} mm da near_mm; verificare che non sia un altro',
   ],
   'fault.toleranceMmDiameter': [
     'tolerance_mm is of a diameter, which a {0} does not have; leave it out',

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -99,30 +101,102 @@ float correlation(float distance_mm, float half_width_mm) {
 
 namespace {
 
-/// Scatter between the views over a block.
-struct BlockScatter {
-  float excess = 0.0F;  ///< beyond the noise of the views
+/// Variance between the views beyond their noise, of places together.
+struct PooledScatter {
+  float excess = 0.0F;
   float degrees_of_freedom = 0.0F;
-  float stated = 0.0F;  ///< variance that differs by view
+
+  void add(const PooledScatter& more, float weight = 1.0F) {
+    excess += weight * more.excess;
+    degrees_of_freedom += weight * more.degrees_of_freedom;
+  }
+  [[nodiscard]] float variance() const {
+    return excess > 0.0F && degrees_of_freedom > 0.0F ? excess / degrees_of_freedom : 0.0F;
+  }
 };
 
-BlockScatter scatter_in(const HermiteAccumulators& hermite, std::size_t first, std::size_t last) {
+constexpr int kCells = 4;  // along a block: cells of two voxels
+static_assert(kCells * 2 == kBlockEdge && kCells * kCells * kCells == 64);
+
+/// Scatter between the views over a block.
+struct BlockScatter {
+  PooledScatter all;
+  /// Without the places where views disagree as on the edge of a step or of a shadow: there they
+  /// see different surfaces, which says nothing of the faces beside it.
+  PooledScatter usual;
+  std::uint64_t striking = 0;  ///< cells that hold such places, a bit each, x lowest
+  float stated = 0.0F;         ///< variance that differs by view
+};
+
+/// The cell of a place, from the lowest one of a block.
+Eigen::Array3i cell_from(const Eigen::Vector3f& point_mm,
+                         const Eigen::Vector3i& block,
+                         float per_cell) {
+  const Eigen::Array3i cell = (per_cell * point_mm).array().floor().cast<int>();
+  return cell - kCells * block.array();
+}
+
+std::uint64_t bit_of(const Eigen::Array3i& cell) {
+  const Eigen::Array3i within = cell.max(0).min(kCells - 1);
+  return std::uint64_t{1} << (within.x() + kCells * (within.y() + kCells * within.z()));
+}
+
+/// What two views or more say of a crossing.
+struct CrossingScatter {
+  std::size_t crossing;
+  float scatter;
+  float noise;  ///< that is expected
+  float freedom;
+};
+
+/// The scatter beyond which a crossing is striking, per degree of freedom; infinite where too few
+/// show what is usual. The median of the squares of normal errors is 0.45 of their variance or
+/// more: 4.5 standard deviations, which occur once in 150 000.
+float usual_most(const std::vector<CrossingScatter>& seen) {
+  constexpr std::size_t kFewest = 20;
+  constexpr float kOfMedian = 45.0F;
+  std::vector<float> per_freedom;
+  for (const CrossingScatter& one : seen) {
+    if (one.freedom > 0.0F) per_freedom.push_back(one.scatter / one.freedom);
+  }
+  if (per_freedom.size() < kFewest) return std::numeric_limits<float>::infinity();
+  const auto middle = per_freedom.begin() + static_cast<std::ptrdiff_t>(per_freedom.size() / 2);
+  std::nth_element(per_freedom.begin(), middle, per_freedom.end());
+  return kOfMedian * *middle;
+}
+
+BlockScatter scatter_in(const HermiteAccumulators& hermite,
+                        const EdgeCrossings& crossings,
+                        std::size_t block) {
+  constexpr float kOfNoise = 20.0F;  // 4.5 standard deviations of what the views state
   BlockScatter out;
-  for (std::size_t i = first; i < last; ++i) {
+  std::vector<CrossingScatter> seen;
+  for (std::size_t i = crossings.first_of(block); i < crossings.first_of(block + 1); ++i) {
     const HermiteAccumulator::PlaneSum& face = hermite.dominant(i);
     if (face.views < 2) continue;
     const float scatter = face.offset_squared - face.offset * face.offset / face.weight;
     const float expected = face.noise - face.noise_squared / face.weight;
-    out.excess += (scatter - expected) / face.weight;
     const float freedom = 1.0F - face.weight_squared / (face.weight * face.weight);
-    out.degrees_of_freedom += freedom;
+    seen.push_back({i, scatter / face.weight, expected / face.weight, freedom});
     out.stated += freedom * hermite.differing_variance(i);
+  }
+  const float most = usual_most(seen);
+  const auto per_cell = static_cast<float>(0.5 / crossings.voxel_mm);
+  for (const CrossingScatter& one : seen) {
+    const PooledScatter scatter{one.scatter - one.noise, one.freedom};
+    out.all.add(scatter);
+    if (one.scatter > one.freedom * most && one.scatter > kOfNoise * one.noise)
+      out.striking |= bit_of(
+          cell_from(crossings.points_mm[one.crossing], crossings.block_coords[block], per_cell));
+    else
+      out.usual.add(scatter);
   }
   return out;
 }
 
 /// The variance between the views around a place: the scatter of the blocks around it, weighted
-/// linearly by the distances of their centres, so that it has no step from block to block.
+/// linearly by the distances of their centres, so that it has no step from block to block. What
+/// is striking counts in the cells next to it alone.
 class ScatterAround {
  public:
   ScatterAround(const EdgeCrossings& crossings,
@@ -137,6 +211,7 @@ class ScatterAround {
           const std::uint32_t found =
               crossings.index.find(block_key(corner_ + Eigen::Vector3i(x, y, z)));
           if (found != BlockIndex::kNone) near_.at(next) = scatters[found];
+          any_ = any_ || near_.at(next).striking != 0;
           ++next;
         }
       }
@@ -147,8 +222,8 @@ class ScatterAround {
     // From the block's centre: -0.5 to 0.5.
     const Eigen::Array3f from = (per_block_ * point_mm - corner_.cast<float>()).array() - 0.5F;
     const Eigen::Array3f far = from.abs().min(0.5F);
-    float excess = 0.0F;
-    float degrees_of_freedom = 0.0F;
+    const bool striking = any_ && is_beside_striking(point_mm);
+    PooledScatter pooled;
     for (int corner = 0; corner < 8; ++corner) {
       float weight = 1.0F;
       int index = 0;
@@ -158,16 +233,34 @@ class ScatterAround {
         index = 3 * index + 1 + (neighbor ? (from(axis) < 0.0F ? -1 : 1) : 0);
       }
       const BlockScatter& scatter = near_.at(static_cast<std::size_t>(index));
-      excess += weight * scatter.excess;
-      degrees_of_freedom += weight * scatter.degrees_of_freedom;
+      pooled.add(striking ? scatter.all : scatter.usual, weight);
     }
-    return excess > 0.0F && degrees_of_freedom > 0.0F ? excess / degrees_of_freedom : 0.0F;
+    return pooled.variance();
   }
 
  private:
+  /// Whether a cell that touches that of the place holds a striking place.
+  [[nodiscard]] bool is_beside_striking(const Eigen::Vector3f& point_mm) const {
+    const Eigen::Array3i cell =
+        cell_from(point_mm, corner_, per_block_ * kCells).max(0).min(kCells - 1);
+    for (int dz = -1; dz <= 1; ++dz) {
+      for (int dy = -1; dy <= 1; ++dy) {
+        for (int dx = -1; dx <= 1; ++dx) {
+          const Eigen::Array3i other = cell + Eigen::Array3i(dx, dy, dz) + kCells;
+          const Eigen::Array3i block = other / kCells;
+          const int index = block.x() + 3 * (block.y() + 3 * block.z());
+          const std::uint64_t bit = bit_of(other - kCells * block);
+          if ((near_.at(static_cast<std::size_t>(index)).striking & bit) != 0) return true;
+        }
+      }
+    }
+    return false;
+  }
+
   Eigen::Vector3i corner_;
   float per_block_;
   std::array<BlockScatter, 27> near_;  ///< x runs fastest
+  bool any_ = false;                   ///< one of them holds a striking place
 };
 
 }  // namespace
@@ -176,8 +269,7 @@ void add_between_view_variance(HermiteAccumulators& hermite, const EdgeCrossings
   std::vector<BlockScatter> scatters(crossings.blocks.size());
   parallel_chunks(scatters.size(), 64, [&](std::size_t begin, std::size_t end) {
     for (std::size_t block = begin; block < end; ++block) {
-      scatters[block] =
-          scatter_in(hermite, crossings.first_of(block), crossings.first_of(block + 1));
+      scatters[block] = scatter_in(hermite, crossings, block);
     }
   });
   parallel_chunks(scatters.size(), 64, [&](std::size_t begin, std::size_t end) {
@@ -197,8 +289,9 @@ void add_between_view_variance(HermiteAccumulators& hermite, const EdgeCrossings
   float weight = 0.0F;
   for (const BlockScatter& block : scatters) {
     if (!(block.stated > 0.0F)) continue;
-    found += std::clamp(block.excess / block.stated, 0.0F, 1.0F) * block.degrees_of_freedom;
-    weight += block.degrees_of_freedom;
+    const float freedom = block.all.degrees_of_freedom;
+    found += std::clamp(block.all.excess / block.stated, 0.0F, 1.0F) * freedom;
+    weight += freedom;
   }
   if (weight > 0.0F) hermite.scale_differing(found / weight);
 }
