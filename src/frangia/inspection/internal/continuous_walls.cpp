@@ -1,38 +1,10 @@
 #include "frangia/inspection/internal/continuous_walls.h"
 
-#include <algorithm>
 #include <cmath>
-#include <numeric>
+
+#include "frangia/core/disjoint_sets.h"
 
 namespace frangia::inspection {
-namespace {
-
-/// Sets of vertices that are united pair by pair.
-class DisjointSets {
- public:
-  explicit DisjointSets(std::size_t count) : parent_(count) {
-    std::iota(parent_.begin(), parent_.end(), 0U);
-  }
-  std::uint32_t root_of(std::uint32_t v) {
-    while (parent_[v] != v) {
-      parent_[v] = parent_[parent_[v]];
-      v = parent_[v];
-    }
-    return v;
-  }
-  /// The lower vertex becomes the root.
-  void unite(std::uint32_t a, std::uint32_t b) {
-    a = root_of(a);
-    b = root_of(b);
-    parent_[std::max(a, b)] = std::min(a, b);
-  }
-
- private:
-  std::vector<std::uint32_t> parent_;
-};
-
-}  // namespace
-
 std::vector<std::vector<std::uint32_t>> continuous_walls(const Mesh& mesh,
                                                          const Thickness& walls,
                                                          const std::vector<bool>& counts) {
@@ -47,14 +19,14 @@ std::vector<std::vector<std::uint32_t>> continuous_walls(const Mesh& mesh,
       if (!counts[a] || !counts[b]) continue;
       float most = kMostSlope * (mesh.vertices_mm[a] - mesh.vertices_mm[b]).norm();
       if (!walls.u_mm.empty()) most += kSigmas * std::hypot(walls.u_mm[a], walls.u_mm[b]);
-      if (!(std::abs(walls.thickness_mm[a] - walls.thickness_mm[b]) > most)) sets.unite(a, b);
+      if (!(std::abs(walls.thickness_mm[a] - walls.thickness_mm[b]) > most)) sets.join(a, b);
     }
   }
   std::vector<std::vector<std::uint32_t>> found;
   std::vector<std::size_t> number(counts.size(), 0);  // of the wall of a root, from 1
   for (std::uint32_t v = 0; v < counts.size(); ++v) {
     if (!counts[v]) continue;
-    std::size_t& wall = number[sets.root_of(v)];
+    std::size_t& wall = number[sets.find(v)];
     if (wall == 0) {
       found.emplace_back();
       wall = found.size();

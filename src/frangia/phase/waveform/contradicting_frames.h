@@ -17,9 +17,8 @@ namespace frangia {
 /// The residual is a mean over windows of 7 x 7 pixels: some phases hide a fault of two frames from
 /// a single pixel.
 ///
-/// @shape    four frames or more of w x h, of one exposure; w x h out, empty for three frames,
-/// which
-///           leave no residual
+/// @shape    four frames or more of w x h, of one exposure; w x h out, empty for three frames:
+///           they leave no residual
 /// @units    rad
 /// @missing  0 where noise explains the residual, and where there are no fringes
 [[nodiscard]] Image<float> unexplained_phase(const FrameStack& stack,
