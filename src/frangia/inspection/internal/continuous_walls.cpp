@@ -5,6 +5,7 @@
 #include "frangia/core/disjoint_sets.h"
 
 namespace frangia::inspection {
+
 std::vector<std::vector<std::uint32_t>> continuous_walls(const Mesh& mesh,
                                                          const Thickness& walls,
                                                          const std::vector<bool>& counts) {
