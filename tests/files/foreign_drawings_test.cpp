@@ -3,6 +3,7 @@
 #include <utility>
 #include <vector>
 
+#include "frangia/core/error.h"
 #include "frangia/files/internal/zip_file.h"
 
 #include "files/foreign_meshes.h"
@@ -23,12 +24,14 @@ using testing::Solid;
 using testing::volume_of;
 
 TEST_F(ForeignMeshes, EveryUnitOfADxfIsConverted) {
+  const auto face_of = [](double side) {
+    return group(0, "3DFACE") + point_group(0, {0, 0, 0}) + point_group(1, {side, 0, 0}) +
+           point_group(2, {0, side, 0});
+  };
   const auto side_of = [&](int unit, double side) {
-    const std::string face = group(0, "3DFACE") + point_group(0, {0, 0, 0}) +
-                             point_group(1, {side, 0, 0}) + point_group(2, {0, side, 0});
     const std::string header = group(0, "SECTION") + group(2, "HEADER") + group(9, "$INSUNITS") +
                                group(70, std::to_string(unit)) + group(0, "ENDSEC");
-    return static_cast<double>(read("a.dxf", drawing(face, header)).vertices_mm[1].x());
+    return static_cast<double>(read("a.dxf", drawing(face_of(side), header)).vertices_mm[1].x());
   };
   const std::vector<std::pair<int, double>> units{
       {0, 1.0},    {1, 25.4},  {2, 304.8}, {3, 1609344.0},  {4, 1.0},
@@ -46,7 +49,7 @@ TEST_F(ForeignMeshes, EveryUnitOfADxfIsConverted) {
   EXPECT_FALSE(said("imperial")) << said();
   const std::string imperial = group(0, "SECTION") + group(2, "HEADER") + group(9, "$MEASUREMENT") +
                                group(70, "0") + group(0, "ENDSEC");
-  EXPECT_EQ(read("a.dxf", drawing(face, imperial)).vertices_mm[1].x(), 1.0F);
+  EXPECT_EQ(read("a.dxf", drawing(face_of(1.0), imperial)).vertices_mm[1].x(), 1.0F);
   EXPECT_TRUE(said("an imperial drawing ($MEASUREMENT 0) without a unit")) << said();
 }
 
