@@ -51,10 +51,33 @@ TEST(Reconstruct, NamesTwoViewsThatHoldTheSameFrames) {
   const Scan scan = small_scan(folder.path(), "bracket", "digital", 6, {}, 3);
   std::filesystem::remove_all(folder.path() / "views/4");
   std::filesystem::copy(folder.path() / "views/1", folder.path() / "views/4");
-  const Reconstruction result = reconstruct(scan);
-  EXPECT_NE(result.untrusted_reason.find("views/1 and views/4 hold the same frames"),
-            std::string::npos)
-      << result.untrusted_reason;
+  std::string warnings;
+  frangia::Run run;
+  run.on_warning = [&](const std::string& sentence) { warnings += sentence + "\n"; };
+  const Reconstruction result = reconstruct(scan, {}, run);
+  // The copy alone contradicts the others, which are sound without it.
+  EXPECT_NE(warnings.find("views/1 and views/4 hold the same frames"), std::string::npos)
+      << warnings;
+  EXPECT_TRUE(result.view_summaries.at(4).left_out);
+  EXPECT_FALSE(result.view_summaries.at(1).left_out);
+  EXPECT_EQ(result.untrusted_reason, "");
+  const RayScene truth(make_part("bracket"));
+  EXPECT_LT(surface_error(result.mesh, truth).rms_mm, 0.04);
+}
+
+TEST(Reconstruct, NamesACopyOfAViewThatNoOtherDecides) {
+  const TemporaryFolder folder;
+  const Scan scan = small_scan(folder.path(), "bracket", "digital", 6, {}, 3);
+  for (const auto& [from, to] : {std::pair{"1", "3"}, {"0", "2"}}) {
+    std::filesystem::remove_all(folder.path() / "views" / to);
+    std::filesystem::copy(folder.path() / "views" / from, folder.path() / "views" / to);
+  }
+  std::string warnings;
+  frangia::Run run;
+  run.on_warning = [&](const std::string& sentence) { warnings += sentence + "\n"; };
+  const Reconstruction result = reconstruct(scan, {}, run);
+  EXPECT_NE((warnings + result.untrusted_reason).find("hold the same frames"), std::string::npos)
+      << warnings << result.untrusted_reason;
 }
 
 TEST(Reconstruct, KeepsARightRigWhereFewViewsOverlapTooLittleToRefineIt) {

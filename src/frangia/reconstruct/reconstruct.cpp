@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 #include <set>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -72,6 +73,29 @@ bool blames_rig(const std::optional<RegistrationReport>& registration) {
          registration->explanation.decided;
 }
 
+/// What a view and an earlier one have in common if one is a copy; empty if none is.
+std::string copy_text(const ViewSummary& view) {
+  if (view.same_as.empty()) return {};
+  return fmt::format(
+      "{} and {} hold the same frames to the last count, so that one of them is a copy; capture "
+      "both again",
+      view.same_as,
+      view.name);
+}
+
+/// Names the copies among the views that are left out because they contradict the others.
+void warn_of_copies(std::span<const ViewSummary> views, const Run& run) {
+  const auto is_left_out = [&](const std::string& name) {
+    return std::any_of(views.begin(), views.end(), [&](const ViewSummary& view) {
+      return view.name == name && view.left_out;
+    });
+  };
+  for (const ViewSummary& view : views) {
+    if (!view.same_as.empty() && (view.left_out || is_left_out(view.same_as)))
+      run.warn(copy_text(view));
+  }
+}
+
 /// Why the surface must not be trusted; empty when it can be. What was measured twice and differs
 /// comes first: the rest follows from it.
 std::string untrusted_reason_of(const Reconstruction& result) {
@@ -90,14 +114,8 @@ std::string untrusted_reason_of(const Reconstruction& result) {
   if (reason.empty()) return reason;
   // Camera noise makes each capture another one. Without noise, views of a round part may be equal,
   // but then they do not contradict each other.
-  for (const ViewSummary& view : result.view_summaries) {
-    if (view.same_as.empty()) continue;
-    return fmt::format(
-        "{} and {} hold the same frames to the last count, so that one of them is a copy; capture "
-        "both again",
-        view.same_as,
-        view.name);
-  }
+  for (const ViewSummary& view : result.view_summaries)
+    if (!view.same_as.empty()) return copy_text(view);
   return reason;
 }
 
@@ -212,6 +230,7 @@ MeasuredSetup register_together(std::vector<MeasuredSetup> setups,
     run.note(joined.registration->text());
   add_outliers(outliers, joined);
   mark_left_out(out.view_summaries, joined, outliers);
+  warn_of_copies(out.view_summaries, run);
   clip_on_registered_turntable(joined, scan.rig, options, run);
   tie_cameras(joined.measured, scan.rig);
   out.registration = joined.registration;
