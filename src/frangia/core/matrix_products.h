@@ -4,18 +4,27 @@
 
 namespace frangia {
 
-/// Products of matrices of any size by Eigen, compiled once because their templates compile slowly:
-/// a source that multiplies by itself compiles for some seconds more with each kind of operand.
+// Products of matrices of any size by Eigen, compiled once because their templates compile slowly:
+// a source that multiplies by itself compiles for some seconds more with each kind of operand.
 
-/// `a` `b`, or `a`^T `b`.
+/// `a` `b`.
 ///
-/// @shape    m x k (or k x m), k x n; the result is m x n
+/// @shape    m x k, k x n; the result is m x n
 [[nodiscard]] Eigen::MatrixXd product_of_matrices(const Eigen::MatrixXd& a,
                                                   const Eigen::MatrixXd& b);
+/// `a`^T `b`.
+///
+/// @shape    k x m, k x n; the result is m x n
 [[nodiscard]] Eigen::MatrixXd transposed_product_of_matrices(const Eigen::MatrixXd& a,
                                                              const Eigen::MatrixXd& b);
+/// `a` `b`.
+///
+/// @shape    m x k, k; the result has m elements
 [[nodiscard]] Eigen::VectorXd product_with_vector(const Eigen::MatrixXd& a,
                                                   const Eigen::VectorXd& b);
+/// `a`^T `b`.
+///
+/// @shape    k x m, k; the result has m elements
 [[nodiscard]] Eigen::VectorXd transposed_product_with_vector(const Eigen::MatrixXd& a,
                                                              const Eigen::VectorXd& b);
 

@@ -34,9 +34,9 @@ struct UnexplainedUse {
 
 /// The images of a phase of any kind.
 struct PhaseImages {
-  Image<float>& phase_rad;
-  Image<float>& sigma_rad;
-  Image<PixelStatus>& status;
+  Image<float>& phase_rad;       ///< NaN where it is not measured
+  Image<float>& sigma_rad;       ///< its noise
+  Image<PixelStatus>& status;    ///< of each pixel
   Image<float>& systematic_rad;  ///< empty for none
 };
 
