@@ -65,7 +65,7 @@ struct Way {
   bool stated = false;
 };
 
-/// What came of one seed, in words.
+/// Prints the result of one seed as text.
 void print_seed(const Way& way,
                 int seed,
                 const ScanInSetups& scan,

@@ -16,11 +16,11 @@
 
 namespace frangia {
 
-/// What a study is asked for.
+/// The arguments of a study.
 struct StudyArguments {
   std::string part;
   int seeds = 0;
-  bool verbose = false;  ///< -v: each seed in words, to standard error
+  bool verbose = false;  ///< -v: also prints the result of each seed to standard error
 };
 
 /// @errors   Error(Input) unless the arguments are `PART SEEDS [-v]`

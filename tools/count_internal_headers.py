@@ -7,7 +7,7 @@ import pathlib
 import re
 import sys
 
-MOST = 57
+MOST = 56
 
 
 def main(root, *options):

@@ -147,7 +147,7 @@ class OnSurface {
     row.u95 = 2.0 * extreme.u95_mm;
     if (!planned.limit) return;
     row.conformity = verdict.conformity;
-    // The value is that of the patches that were measured: what lacks decides beside it.
+    // The value covers the measured patches only; the decision also depends on those not measured.
     if (row.conformity != Conformity::In) row.reason = sentence_of(verdict);
   }
 
@@ -211,7 +211,7 @@ class OnSurface {
     row.u95 = std::hypot(std::sqrt(0.5) * end.u95, kNormal95 * both_mm);
   }
 
-  /// An end of the range of thicknesses, with that of the wall that holds it.
+  /// One end of the range of thicknesses, and the uncertainty of the wall that has it.
   struct WallEnd {
     double value = kMissing;
     double u95 = kMissing;  ///< of the range of that wall

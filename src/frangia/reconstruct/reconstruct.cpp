@@ -73,7 +73,7 @@ bool blames_rig(const std::optional<RegistrationReport>& registration) {
          registration->explanation.decided;
 }
 
-/// What a view and an earlier one have in common if one is a copy; empty if none is.
+/// States that a view and an earlier one hold the same frames; empty otherwise.
 std::string copy_text(const ViewSummary& view) {
   if (view.same_as.empty()) return {};
   return fmt::format(
@@ -227,7 +227,7 @@ MeasuredSetup register_together(std::vector<MeasuredSetup> setups,
   MeasuredSetup joined = join_setups(std::move(setups), scan, options, targets, run);
   clear_outliers_of_cameras(joined);
   if (joined.registration && joined.registration->iterations > 0)
-    run.note(joined.registration->text());
+    run.note(joined.registration->fit_text());
   add_outliers(outliers, joined);
   mark_left_out(out.view_summaries, joined, outliers);
   warn_of_copies(out.view_summaries, run);

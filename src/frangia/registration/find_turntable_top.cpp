@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Geometry>
@@ -11,10 +12,62 @@
 #include "frangia/core/error.h"
 #include "frangia/core/median.h"
 #include "frangia/geometry/fit_plane.h"
-#include "frangia/registration/internal/table_cloud.h"
+#include "frangia/local_fit/surfel_map.h"
+#include "frangia/registration/internal/view_pairs.h"
+#include "frangia/views/load_each_view.h"
 
 namespace frangia {
 namespace {
+
+/// Points of all views.
+///
+/// @units    mm, object frame
+struct TableCloud {
+  std::vector<Eigen::Vector3d> points;
+  std::vector<Eigen::Vector3d> normals;  ///< unit, one a point
+  double sigma_mm = 0.0;                 ///< median, along the normal
+  double working_distance_mm = 0.0;      ///< median distance of the points from the camera
+};
+
+/// About 20000 points of each view, or fewer of more than 24 views.
+TableCloud gather_table_cloud(const ViewStore& views, const CameraModel& camera, const Run& run) {
+  const std::size_t surfels = surfels_per_view(20000, views.size());
+  const std::size_t map_pixels = 16 * surfels;  // denser than the surfels that are picked
+  const CameraRays rays(views, camera);
+  const LocalPlanesOptions options{
+      .every = surfel_stride(camera.width_px, camera.height_px, map_pixels)};
+  TableCloud cloud;
+  std::vector<float> sigmas_mm;
+  std::vector<float> distances_mm;
+  LocalPlanes planes;
+  load_each_view(views, [&](std::size_t i, const View& view) {
+    run.report(static_cast<double>(i) / static_cast<double>(views.size()));
+    planes = local_planes(view, rays, options, std::move(planes));
+    const Eigen::Isometry3d object_from_rig = views.rig_from_object(i).inverse();
+    for (const auto& surfel : pick_surfels(make_surfel_map(planes, rays, map_pixels), surfels)) {
+      cloud.points.emplace_back(object_from_rig * surfel.point_mm.cast<double>());
+      cloud.normals.emplace_back(object_from_rig.linear() * surfel.normal.cast<double>());
+      sigmas_mm.push_back(surfel.sigma_mm);
+      distances_mm.push_back(surfel.point_mm.norm());
+    }
+  });
+  cloud.sigma_mm = static_cast<double>(median(std::move(sigmas_mm)));
+  cloud.working_distance_mm = static_cast<double>(median(std::move(distances_mm)));
+  return cloud;
+}
+
+/// How far from the axis the points above a height reach, except for the farthest hundredth. 0 when
+/// there are none.
+double reach_above(const std::vector<Eigen::Vector3d>& points, double height_mm) {
+  std::vector<double> reach;
+  for (const auto& point : points) {
+    if (point.z() > height_mm) reach.push_back(point.head<2>().norm());
+  }
+  if (reach.empty()) return 0.0;
+  const auto most = reach.begin() + static_cast<std::ptrdiff_t>(reach.size() * 99 / 100);
+  std::nth_element(reach.begin(), most, reach.end());
+  return *most;
+}
 
 /// The edge of a turntable top that is seen edge-on.
 struct TurntableRim {

@@ -81,11 +81,9 @@ void hold_undetermined(DriftBundle& bundle, double min_gain) {
   constexpr double kUnknown = 100.0;  // times the standard deviations of axis and angles
   const Eigen::Index count = bundle.state.w.size();
   bundle.free_directions = Eigen::MatrixXd::Identity(count, count);
-  const Eigen::VectorXd table_sigma = bundle.table_sigma;
-  bundle.table_sigma *= kUnknown;
+  const DriftSums sums = sum_drift(bundle, kComparedSurfels);
   const auto eigen =
-      symmetric_eigen(evidence_of(bundle, sum_drift(bundle, kComparedSurfels)).hessian);
-  bundle.table_sigma = table_sigma;
+      symmetric_eigen(evidence_of(bundle, sums, kUnknown * bundle.table_sigma).hessian);
   Eigen::Index first = 0;
   while (first < eigen.values.size() && eigen.values[first] < min_gain)
     ++first;
@@ -180,7 +178,8 @@ class RigFit {
     constexpr double kNoticeably = 1.3;
     DriftBundle all = bundle_;
     all.free_directions = Eigen::MatrixXd::Identity(model_.count(), model_.count());
-    const DriftEvidence evidence = evidence_of(all, sum_drift(all, kComparedSurfels));
+    const DriftEvidence evidence =
+        evidence_of(all, sum_drift(all, kComparedSurfels), all.table_sigma);
     const Eigen::VectorXd wider = widening_by_evidence(
         {model_.groups(),
          static_cast<Eigen::Index>(model_.parameters().size()),

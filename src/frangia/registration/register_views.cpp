@@ -244,7 +244,7 @@ bool keep_better_state(RegistrationReport& report, const BundleSums& refined, Re
   return slid;
 }
 
-/// Messages that are passed on once it is clear that what they report remains.
+/// Holds back the messages of an attempt until it is known whether its result is used.
 class HeldMessages {
  public:
   [[nodiscard]] Run in_place_of(const Run& run) {
@@ -262,7 +262,7 @@ class HeldMessages {
   std::vector<std::pair<bool, std::string>> texts_;
 };
 
-/// A registration of all views, and the one for which it is not trusted.
+/// A registration, and the view that makes it untrustworthy, if there is one.
 struct Attempt {
   RegistrationReport report;
   std::optional<std::size_t> at_fault{};
@@ -318,7 +318,7 @@ Attempt register_once(ViewStore& views,
   // What a wrong rig does to the views is judged once it is refined.
   const bool is_refined = explanation.best == PoseCause::Rig && explanation.decided &&
                           options.wrong_rig == WrongRig::IsRefined;
-  // Points that were triangulated again by other rigs are not those of the views any more.
+  // Points that were triangulated again with other rigs differ from those in the views.
   const bool may_blame = explained.rigs.empty() && !is_refined;
   const auto warn_if_untrusted = [&] {
     if (!is_refined && !report.untrusted_reason().empty()) run.warn(report.untrusted_reason());

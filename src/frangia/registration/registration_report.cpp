@@ -128,9 +128,12 @@ std::string RegistrationReport::rig_alone_text() const {
 }
 
 std::string RegistrationReport::text() const {
+  if (explanation.text.empty() || !untrusted_reason().empty()) return fit_text();
+  return explanation.text + "; " + fit_text();
+}
+
+std::string RegistrationReport::fit_text() const {
   std::string words = residual_text(*this);
-  if (!explanation.text.empty() && untrusted_reason().empty())
-    words = explanation.text + "; " + words;
   if (kept_rig) return words;
   words += fmt::format(
       "; the axis moved by {:.3g} mm and {:.3f} degrees, the angles by up to {:.3f} degrees",

@@ -64,6 +64,8 @@ struct RegistrationReport {
   [[nodiscard]] double largest_turn_rad() const;  ///< largest correction of an angle
   /// The findings in words: one sentence, or clauses separated by semicolons.
   [[nodiscard]] std::string text() const;
+  /// The same without the explanation.
+  [[nodiscard]] std::string fit_text() const;
   /// What the places of the views rest on where it is the rig alone, as a sentence.
   [[nodiscard]] std::string rig_alone_text() const;
   /// Why the registration must not be trusted, as one clause; empty when it is trustworthy.

@@ -56,7 +56,7 @@ SystematicPhase sequence_systematic(const DirectionMaps& maps) {
   return {std::sqrt(square), differing / square};
 }
 
-/// Counts what the frames of each pattern leave unexplained from place to place, where they do.
+/// Adds to sigma, pixel by pixel, what the frames of each pattern leave unexplained.
 void count_places(const DirectionInput& input, DirectionMaps& maps) {
   const std::vector<double> weights = sequence_weights(maps);
   AbsolutePhase& phase = maps.view.phase;

@@ -71,7 +71,7 @@ void finish_wrapped(const FittedAlgorithm& of_frames,
   assessment.harmonic_error_rad = harmonic_phase_error(fitted, applied);
 }
 
-/// Counts what the frames leave unexplained from place to place, where they do.
+/// Adds to sigma, pixel by pixel, what the frames leave unexplained.
 void count_places(const FrameStack& stack,
                   const FittedAlgorithm& fitted,
                   const DecodeOptions& options,

@@ -101,7 +101,7 @@ float correlation(float distance_mm, float half_width_mm) {
 
 namespace {
 
-/// Variance between the views beyond their noise, of places together.
+/// Variance between the views in excess of their noise, pooled over several crossings.
 struct PooledScatter {
   float excess = 0.0F;
   float degrees_of_freedom = 0.0F;
@@ -121,14 +121,14 @@ static_assert(kCells * 2 == kBlockEdge && kCells * kCells * kCells == 64);
 /// Scatter between the views over a block.
 struct BlockScatter {
   PooledScatter all;
-  /// Without the places where views disagree as on the edge of a step or of a shadow: there they
-  /// see different surfaces, which says nothing of the faces beside it.
-  PooledScatter usual;
-  std::uint64_t striking = 0;  ///< cells that hold such places, a bit each, x lowest
+  /// Without outliers: at the edge of a step or of a shadow the views see different surfaces, so
+  /// that their scatter there does not hold for the adjacent faces.
+  PooledScatter inliers;
+  std::uint64_t outlying = 0;  ///< cells that hold outliers, a bit each, x lowest
   float stated = 0.0F;         ///< variance that differs by view
 };
 
-/// The cell of a place, from the lowest one of a block.
+/// The cell that holds a point, counted from the lowest cell of a block.
 Eigen::Array3i cell_from(const Eigen::Vector3f& point_mm,
                          const Eigen::Vector3i& block,
                          float per_cell) {
@@ -141,7 +141,7 @@ std::uint64_t bit_of(const Eigen::Array3i& cell) {
   return std::uint64_t{1} << (within.x() + kCells * (within.y() + kCells * within.z()));
 }
 
-/// What two views or more say of a crossing.
+/// Scatter of a crossing that two or more views measured.
 struct CrossingScatter {
   std::size_t crossing;
   float scatter;
@@ -149,10 +149,10 @@ struct CrossingScatter {
   float freedom;
 };
 
-/// The scatter beyond which a crossing is striking, per degree of freedom; infinite where too few
-/// show what is usual. The median of the squares of normal errors is 0.45 of their variance or
-/// more: 4.5 standard deviations, which occur once in 150 000.
-float usual_most(const std::vector<CrossingScatter>& seen) {
+/// The scatter per degree of freedom beyond which a crossing is an outlier; infinite where too few
+/// crossings determine the median. The median of the squares of normal errors is 0.45 of their
+/// variance or more: 4.5 standard deviations, which occur once in 150 000.
+float outlier_limit(const std::vector<CrossingScatter>& seen) {
   constexpr std::size_t kFewest = 20;
   constexpr float kOfMedian = 45.0F;
   std::vector<float> per_freedom;
@@ -180,23 +180,23 @@ BlockScatter scatter_in(const HermiteAccumulators& hermite,
     seen.push_back({i, scatter / face.weight, expected / face.weight, freedom});
     out.stated += freedom * hermite.differing_variance(i);
   }
-  const float most = usual_most(seen);
+  const float most = outlier_limit(seen);
   const auto per_cell = static_cast<float>(0.5 / crossings.voxel_mm);
   for (const CrossingScatter& one : seen) {
     const PooledScatter scatter{one.scatter - one.noise, one.freedom};
     out.all.add(scatter);
     if (one.scatter > one.freedom * most && one.scatter > kOfNoise * one.noise)
-      out.striking |= bit_of(
+      out.outlying |= bit_of(
           cell_from(crossings.points_mm[one.crossing], crossings.block_coords[block], per_cell));
     else
-      out.usual.add(scatter);
+      out.inliers.add(scatter);
   }
   return out;
 }
 
 /// The variance between the views around a place: the scatter of the blocks around it, weighted
-/// linearly by the distances of their centres, so that it has no step from block to block. What
-/// is striking counts in the cells next to it alone.
+/// linearly by the distances of their centres, so that it has no step from block to block. Outliers
+/// count only in the cells that touch theirs.
 class ScatterAround {
  public:
   ScatterAround(const EdgeCrossings& crossings,
@@ -211,7 +211,7 @@ class ScatterAround {
           const std::uint32_t found =
               crossings.index.find(block_key(corner_ + Eigen::Vector3i(x, y, z)));
           if (found != BlockIndex::kNone) near_.at(next) = scatters[found];
-          any_ = any_ || near_.at(next).striking != 0;
+          any_ = any_ || near_.at(next).outlying != 0;
           ++next;
         }
       }
@@ -222,7 +222,7 @@ class ScatterAround {
     // From the block's centre: -0.5 to 0.5.
     const Eigen::Array3f from = (per_block_ * point_mm - corner_.cast<float>()).array() - 0.5F;
     const Eigen::Array3f far = from.abs().min(0.5F);
-    const bool striking = any_ && is_beside_striking(point_mm);
+    const bool beside = any_ && is_beside_outliers(point_mm);
     PooledScatter pooled;
     for (int corner = 0; corner < 8; ++corner) {
       float weight = 1.0F;
@@ -233,14 +233,14 @@ class ScatterAround {
         index = 3 * index + 1 + (neighbor ? (from(axis) < 0.0F ? -1 : 1) : 0);
       }
       const BlockScatter& scatter = near_.at(static_cast<std::size_t>(index));
-      pooled.add(striking ? scatter.all : scatter.usual, weight);
+      pooled.add(beside ? scatter.all : scatter.inliers, weight);
     }
     return pooled.variance();
   }
 
  private:
-  /// Whether a cell that touches that of the place holds a striking place.
-  [[nodiscard]] bool is_beside_striking(const Eigen::Vector3f& point_mm) const {
+  /// Whether the cell of a point, or one that touches it, holds outliers.
+  [[nodiscard]] bool is_beside_outliers(const Eigen::Vector3f& point_mm) const {
     const Eigen::Array3i cell =
         cell_from(point_mm, corner_, per_block_ * kCells).max(0).min(kCells - 1);
     for (int dz = -1; dz <= 1; ++dz) {
@@ -250,7 +250,7 @@ class ScatterAround {
           const Eigen::Array3i block = other / kCells;
           const int index = block.x() + 3 * (block.y() + 3 * block.z());
           const std::uint64_t bit = bit_of(other - kCells * block);
-          if ((near_.at(static_cast<std::size_t>(index)).striking & bit) != 0) return true;
+          if ((near_.at(static_cast<std::size_t>(index)).outlying & bit) != 0) return true;
         }
       }
     }
@@ -260,7 +260,7 @@ class ScatterAround {
   Eigen::Vector3i corner_;
   float per_block_;
   std::array<BlockScatter, 27> near_;  ///< x runs fastest
-  bool any_ = false;                   ///< one of them holds a striking place
+  bool any_ = false;                   ///< whether one of them holds outliers
 };
 
 }  // namespace

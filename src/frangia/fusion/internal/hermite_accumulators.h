@@ -138,8 +138,8 @@ class HermiteAccumulators {
 /// Sets the common variance of each crossing to the variance between the views in excess of their
 /// noise, estimated over the blocks around it: a systematic error of a view over a region does not
 /// average out within it. The variance from lateral pixel error is the lower bound. Where a step or
-/// the edge of a shadow lets the views see different surfaces, they disagree far more than the rest
-/// of the block: such places count in the cells of two voxels that touch theirs, not beyond.
+/// the edge of a shadow lets the views see different surfaces, they disagree far more than in the
+/// rest of the block: such outliers count only in cells of two voxels that touch theirs.
 ///
 /// Where systematic parts that differ by view are known, their variance is scaled to what was found
 /// between the views, over all blocks: the local fits have smoothed the rest away.

@@ -25,7 +25,7 @@ namespace frangia {
                                              const FittedAlgorithm& fitted,
                                              const NoiseModel& noise);
 
-/// How the local uncertainty of one pattern enters a phase.
+/// How the unexplained uncertainty of one pattern enters a phase.
 struct UnexplainedUse {
   double counted_rad = 0.0;    ///< part of it that `systematic_rad` has already, at all pixels
   float max_sigma_rad = 0.1F;  ///< beyond which a pixel is not measured

@@ -161,8 +161,7 @@ std::vector<std::unique_ptr<CameraScan>> survey_cameras(const Scan& scan,
   return cameras;
 }
 
-/// What is wrong with some of the frames of a view whose phase is used elsewhere; empty for
-/// nothing.
+/// Why some pixels of a view are left out although its phase is used; empty if none are.
 std::string partial_finding(const DecodedCamera& camera) {
   for (const std::size_t used : camera.fit.used) {
     const std::optional<SequenceCheck>& check = camera.decoded.directions[used].check;

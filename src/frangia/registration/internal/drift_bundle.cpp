@@ -195,11 +195,12 @@ namespace {
 
 /// Equations of w and the table, reduced to those of w, with the prior of the table.
 DriftEvidence without_table(const DriftBundle& bundle,
+                            const Eigen::VectorXd& table_sigma,
                             Eigen::MatrixXd hessian,
                             Eigen::VectorXd gradient) {
   const Eigen::Index changes = bundle.free_directions.cols();
-  const Eigen::Index table = bundle.table_sigma.size();
-  const Eigen::VectorXd prior = bundle.table_sigma.cwiseAbs2().cwiseInverse();
+  const Eigen::Index table = table_sigma.size();
+  const Eigen::VectorXd prior = table_sigma.cwiseAbs2().cwiseInverse();
   hessian.diagonal().tail(table) += prior;
   gradient.tail(table) += prior.cwiseProduct(deviation(bundle.state.table, bundle.given));
   const Eigen::MatrixXd across = hessian.topRightCorner(changes, table);
@@ -214,9 +215,11 @@ DriftEvidence without_table(const DriftBundle& bundle,
 
 }  // namespace
 
-DriftEvidence evidence_of(const DriftBundle& bundle, const DriftSums& sums) {
+DriftEvidence evidence_of(const DriftBundle& bundle,
+                          const DriftSums& sums,
+                          const Eigen::VectorXd& table_sigma) {
   const double weight = sums.weight(bundle);
-  return without_table(bundle, weight * sums.hessian, weight * sums.gradient);
+  return without_table(bundle, table_sigma, weight * sums.hessian, weight * sums.gradient);
 }
 
 Eigen::MatrixXd information_of(const DriftBundle& bundle, const DriftSums& sums) {
@@ -234,6 +237,7 @@ Eigen::MatrixXd information_of(const DriftBundle& bundle, const DriftSums& sums)
   covariance.diagonal().array() += 1e-9 * covariance.trace();
   const Eigen::MatrixXd all = product(hessian, solve_symmetric_columns(covariance, hessian));
   return without_table(bundle,
+                       bundle.table_sigma,
                        scaled(0.5 * (all + all.transpose()), unit.cwiseInverse()),
                        Eigen::VectorXd::Zero(unit.size()))
       .hessian;

@@ -74,7 +74,10 @@ struct DriftEvidence {
   Eigen::VectorXd gradient;
 };
 
-[[nodiscard]] DriftEvidence evidence_of(const DriftBundle& bundle, const DriftSums& sums);
+/// The evidence with `table_sigma` as the standard deviations of the prior of axis and angles.
+[[nodiscard]] DriftEvidence evidence_of(const DriftBundle& bundle,
+                                        const DriftSums& sums,
+                                        const Eigen::VectorXd& table_sigma);
 
 /// The information of the pairs on w once it has been fitted to them, axis and angles being
 /// unknown. What is left between the views of each region pulls at w: where the regions do so by

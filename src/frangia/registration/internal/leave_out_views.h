@@ -41,7 +41,7 @@ struct Registration {
 /// Leaves out views that fit no other one.
 void leave_out_outliers(RegistrationReport& report, Registration& work);
 
-/// The one view that is the reason why a registration is not trusted: the others agree without it.
+/// The single view without which the registration would be trusted: the others agree.
 [[nodiscard]] std::optional<std::size_t> view_at_fault(const RegistrationReport& report,
                                                        const Registration& work);
 

@@ -36,7 +36,7 @@ struct Grid {
   }
 };
 
-/// A cube of corners, those of all blocks together are the grid's.
+/// A cube of corners. Each corner of the grid is in one block.
 struct Block {
   std::array<std::size_t, 3> first{}, last{};  ///< corners; the last one is not its own
 };
@@ -86,8 +86,7 @@ void for_each_corner(const Block& block, const Visit& visit) {
         visit(at);
 }
 
-/// Reaches the blocks that hold one end of an edge through which the surface passes, of all edges
-/// at a block.
+/// Reaches the blocks at both ends of each edge of a block that the surface crosses.
 void follow(const Grid& grid, const Block& from, Blocks& blocks, std::vector<std::size_t>& list) {
   for_each_corner(from, [&](const std::array<std::size_t, 3>& at) {
     const std::size_t corner = grid.index(at[0], at[1], at[2]);
@@ -182,7 +181,7 @@ bool crossing_of(const Grid& grid, std::size_t base, Eigen::Vector3d& mean) {
 }
 
 /// Moves a point along the gradient to the zero level, by at most half a cell. The gradient of the
-/// second step serves those that follow: they are a thousandth of a cell.
+/// second step is used for the later ones, which are about a thousandth of a cell long.
 Eigen::Vector3d project_to_surface(const Field& field,
                                    const Eigen::Vector3d& start,
                                    double cell_mm) {

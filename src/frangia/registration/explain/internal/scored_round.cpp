@@ -71,7 +71,7 @@ std::vector<ScoredCause> with_either_table(const PoseRound& round) {
   return causes;
 }
 
-/// Whether a cause puts axis or angles where they are not to be expected.
+/// Whether a cause needs a change of axis or angles that their prior makes improbable.
 bool leaves_prior(const PoseRound& round, const CauseHypothesis& cause) {
   constexpr double kUnlikely = 3.5;  // standard deviations of a change
   const auto own = static_cast<Eigen::Index>(round.chart.setting.views) + 3;
@@ -214,7 +214,7 @@ int freedom_of(PoseCause cause) {
 }
 
 bool are_alike(const PoseRound& round, const CauseMotion& one, const CauseMotion& other) {
-  // Knocks and drifts, which differ between the views, are in error by the same.
+  // The linearization of knocks and drifts, which differ between the views, has similar errors.
   const bool constant = one.cause == PoseCause::Rig || other.cause == PoseCause::Rig;
   const bool rigs = constant && changes_rig(one.cause) && changes_rig(other.cause);
   const double of_rigs = round.rig_at.isZero() ? kAlikeRigs : kAlikeFoundRigs;

@@ -74,16 +74,16 @@ void score(PoseRound& round);
 /// what surfaces of sound scans have in common.
 [[nodiscard]] double noticeable_mm(const PoseRound& round);
 
-/// Whether the views are where only axis or angles would put them that are not to be expected.
+/// Whether only an improbable change of axis or angles would explain the poses of the views.
 [[nodiscard]] bool is_beyond_prior(const PoseRound& round);
 
-/// What one of the causes, by its index, changes between the views: root mean square over the
-/// pairs. Where axis and angles alone would be beyond their prior, that is what brings the views
-/// together, but for a cause that leaves them there.
+/// The change of distances between the views by one of the causes, by its index: root mean square
+/// over the pairs. It is relative to the best axis and angles; where these alone would be beyond
+/// their prior and the cause needs no such change, relative to the stated ones.
 [[nodiscard]] double effect_of(const PoseRound& round, std::size_t cause);
 
-/// Whether what one of the causes, by its index, changes is noticeable. However probable others
-/// are, they follow errors that surfaces of sound scans have in common.
+/// Whether the effect of one of the causes, by its index, is noticeable. A cause with a smaller
+/// effect may be probable only because it fits errors that surfaces of sound scans have in common.
 [[nodiscard]] bool is_noticeable(const PoseRound& round, std::size_t cause);
 
 [[nodiscard]] bool changes_rig(PoseCause cause);
@@ -109,7 +109,7 @@ struct CauseMotion {
 /// The same of two of the causes, by their index.
 [[nodiscard]] bool are_alike(const PoseRound& round, std::size_t one, std::size_t other);
 
-/// The index of the most probable cause that is noticeable; of what is stated, if none is.
+/// The index of the most probable noticeable cause; that of `AsStated` if there is none.
 [[nodiscard]] std::size_t most_probable_of(const PoseRound& round);
 
 /// The index of the winner: the most probable cause, or a simpler one that moves the views alike.
