@@ -22,7 +22,6 @@
 #include "frangia/dataset/scan_folder.h"
 #include "frangia/files/ply.h"
 #include "frangia/fusion/fuse_views.h"
-#include "frangia/inspect/surface_completeness.h"
 #include "frangia/inspect/surface_error.h"
 #include "frangia/reconstruct/internal/measure_views.h"
 

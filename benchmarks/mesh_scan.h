@@ -11,9 +11,9 @@
 
 #include "frangia/editor/internal/select_by_geometry.h"
 #include "frangia/files/read_mesh.h"
-#include "frangia/geometry/boundary_loops.h"
-#include "frangia/geometry/change_selection.h"
-#include "frangia/geometry/connected_components.h"
+#include "frangia/geometry/boundary.h"
+#include "frangia/geometry/components.h"
+#include "frangia/geometry/selection.h"
 #include "frangia/mesh/make_manifold.h"
 
 #include "performance_target.h"

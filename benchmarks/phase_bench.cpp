@@ -12,7 +12,7 @@
 #include <tbb/global_control.h>
 
 #include "frangia/core/angles.h"
-#include "frangia/core/release_cached_pixels.h"
+#include "frangia/core/pixel_buffer.h"
 #include "frangia/pattern/fringe_sequence.h"
 #include "frangia/phase/algorithm/published_algorithms.h"
 #include "frangia/phase/spatial/unwrap_spatially.h"

@@ -11,8 +11,8 @@
 
 #include "frangia/dataset/read_frames.h"
 #include "frangia/rig/read_rig.h"
+#include "frangia/service/example_rigs.h"
 #include "frangia/service/live_preview.h"
-#include "frangia/service/simulated_rig.h"
 #include "frangia/simulate/parts.h"
 #include "frangia/simulate/simulate_scan.h"
 

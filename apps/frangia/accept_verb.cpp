@@ -12,7 +12,7 @@
 #include "frangia/acceptance/acceptance_result.h"
 #include "frangia/acceptance/certificate.h"
 #include "frangia/acceptance/frame_checksums.h"
-#include "frangia/core/write_text_file.h"
+#include "frangia/core/durable_file.h"
 #include "frangia/dataset/scan_folder.h"
 #include "frangia/devices/device_settings.h"
 #include "frangia/files/ply.h"

@@ -2,7 +2,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "frangia/files/read_options.h"
+#include "frangia/files/read_mesh.h"
 
 #include "option_values.h"
 

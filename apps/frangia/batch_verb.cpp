@@ -9,8 +9,8 @@
 
 #include <fmt/format.h>
 
+#include "frangia/core/durable_file.h"
 #include "frangia/core/error.h"
-#include "frangia/core/make_folder.h"
 
 #include "batch/batch_plan.h"
 #include "batch/batch_table.h"

@@ -10,7 +10,7 @@
 
 #include "frangia/calibrate/board/write_board_pdf.h"
 #include "frangia/core/error.h"
-#include "frangia/core/lowercase_extension.h"
+#include "frangia/core/text.h"
 
 #include "option_values.h"
 #include "print_text.h"

@@ -11,9 +11,9 @@
 
 #include "frangia/calibrate/check/calibrate_check.h"
 #include "frangia/calibrate/check/drift_log.h"
+#include "frangia/core/durable_file.h"
 #include "frangia/core/error.h"
-#include "frangia/core/lowercase_extension.h"
-#include "frangia/core/write_text_file.h"
+#include "frangia/core/text.h"
 #include "frangia/dataset/capture_times.h"
 #include "frangia/rig/read_rig.h"
 

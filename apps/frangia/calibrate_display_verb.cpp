@@ -7,8 +7,8 @@
 #include <nlohmann/json.hpp>
 
 #include "frangia/acquisition/with_display.h"
-#include "frangia/core/read_text_file.h"
-#include "frangia/core/write_text_file.h"
+#include "frangia/core/durable_file.h"
+#include "frangia/core/read_file.h"
 #include "frangia/rig/read_rig.h"
 
 #include "check_can_write.h"

@@ -12,7 +12,7 @@
 
 #include "frangia/acquisition/sweep_piezo.h"
 #include "frangia/core/angles.h"
-#include "frangia/core/write_text_file.h"
+#include "frangia/core/durable_file.h"
 #include "frangia/rig/read_rig.h"
 
 #ifdef FRANGIA_WITH_CALIBRATION

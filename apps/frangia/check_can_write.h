@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-#include "frangia/core/atomic_file.h"
+#include "frangia/core/durable_file.h"
 
 namespace frangia {
 

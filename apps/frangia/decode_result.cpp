@@ -10,8 +10,8 @@
 #include <nlohmann/json.hpp>
 
 #include "frangia/core/angles.h"
-#include "frangia/core/median.h"
 #include "frangia/core/missing.h"
+#include "frangia/core/statistics.h"
 #include "frangia/decode/explain/hypothesis_table.h"
 #include "frangia/decode/stage_pictures.h"
 

@@ -8,18 +8,17 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "frangia/core/make_folder.h"
-#include "frangia/core/release_cached_pixels.h"
+#include "frangia/core/durable_file.h"
+#include "frangia/core/pixel_buffer.h"
 #include "frangia/dataset/read_frames.h"
 #include "frangia/dataset/scan_folder.h"
-#include "frangia/dataset/scan_of_camera.h"
 #include "frangia/decode/check_view.h"
 #include "frangia/decode/decode_view.h"
 #include "frangia/decode/explain_no_phase.h"
 #include "frangia/decode/triangulate_view.h"
 #include "frangia/decode/write_stages.h"
 #include "frangia/range/remove_mixed_pixels.h"
-#include "frangia/rig/has_geometry.h"
+#include "frangia/rig/rig.h"
 
 #include "check_can_write.h"
 #include "decode_result.h"

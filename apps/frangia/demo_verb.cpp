@@ -14,7 +14,6 @@
 #include "frangia/frames/map_picture.h"
 #include "frangia/inspect/contact_sheet.h"
 #include "frangia/inspect/render_mesh.h"
-#include "frangia/inspect/surface_completeness.h"
 #include "frangia/inspect/surface_error.h"
 #include "frangia/reconstruct/reconstruct.h"
 #include "frangia/simulate/default_patterns.h"

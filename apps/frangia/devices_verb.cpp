@@ -7,7 +7,6 @@
 #include <nlohmann/json.hpp>
 
 #include "frangia/devices/find_devices.h"
-#include "frangia/devices/test_devices.h"
 #include "frangia/rig/read_rig.h"
 
 #include "drivers.h"

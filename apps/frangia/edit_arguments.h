@@ -6,7 +6,7 @@
 #include <CLI/CLI.hpp>
 
 #include "frangia/editor/edit_operation.h"
-#include "frangia/files/read_options.h"
+#include "frangia/files/read_mesh.h"
 #include "frangia/files/write_mesh.h"
 
 namespace frangia {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "frangia/cad/read_cad.h"
-#include "frangia/files/read_options.h"
+#include "frangia/files/read_mesh.h"
 #include "frangia/inspect/render_mesh.h"
 #include "frangia/inspection/inspect_part.h"
 

@@ -7,9 +7,9 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "frangia/core/durable_file.h"
 #include "frangia/core/error.h"
-#include "frangia/core/lowercase_extension.h"
-#include "frangia/core/write_text_file.h"
+#include "frangia/core/text.h"
 #include "frangia/report/batch.h"
 #include "frangia/report/inspection_report.h"
 

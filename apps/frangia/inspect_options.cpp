@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include "frangia/core/error.h"
-#include "frangia/core/lowercase_extension.h"
-#include "frangia/report/report_logo.h"
+#include "frangia/core/text.h"
+#include "frangia/report/report_pictures.h"
 
 #include "allow_memory.h"
 #include "check_can_write.h"

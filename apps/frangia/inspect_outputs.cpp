@@ -3,13 +3,13 @@
 #include <cstdint>
 #include <vector>
 
-#include "frangia/core/lowercase_extension.h"
+#include "frangia/core/text.h"
 #include "frangia/files/deviation_csv.h"
 #include "frangia/files/ply.h"
 #include "frangia/files/write_mesh.h"
 #include "frangia/frames/map_picture.h"
-#include "frangia/inspect/deviation_summary.h"
-#include "frangia/report/inspection_picture.h"
+#include "frangia/inspect/deviation.h"
+#include "frangia/report/labelled_picture.h"
 
 #include "check_can_write.h"
 

@@ -6,7 +6,7 @@
 
 #include "frangia/core/angles.h"
 #include "frangia/frames/png.h"
-#include "frangia/report/inspection_picture.h"
+#include "frangia/report/labelled_picture.h"
 
 #include "usage.h"
 

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "frangia/core/write_text_file.h"
+#include "frangia/core/durable_file.h"
 #include "frangia/inspection/write_inspection_plan.h"
 #include "frangia/report/inspection_json.h"
 #include "frangia/report/qif_results.h"

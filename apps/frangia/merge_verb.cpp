@@ -11,7 +11,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "frangia/core/lowercase_extension.h"
+#include "frangia/core/text.h"
 #include "frangia/reconstruct/merge_scans.h"
 
 #include "allow_memory.h"

@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "frangia/core/angles.h"
-#include "frangia/files/read_surface.h"
+#include "frangia/files/read_mesh.h"
 
 #include "inspect_picture.h"
 

@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include "frangia/core/error.h"
-#include "frangia/core/lowercase_extension.h"
+#include "frangia/core/text.h"
 
 #include "check_can_write.h"
 

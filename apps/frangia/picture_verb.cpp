@@ -11,7 +11,7 @@
 #include "frangia/core/angles.h"
 #include "frangia/core/error.h"
 #include "frangia/files/mesh_formats.h"
-#include "frangia/files/read_surface.h"
+#include "frangia/files/read_mesh.h"
 #include "frangia/frames/png.h"
 #include "frangia/geometry/transform_mesh.h"
 #include "frangia/inspect/contact_sheet.h"

@@ -10,7 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "frangia/core/angles.h"
-#include "frangia/core/student_95.h"
+#include "frangia/core/statistics.h"
 #include "frangia/files/ply.h"
 #include "frangia/frames/png.h"
 #include "frangia/inspect/render_mesh.h"

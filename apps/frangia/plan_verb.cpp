@@ -11,8 +11,6 @@
 #include "frangia/core/angles.h"
 #include "frangia/core/error.h"
 #include "frangia/pattern/fringe_sequence.h"
-#include "frangia/pattern/narrow_band.h"
-#include "frangia/pattern/order_confusion.h"
 #include "frangia/rig/read_rig.h"
 #include "frangia/simulate/rig_presets.h"
 

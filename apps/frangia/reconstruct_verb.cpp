@@ -4,7 +4,7 @@
 #include <memory>
 #include <string>
 
-#include "frangia/core/lowercase_extension.h"
+#include "frangia/core/text.h"
 #include "frangia/files/ply.h"
 #include "frangia/geometry/vertex_data.h"
 #include "frangia/reconstruct/reconstruct.h"

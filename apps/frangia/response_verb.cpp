@@ -11,9 +11,9 @@
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
+#include "frangia/core/durable_file.h"
 #include "frangia/core/error.h"
-#include "frangia/core/read_text_file.h"
-#include "frangia/core/write_text_file.h"
+#include "frangia/core/read_file.h"
 #include "frangia/dataset/read_frames.h"
 #include "frangia/dataset/scan_folder.h"
 #include "frangia/phase/waveform/fit_waveform.h"

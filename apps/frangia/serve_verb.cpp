@@ -10,10 +10,9 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "frangia/core/durable_file.h"
 #include "frangia/core/error.h"
-#include "frangia/core/make_folder.h"
-#include "frangia/core/read_text_file.h"
-#include "frangia/core/write_private_file.h"
+#include "frangia/core/read_file.h"
 #include "frangia/service/access_guard.h"
 #include "frangia/service/service.h"
 #include "frangia/service/session_keys.h"

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "frangia/core/nearest_name.h"
+#include "frangia/core/text.h"
 
 namespace frangia {
 namespace {

@@ -9,7 +9,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "frangia/core/lowercase_extension.h"
+#include "frangia/core/text.h"
 #include "frangia/files/mesh_formats.h"
 #include "frangia/files/write_mesh.h"
 #include "frangia/reconstruct/finish_mesh.h"

@@ -19,7 +19,7 @@
 #include "frangia/files/range_scan.h"
 #include "frangia/reconstruct/merge_scans.h"
 #include "frangia/reconstruct/reconstruct.h"
-#include "frangia/rig/has_geometry.h"
+#include "frangia/rig/rig.h"
 
 #include "arrays.h"
 #include "bindings.h"

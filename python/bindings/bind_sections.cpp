@@ -8,7 +8,7 @@
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
-#include "frangia/core/atomic_file.h"
+#include "frangia/core/durable_file.h"
 #include "frangia/core/error.h"
 #include "frangia/inspect/section_curves.h"
 #include "frangia/report/section_drawing.h"

@@ -1,9 +1,9 @@
-#include "frangia/acquisition/internal/check_devices.h"
-
 #include <cmath>
 #include <filesystem>
 #include <string>
 #include <vector>
+
+#include "frangia/acquisition/internal/capture_devices.h"
 
 #include "support/error_of.h"
 #include "support/simulated_capture.h"

@@ -4,9 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "frangia/acquisition/internal/choose_exposures.h"
 #include "frangia/acquisition/internal/display_probe.h"
-#include "frangia/acquisition/internal/exposure_search.h"
-#include "frangia/acquisition/internal/flash_code.h"
 #include "frangia/acquisition/internal/room_light.h"
 #include "frangia/acquisition/with_display.h"
 #include "frangia/core/random.h"

@@ -1,6 +1,6 @@
 #include "frangia/acquisition/capture_scan.h"
 #include "frangia/dataset/read_frames.h"
-#include "frangia/dataset/scan_of_camera.h"
+#include "frangia/dataset/scan_folder.h"
 
 #include "support/error_of.h"
 #include "support/simulated_capture.h"

@@ -14,7 +14,7 @@
 #include <nlohmann/json.hpp>
 #include <sys/stat.h>
 
-#include "frangia/core/crc32.h"
+#include "frangia/core/checksums.h"
 
 #include "apps/batch_fixture.h"
 #include "support/run_program.h"

@@ -10,7 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "frangia/calibrate/check/calibrate_check.h"
-#include "frangia/calibrate/internal/artifact_distances.h"
+#include "frangia/calibrate/internal/artifact_model.h"
 #include "frangia/calibrate/report/artifact_report.h"
 #include "frangia/core/angles.h"
 #include "frangia/dataset/scan_folder.h"

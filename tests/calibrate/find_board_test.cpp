@@ -10,9 +10,8 @@
 #include <opencv2/imgproc.hpp>
 
 #include "frangia/calibrate/board/board_image.h"
-#include "frangia/calibrate/board/count_corners.h"
 #include "frangia/calibrate/board/find_charuco.h"
-#include "frangia/calibrate/board/measure_fringe_misfit.h"
+#include "frangia/calibrate/board/fit_phase_at.h"
 #include "frangia/calibrate/board/measure_sharpness.h"
 #include "frangia/core/angles.h"
 

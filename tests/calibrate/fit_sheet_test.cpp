@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "frangia/calibrate/internal/invert_normal.h"
+#include "frangia/calibrate/internal/assess_solution.h"
 #include "frangia/core/random.h"
 
 namespace frangia {

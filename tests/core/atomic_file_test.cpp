@@ -1,5 +1,3 @@
-#include "frangia/core/atomic_file.h"
-
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -9,6 +7,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "frangia/core/durable_file.h"
 #include "frangia/core/error.h"
 
 #include "support/error_of.h"

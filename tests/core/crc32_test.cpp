@@ -1,8 +1,8 @@
-#include "frangia/core/crc32.h"
-
 #include <string>
 
 #include <gtest/gtest.h>
+
+#include "frangia/core/checksums.h"
 
 namespace frangia {
 namespace {

@@ -10,7 +10,7 @@
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 
-#include "frangia/core/atomic_file.h"
+#include "frangia/core/durable_file.h"
 #include "frangia/core/internal/parse_log.h"
 
 #include "support/error_of.h"

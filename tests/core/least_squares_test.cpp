@@ -1,6 +1,6 @@
-#include "frangia/core/least_squares.h"
-
 #include <gtest/gtest.h>
+
+#include "frangia/core/linear_algebra.h"
 
 namespace frangia {
 namespace {

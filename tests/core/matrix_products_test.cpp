@@ -1,11 +1,9 @@
-#include "frangia/core/matrix_products.h"
-
 #include <cmath>
 #include <type_traits>
 
 #include <gtest/gtest.h>
 
-#include "frangia/core/cholesky.h"
+#include "frangia/core/linear_algebra.h"
 
 namespace frangia {
 namespace {

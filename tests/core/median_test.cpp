@@ -1,9 +1,9 @@
-#include "frangia/core/median.h"
-
 #include <span>
 #include <vector>
 
 #include <gtest/gtest.h>
+
+#include "frangia/core/statistics.h"
 
 namespace frangia {
 namespace {

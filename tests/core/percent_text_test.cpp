@@ -1,6 +1,6 @@
-#include "frangia/core/percent_text.h"
-
 #include <gtest/gtest.h>
+
+#include "frangia/core/text.h"
 
 namespace frangia {
 namespace {

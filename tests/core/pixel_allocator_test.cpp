@@ -1,5 +1,3 @@
-#include "frangia/core/pixel_allocator.h"
-
 #include <algorithm>
 #include <cstdint>
 #include <cstring>
@@ -12,7 +10,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-#include "frangia/core/release_cached_pixels.h"
+#include "frangia/core/pixel_buffer.h"
 
 namespace frangia {
 namespace {

@@ -1,10 +1,10 @@
-#include "frangia/core/read_json_below.h"
-
 #include <filesystem>
 #include <fstream>
 #include <string>
 
 #include <gtest/gtest.h>
+
+#include "frangia/core/open_below.h"
 
 #include "support/error_of.h"
 #include "support/temporary_folder.h"

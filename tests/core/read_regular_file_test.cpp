@@ -1,11 +1,11 @@
-#include "frangia/core/read_regular_file.h"
-
 #include <filesystem>
 #include <fstream>
 #include <string>
 
 #include <gtest/gtest.h>
 #include <sys/stat.h>
+
+#include "frangia/core/read_file.h"
 
 #include "support/error_of.h"
 #include "support/temporary_folder.h"

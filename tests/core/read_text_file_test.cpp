@@ -1,10 +1,10 @@
-#include "frangia/core/read_text_file.h"
-
 #include <chrono>
 #include <fstream>
 
 #include <gtest/gtest.h>
 #include <sys/stat.h>
+
+#include "frangia/core/read_file.h"
 
 #include "support/error_of.h"
 #include "support/temporary_folder.h"

@@ -1,6 +1,6 @@
-#include "frangia/core/solve_symmetric.h"
-
 #include <gtest/gtest.h>
+
+#include "frangia/core/linear_algebra.h"
 
 namespace frangia {
 namespace {

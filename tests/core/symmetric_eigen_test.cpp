@@ -1,8 +1,8 @@
-#include "frangia/core/symmetric_eigen.h"
-
 #include <cmath>
 
 #include <gtest/gtest.h>
+
+#include "frangia/core/linear_algebra.h"
 
 namespace frangia {
 namespace {

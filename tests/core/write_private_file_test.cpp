@@ -1,9 +1,9 @@
-#include "frangia/core/write_private_file.h"
-
 #include <filesystem>
 
 #include <gtest/gtest.h>
 #include <sys/stat.h>
+
+#include "frangia/core/durable_file.h"
 
 #include "support/error_of.h"
 #include "support/temporary_folder.h"

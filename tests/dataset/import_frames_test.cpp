@@ -16,7 +16,7 @@
 #include "frangia/core/angles.h"
 #include "frangia/core/error.h"
 #include "frangia/dataset/read_frames.h"
-#include "frangia/dataset/scan_of_camera.h"
+#include "frangia/dataset/scan_folder.h"
 #include "frangia/frames/float_tiff.h"
 #include "frangia/frames/png.h"
 #include "frangia/rig/paper_rig.h"

@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include "frangia/core/crc32.h"
+#include "frangia/core/checksums.h"
 #include "frangia/dataset/import_frames.h"
 #include "frangia/dataset/read_frames.h"
 #include "frangia/frames/png.h"

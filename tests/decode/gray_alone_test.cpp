@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "frangia/core/angles.h"
-#include "frangia/core/median.h"
+#include "frangia/core/statistics.h"
 #include "frangia/geometry/ray_scene.h"
 #include "frangia/reconstruct/reconstruct.h"
 

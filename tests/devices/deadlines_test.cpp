@@ -2,10 +2,9 @@
 #include <gtest/gtest.h>
 
 #include "frangia/core/angles.h"
-#include "frangia/devices/internal/board_switch.h"
+#include "frangia/devices/internal/board_devices.h"
 #include "frangia/devices/internal/message_instrument.h"
 #include "frangia/devices/internal/open_transport.h"
-#include "frangia/devices/internal/stepper_turntable.h"
 
 #include "support/emulated_boards.h"
 #include "support/emulated_grbl.h"

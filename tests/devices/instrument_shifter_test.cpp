@@ -1,9 +1,7 @@
-#include "frangia/devices/internal/instrument_shifter.h"
-
 #include <gtest/gtest.h>
 
+#include "frangia/devices/internal/message_instrument.h"
 #include "frangia/devices/internal/open_transport.h"
-#include "frangia/devices/internal/prologix_transport.h"
 
 #include "support/emulated_boards.h"
 #include "support/error_of.h"

@@ -1,9 +1,8 @@
-#include "frangia/devices/phase_curve.h"
-
 #include <gtest/gtest.h>
 
 #include "frangia/core/angles.h"
 #include "frangia/core/error.h"
+#include "frangia/devices/phase_shifter.h"
 
 #include "support/linspace.h"
 

@@ -1,10 +1,9 @@
-#include "frangia/devices/phase_shift_controller.h"
-
 #include <vector>
 
 #include <gtest/gtest.h>
 
 #include "frangia/core/angles.h"
+#include "frangia/devices/phase_shifter.h"
 
 namespace frangia {
 namespace {

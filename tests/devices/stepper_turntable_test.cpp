@@ -1,12 +1,10 @@
-#include "frangia/devices/internal/stepper_turntable.h"
-
 #include <cmath>
 #include <limits>
 
 #include <gtest/gtest.h>
 
 #include "frangia/core/angles.h"
-#include "frangia/devices/internal/board_switch.h"
+#include "frangia/devices/internal/board_devices.h"
 #include "frangia/devices/internal/open_transport.h"
 
 #include "support/emulated_boards.h"

@@ -1,9 +1,8 @@
-#include "frangia/devices/test_devices.h"
-
 #include <fstream>
 
 #include <gtest/gtest.h>
 
+#include "frangia/devices/find_devices.h"
 #include "frangia/rig/write_rig.h"
 
 #include "support/all_drivers.h"

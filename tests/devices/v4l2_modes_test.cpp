@@ -1,11 +1,10 @@
-#include "frangia/devices/internal/v4l2_modes.h"
-
 #include <memory>
 
 #include <gtest/gtest.h>
 #include <linux/videodev2.h>
 
 #include "frangia/devices/internal/v4l2_camera.h"
+#include "frangia/devices/internal/v4l2_system.h"
 
 #include "support/error_of.h"
 #include "support/fake_webcam.h"

@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "frangia/editor/internal/select_by_geometry.h"
-#include "frangia/geometry/change_selection.h"
-#include "frangia/geometry/connected_components.h"
+#include "frangia/geometry/components.h"
+#include "frangia/geometry/selection.h"
 #include "frangia/geometry/vertex_data.h"
 #include "frangia/mesh/decimate.h"
 #include "frangia/mesh/fill_holes.h"

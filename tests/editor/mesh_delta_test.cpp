@@ -1,8 +1,8 @@
-#include "frangia/editor/mesh_delta.h"
-
 #include <cstdint>
 
 #include <gtest/gtest.h>
+
+#include "frangia/editor/edit_history.h"
 
 namespace frangia {
 namespace {

@@ -1,10 +1,9 @@
-#include "frangia/editor/internal/select_by_outline.h"
-
 #include <cmath>
 
 #include <gtest/gtest.h>
 
 #include "frangia/editor/edit_operation.h"
+#include "frangia/editor/internal/select_by_geometry.h"
 #include "frangia/geometry/vertex_data.h"
 
 #include "support/error_of.h"

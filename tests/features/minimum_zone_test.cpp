@@ -9,7 +9,6 @@
 #include "frangia/core/angles.h"
 #include "frangia/features/fit_shape.h"
 #include "frangia/features/geometric_tolerance.h"
-#include "frangia/features/internal/chebyshev_fit.h"
 
 namespace frangia {
 namespace {

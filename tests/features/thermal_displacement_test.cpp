@@ -1,10 +1,9 @@
 // A temperature that is not known scales sizes and distances alike.
-#include "frangia/features/thermal_displacement.h"
-
 #include <gtest/gtest.h>
 
 #include "frangia/features/find_features.h"
 #include "frangia/features/geometric_tolerance.h"
+#include "frangia/features/shape_uncertainty.h"
 
 #include "support/test_meshes.h"
 

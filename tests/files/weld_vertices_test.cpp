@@ -1,10 +1,9 @@
-#include "frangia/files/internal/weld_vertices.h"
-
 #include <vector>
 
 #include <gtest/gtest.h>
 
 #include "frangia/core/error.h"
+#include "frangia/files/internal/join_soup.h"
 
 namespace frangia {
 namespace {

@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "frangia/core/pixel_box.h"
+#include "frangia/core/image.h"
 #include "frangia/frames/internal/draw_text.h"
 
 namespace frangia {

@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
-#include "frangia/core/crc32.h"
+#include "frangia/core/checksums.h"
 #include "frangia/core/error.h"
 
 #include "support/temporary_folder.h"

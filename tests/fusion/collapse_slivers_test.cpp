@@ -1,12 +1,11 @@
-#include "frangia/fusion/internal/collapse_slivers.h"
-
 #include <span>
 #include <vector>
 
 #include <gtest/gtest.h>
 
+#include "frangia/fusion/internal/remove_slivers.h"
 #include "frangia/geometry/clean_mesh.h"
-#include "frangia/geometry/one_rings.h"
+#include "frangia/geometry/connectivity.h"
 
 #include "support/test_meshes.h"
 

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "frangia/fusion/internal/corner_distances.h"
+#include "frangia/fusion/internal/cell_loops.h"
 
 #include "support/analytic_views.h"
 

@@ -1,5 +1,3 @@
-#include "frangia/fusion/internal/edge_crossings.h"
-
 #include <cmath>
 #include <functional>
 
@@ -7,7 +5,7 @@
 
 #include "frangia/core/angles.h"
 #include "frangia/core/missing.h"
-#include "frangia/fusion/internal/corner_distances.h"
+#include "frangia/fusion/internal/cell_loops.h"
 
 namespace frangia {
 namespace {

@@ -1,9 +1,9 @@
-#include "frangia/fusion/internal/find_faces.h"
-
 #include <numeric>
 #include <vector>
 
 #include <gtest/gtest.h>
+
+#include "frangia/fusion/internal/find_feature_vertices.h"
 
 namespace frangia {
 namespace {

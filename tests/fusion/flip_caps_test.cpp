@@ -1,7 +1,7 @@
-#include "frangia/fusion/internal/flip_caps.h"
-
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
+
+#include "frangia/fusion/internal/remove_slivers.h"
 
 namespace frangia {
 namespace {

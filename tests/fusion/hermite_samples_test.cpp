@@ -1,8 +1,8 @@
-#include "frangia/fusion/internal/hermite_samples.h"
-
 #include <cmath>
 
 #include <gtest/gtest.h>
+
+#include "frangia/fusion/internal/hermite_accumulators.h"
 
 namespace frangia {
 namespace {

@@ -1,6 +1,6 @@
-#include "frangia/fusion/internal/measure_sampling.h"
-
 #include <gtest/gtest.h>
+
+#include "frangia/fusion/internal/sampling.h"
 
 #include "support/analytic_views.h"
 

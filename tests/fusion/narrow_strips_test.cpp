@@ -1,10 +1,10 @@
-#include "frangia/fusion/internal/narrow_strips.h"
-
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 
 #include <gtest/gtest.h>
+
+#include "frangia/fusion/internal/remove_weak_rim.h"
 
 #include "support/test_meshes.h"
 

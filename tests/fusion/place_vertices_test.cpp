@@ -8,7 +8,6 @@
 #include <gtest/gtest.h>
 
 #include "frangia/core/angles.h"
-#include "frangia/fusion/internal/vertex_position.h"
 
 namespace frangia {
 namespace {

@@ -2,8 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include "frangia/fusion/internal/sliver_candidates.h"
-
 #include "support/test_meshes.h"
 
 namespace frangia {

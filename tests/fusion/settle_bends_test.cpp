@@ -1,10 +1,10 @@
-#include "frangia/fusion/internal/settle_bends.h"
-
 #include <cmath>
 #include <cstdint>
 #include <vector>
 
 #include <gtest/gtest.h>
+
+#include "frangia/fusion/internal/sharpen_edges.h"
 
 #include "support/test_meshes.h"
 

@@ -1,6 +1,6 @@
-#include "frangia/fusion/internal/sliver_candidates.h"
-
 #include <gtest/gtest.h>
+
+#include "frangia/fusion/internal/remove_slivers.h"
 
 namespace frangia {
 namespace {

@@ -1,7 +1,7 @@
-#include "frangia/fusion/internal/split_triangle.h"
-
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
+
+#include "frangia/fusion/internal/remove_slivers.h"
 
 namespace frangia {
 namespace {

@@ -6,9 +6,9 @@
 #include <gtest/gtest.h>
 
 #include "frangia/core/angles.h"
-#include "frangia/core/median.h"
+#include "frangia/core/statistics.h"
 #include "frangia/fusion/fuse_views.h"
-#include "frangia/geometry/median_sigma.h"
+#include "frangia/geometry/vertex_data.h"
 
 #include "support/analytic_views.h"
 

@@ -1,12 +1,11 @@
-#include "frangia/fusion/internal/voxel_budget.h"
-
 #include <string>
 
 #include <gtest/gtest.h>
 
 #include "frangia/core/error.h"
+#include "frangia/fusion/internal/cell_loops.h"
 #include "frangia/fusion/internal/distance_field.h"
-#include "frangia/fusion/internal/edge_crossings.h"
+#include "frangia/fusion/internal/sampling.h"
 
 #include "support/analytic_views.h"
 

@@ -1,8 +1,8 @@
-#include "frangia/geometry/boundary_vertices.h"
-
 #include <algorithm>
 
 #include <gtest/gtest.h>
+
+#include "frangia/geometry/boundary.h"
 
 #include "support/test_meshes.h"
 

@@ -1,11 +1,10 @@
-#include "frangia/geometry/connected_components.h"
-
 #include <string>
 
 #include <gtest/gtest.h>
 
 #include "frangia/core/error.h"
 #include "frangia/core/run.h"
+#include "frangia/geometry/components.h"
 #include "frangia/geometry/vertex_data.h"
 
 #include "support/test_meshes.h"

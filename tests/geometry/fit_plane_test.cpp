@@ -1,10 +1,9 @@
-#include "frangia/geometry/fit_plane.h"
-
 #include <vector>
 
 #include <gtest/gtest.h>
 
 #include "frangia/core/random.h"
+#include "frangia/geometry/fit_primitives.h"
 
 namespace frangia {
 namespace {

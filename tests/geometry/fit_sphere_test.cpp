@@ -1,11 +1,10 @@
-#include "frangia/geometry/fit_sphere.h"
-
 #include <vector>
 
 #include <gtest/gtest.h>
 
 #include "frangia/core/error.h"
 #include "frangia/core/random.h"
+#include "frangia/geometry/fit_primitives.h"
 
 namespace frangia {
 namespace {

@@ -1,5 +1,3 @@
-#include "frangia/geometry/half_edges.h"
-
 #include <algorithm>
 #include <cmath>
 
@@ -8,6 +6,7 @@
 #include "frangia/core/angles.h"
 #include "frangia/core/error.h"
 #include "frangia/geometry/clean_mesh.h"
+#include "frangia/geometry/connectivity.h"
 #include "frangia/geometry/mesh.h"
 
 #include "support/processor_time.h"

@@ -1,9 +1,9 @@
-#include "frangia/geometry/one_rings.h"
-
 #include <algorithm>
 #include <set>
 
 #include <gtest/gtest.h>
+
+#include "frangia/geometry/connectivity.h"
 
 #include "support/test_meshes.h"
 

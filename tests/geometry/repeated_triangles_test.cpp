@@ -1,8 +1,8 @@
-#include "frangia/geometry/repeated_triangles.h"
-
 #include <limits>
 
 #include <gtest/gtest.h>
+
+#include "frangia/geometry/clean_mesh.h"
 
 #include "support/test_meshes.h"
 

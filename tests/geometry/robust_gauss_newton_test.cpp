@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "frangia/core/error.h"
-#include "frangia/core/median.h"
+#include "frangia/core/statistics.h"
 
 namespace frangia {
 namespace {

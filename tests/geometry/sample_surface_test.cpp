@@ -1,6 +1,6 @@
-#include "frangia/geometry/sample_surface.h"
-
 #include <gtest/gtest.h>
+
+#include "frangia/geometry/surface_samples.h"
 
 #include "support/test_meshes.h"
 

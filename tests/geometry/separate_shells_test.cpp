@@ -1,5 +1,3 @@
-#include "frangia/geometry/separate_shells.h"
-
 #include <algorithm>
 #include <array>
 #include <cstdint>
@@ -9,8 +7,8 @@
 
 #include <gtest/gtest.h>
 
-#include "frangia/geometry/connected_components.h"
-#include "frangia/geometry/half_edges.h"
+#include "frangia/geometry/components.h"
+#include "frangia/geometry/connectivity.h"
 
 namespace frangia {
 namespace {

@@ -6,7 +6,6 @@
 
 #include "frangia/core/missing.h"
 #include "frangia/geometry/clean_mesh.h"
-#include "frangia/geometry/median_sigma.h"
 #include "frangia/geometry/vertex_data.h"
 
 #include "support/test_meshes.h"

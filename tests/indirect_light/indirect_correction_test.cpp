@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "frangia/core/missing.h"
-#include "frangia/range/fringe_ray.h"
+#include "frangia/range/triangulate.h"
 
 #include "support/two_walls.h"
 

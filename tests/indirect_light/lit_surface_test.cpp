@@ -10,7 +10,7 @@
 #include "frangia/indirect_light/estimate_albedo.h"
 #include "frangia/indirect_light/indirect_phase.h"
 #include "frangia/indirect_light/view_light.h"
-#include "frangia/range/fringe_ray.h"
+#include "frangia/range/triangulate.h"
 
 #include "support/two_walls.h"
 

@@ -9,7 +9,6 @@
 #include <tbb/global_control.h>
 
 #include "frangia/core/random.h"
-#include "frangia/inspect/deviation_summary.h"
 
 #include "support/test_meshes.h"
 

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "frangia/editor/internal/select_by_geometry.h"
-#include "frangia/geometry/change_selection.h"
+#include "frangia/geometry/selection.h"
 #include "frangia/mesh/fill_holes.h"
 
 #include "support/small_picture.h"

@@ -1,7 +1,7 @@
 // Where places of a mesh are in its picture.
-#include "frangia/inspect/picture_positions.h"
-
 #include <gtest/gtest.h>
+
+#include "frangia/inspect/render_mesh.h"
 
 #include "support/test_meshes.h"
 

@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "frangia/core/missing.h"
-#include "frangia/inspect/internal/surface_colors.h"
+#include "frangia/inspect/internal/shading.h"
 
 #include "support/small_picture.h"
 #include "support/test_meshes.h"

@@ -1,8 +1,8 @@
-#include "frangia/inspect/surface_completeness.h"
-
 #include <vector>
 
 #include <gtest/gtest.h>
+
+#include "frangia/inspect/surface_error.h"
 
 #include "support/test_meshes.h"
 

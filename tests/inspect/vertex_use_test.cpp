@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "frangia/inspect/internal/viewpoint.h"
+#include "frangia/inspect/internal/shading.h"
 
 namespace frangia {
 namespace {

@@ -11,7 +11,7 @@
 #include "frangia/core/angles.h"
 #include "frangia/features/find_features.h"
 #include "frangia/features/geometric_tolerance.h"
-#include "frangia/range/fringe_ray.h"
+#include "frangia/range/triangulate.h"
 #include "frangia/rig/rig_covariance.h"
 #include "frangia/simulate/default_patterns.h"
 #include "frangia/simulate/rig_presets.h"

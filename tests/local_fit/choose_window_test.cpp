@@ -1,9 +1,9 @@
-#include "frangia/local_fit/choose_window.h"
-
 #include <cmath>
 #include <random>
 
 #include <gtest/gtest.h>
+
+#include "frangia/local_fit/fit_windows.h"
 
 namespace frangia {
 namespace {

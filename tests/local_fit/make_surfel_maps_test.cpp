@@ -1,10 +1,9 @@
-#include "frangia/local_fit/make_surfel_maps.h"
-
 #include <algorithm>
 
 #include <gtest/gtest.h>
 
 #include "frangia/core/error.h"
+#include "frangia/local_fit/surfel_map.h"
 
 #include "support/analytic_views.h"
 

@@ -1,5 +1,3 @@
-#include "frangia/local_fit/internal/residual_autocorrelation.h"
-
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
@@ -9,6 +7,7 @@
 
 #include "frangia/core/error.h"
 #include "frangia/core/random.h"
+#include "frangia/local_fit/internal/estimate_lateral_noise.h"
 
 namespace frangia {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "frangia/core/random.h"
 #include "frangia/editor/internal/select_by_geometry.h"
-#include "frangia/geometry/change_selection.h"
+#include "frangia/geometry/selection.h"
 #include "frangia/geometry/vertex_data.h"
 #include "frangia/mesh/stitch.h"
 

@@ -16,7 +16,6 @@
 #include "frangia/mesh/offset_mesh.h"
 #include "frangia/mesh/orient.h"
 #include "frangia/mesh/remesh_isotropic.h"
-#include "frangia/mesh/remove_self_intersections.h"
 #include "frangia/mesh/remove_spikes.h"
 #include "frangia/mesh/self_intersections.h"
 #include "frangia/mesh/smooth.h"

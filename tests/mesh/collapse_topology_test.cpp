@@ -1,6 +1,4 @@
 // Edge collapses keep a mesh manifold: the link condition on meshes small enough to enumerate.
-#include "frangia/mesh/internal/collapse_topology.h"
-
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -10,6 +8,7 @@
 #include "frangia/core/random.h"
 #include "frangia/geometry/vertex_data.h"
 #include "frangia/mesh/decimate.h"
+#include "frangia/mesh/internal/edge_collapse.h"
 #include "frangia/mesh/make_manifold.h"
 
 #include "support/test_meshes.h"

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "frangia/geometry/boundary_loops.h"
+#include "frangia/geometry/boundary.h"
 #include "frangia/geometry/hausdorff_distance.h"
 
 #include "ball_meshes.h"

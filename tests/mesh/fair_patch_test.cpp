@@ -11,8 +11,8 @@
 #include <gtest/gtest.h>
 
 #include "frangia/core/angles.h"
-#include "frangia/mesh/internal/minimum_area_triangulation.h"
 #include "frangia/mesh/internal/refine_patch.h"
+#include "frangia/mesh/internal/triangulate_hole.h"
 
 namespace frangia {
 namespace {

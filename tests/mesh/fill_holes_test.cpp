@@ -4,9 +4,9 @@
 
 #include <gtest/gtest.h>
 
-#include "frangia/geometry/boundary_loops.h"
-#include "frangia/geometry/change_selection.h"
+#include "frangia/geometry/boundary.h"
 #include "frangia/geometry/hausdorff_distance.h"
+#include "frangia/geometry/selection.h"
 #include "frangia/geometry/vertex_data.h"
 #include "frangia/mesh/self_intersections.h"
 

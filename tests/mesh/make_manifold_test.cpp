@@ -9,8 +9,8 @@
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
-#include "frangia/geometry/connected_components.h"
-#include "frangia/geometry/half_edges.h"
+#include "frangia/geometry/components.h"
+#include "frangia/geometry/connectivity.h"
 
 namespace frangia {
 namespace {

@@ -10,10 +10,10 @@
 
 #include "frangia/editor/internal/select_by_geometry.h"
 #include "frangia/editor/internal/select_by_vertex_data.h"
-#include "frangia/geometry/boundary_loops.h"
-#include "frangia/geometry/change_selection.h"
-#include "frangia/geometry/connected_components.h"
+#include "frangia/geometry/boundary.h"
+#include "frangia/geometry/components.h"
 #include "frangia/geometry/hausdorff_distance.h"
+#include "frangia/geometry/selection.h"
 #include "frangia/geometry/transform_mesh.h"
 #include "frangia/geometry/vertex_data.h"
 #include "frangia/mesh/decimate.h"

@@ -1,11 +1,10 @@
-#include "frangia/mesh/internal/minimum_area_triangulation.h"
-
 #include <cmath>
 
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
 #include "frangia/core/angles.h"
+#include "frangia/mesh/internal/triangulate_hole.h"
 
 namespace frangia {
 namespace {

@@ -1,13 +1,12 @@
-#include "frangia/mesh/internal/patch_intersections.h"
-
 #include <cmath>
 
 #include <gtest/gtest.h>
 
 #include "frangia/editor/internal/select_by_geometry.h"
-#include "frangia/geometry/boundary_loops.h"
-#include "frangia/geometry/change_selection.h"
+#include "frangia/geometry/boundary.h"
+#include "frangia/geometry/selection.h"
 #include "frangia/mesh/fill_holes.h"
+#include "frangia/mesh/internal/smooth_patch.h"
 #include "frangia/mesh/self_intersections.h"
 
 #include "support/test_meshes.h"

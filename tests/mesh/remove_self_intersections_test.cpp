@@ -1,5 +1,3 @@
-#include "frangia/mesh/remove_self_intersections.h"
-
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -7,8 +5,8 @@
 
 #include <gtest/gtest.h>
 
-#include "frangia/geometry/boundary_loops.h"
-#include "frangia/geometry/connected_components.h"
+#include "frangia/geometry/boundary.h"
+#include "frangia/geometry/components.h"
 #include "frangia/geometry/vertex_data.h"
 #include "frangia/mesh/make_manifold.h"
 #include "frangia/mesh/self_intersections.h"

@@ -1,11 +1,11 @@
-#include "frangia/mesh/internal/smooth_limits.h"
-
 #include <algorithm>
 #include <cstdint>
 #include <limits>
 #include <string>
 
 #include <gtest/gtest.h>
+
+#include "frangia/mesh/internal/smooth.h"
 
 #include "support/error_of.h"
 

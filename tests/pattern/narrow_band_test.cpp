@@ -1,5 +1,3 @@
-#include "frangia/pattern/narrow_band.h"
-
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -10,7 +8,7 @@
 #include "frangia/core/angles.h"
 #include "frangia/core/error.h"
 #include "frangia/core/random.h"
-#include "frangia/pattern/order_confusion.h"
+#include "frangia/pattern/fringe_sequence.h"
 
 namespace frangia {
 namespace {

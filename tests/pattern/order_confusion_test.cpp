@@ -1,5 +1,3 @@
-#include "frangia/pattern/order_confusion.h"
-
 #include <cmath>
 #include <vector>
 
@@ -7,6 +5,7 @@
 
 #include "frangia/core/angles.h"
 #include "frangia/core/error.h"
+#include "frangia/pattern/fringe_sequence.h"
 
 namespace frangia {
 namespace {

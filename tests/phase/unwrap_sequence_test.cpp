@@ -11,7 +11,7 @@
 #include "frangia/core/error.h"
 #include "frangia/core/missing.h"
 #include "frangia/core/random.h"
-#include "frangia/pattern/order_confusion.h"
+#include "frangia/pattern/fringe_sequence.h"
 
 namespace frangia {
 namespace {

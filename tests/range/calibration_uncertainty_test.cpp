@@ -10,7 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "frangia/core/missing.h"
-#include "frangia/range/fringe_ray.h"
+#include "frangia/range/triangulate.h"
 #include "frangia/rig/camera_model.h"
 #include "frangia/rig/paper_rig.h"
 #include "frangia/rig/rig_covariance.h"

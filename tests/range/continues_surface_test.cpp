@@ -1,10 +1,9 @@
-#include "frangia/range/internal/continues_surface.h"
-
 #include <cmath>
 
 #include <gtest/gtest.h>
 
 #include "frangia/core/missing.h"
+#include "frangia/range/internal/pixel_connections.h"
 #include "frangia/rig/camera_model.h"
 
 namespace frangia {

@@ -1,10 +1,9 @@
-#include "frangia/range/fringe_ray.h"
-
 #include <cmath>
 
 #include <gtest/gtest.h>
 
 #include "frangia/core/angles.h"
+#include "frangia/range/triangulate.h"
 
 #include "support/linspace.h"
 

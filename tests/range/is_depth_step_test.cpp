@@ -1,8 +1,7 @@
-#include "frangia/range/internal/is_depth_step.h"
-
 #include <gtest/gtest.h>
 
 #include "frangia/core/missing.h"
+#include "frangia/range/internal/pixel_connections.h"
 
 namespace frangia {
 namespace {

@@ -1,8 +1,7 @@
-#include "frangia/range/measured_box.h"
-
 #include <gtest/gtest.h>
 
 #include "frangia/core/missing.h"
+#include "frangia/range/measured_volume.h"
 
 namespace frangia {
 namespace {

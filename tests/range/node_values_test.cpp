@@ -1,10 +1,10 @@
-#include "frangia/range/internal/node_values.h"
-
 #include <array>
 #include <cmath>
 #include <limits>
 
 #include <gtest/gtest.h>
+
+#include "frangia/range/internal/phase_sample.h"
 
 namespace frangia {
 namespace {

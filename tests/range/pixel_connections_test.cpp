@@ -6,8 +6,7 @@
 
 #include "frangia/core/missing.h"
 #include "frangia/core/random.h"
-#include "frangia/range/internal/is_connected.h"
-#include "frangia/range/measured_box.h"
+#include "frangia/range/measured_volume.h"
 
 #include "range/flat_view.h"
 

@@ -1,5 +1,3 @@
-#include "frangia/range/recover_edge_pixels.h"
-
 #include <algorithm>
 #include <cmath>
 #include <vector>

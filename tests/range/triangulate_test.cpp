@@ -9,9 +9,8 @@
 
 #include "frangia/core/error.h"
 #include "frangia/core/missing.h"
-#include "frangia/range/fringe_ray.h"
 #include "frangia/rig/paper_rig.h"
-#include "frangia/rig/phase_range.h"
+#include "frangia/rig/rig.h"
 
 namespace frangia {
 namespace {

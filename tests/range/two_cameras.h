@@ -9,11 +9,10 @@
 
 #include "frangia/core/missing.h"
 #include "frangia/core/random.h"
-#include "frangia/range/fringe_ray.h"
 #include "frangia/range/fuse_cameras.h"
 #include "frangia/range/match_by_phase.h"
 #include "frangia/range/triangulate.h"
-#include "frangia/rig/rig_of_camera.h"
+#include "frangia/rig/rig.h"
 
 namespace frangia::testing {
 

@@ -7,7 +7,7 @@
 
 #include "frangia/core/error.h"
 #include "frangia/core/random.h"
-#include "frangia/geometry/boundary_loops.h"
+#include "frangia/geometry/boundary.h"
 #include "frangia/geometry/transform_mesh.h"
 #include "frangia/reconstruct/reconstruct.h"
 #include "frangia/simulate/place_stickers.h"

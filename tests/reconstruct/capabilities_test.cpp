@@ -10,7 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "frangia/core/angles.h"
-#include "frangia/core/median.h"
+#include "frangia/core/statistics.h"
 #include "frangia/inspect/surface_error.h"
 #include "frangia/phase/temporal/unwrap_temporally.h"
 #include "frangia/simulate/default_patterns.h"

@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "frangia/core/error.h"
-#include "frangia/geometry/boundary_loops.h"
+#include "frangia/geometry/boundary.h"
 #include "frangia/geometry/clean_mesh.h"
 #include "frangia/geometry/ray_scene.h"
 #include "frangia/geometry/vertex_data.h"

@@ -9,7 +9,7 @@
 #include <tbb/global_control.h>
 
 #include "frangia/frames/png.h"
-#include "frangia/geometry/fit_sphere.h"
+#include "frangia/geometry/fit_primitives.h"
 #include "frangia/inspect/surface_error.h"
 
 #include "support/small_scan.h"

@@ -7,7 +7,7 @@
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
-#include "frangia/geometry/fit_sphere.h"
+#include "frangia/geometry/fit_primitives.h"
 #include "frangia/reconstruct/reconstruct.h"
 
 #include "support/small_scan.h"

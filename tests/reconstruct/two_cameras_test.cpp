@@ -6,7 +6,7 @@
 
 #include "frangia/core/angles.h"
 #include "frangia/dataset/read_frames.h"
-#include "frangia/dataset/scan_of_camera.h"
+#include "frangia/dataset/scan_folder.h"
 #include "frangia/frames/png.h"
 #include "frangia/inspect/surface_error.h"
 #include "frangia/reconstruct/reconstruct.h"

@@ -11,8 +11,8 @@
 #include "frangia/geometry/ray_scene.h"
 #include "frangia/inspect/surface_error.h"
 #include "frangia/reconstruct/reconstruct.h"
-#include "frangia/rig/crossing_of_axes.h"
 #include "frangia/rig/read_rig.h"
+#include "frangia/rig/rig.h"
 
 #include "support/displaced_views.h"
 #include "support/error_of.h"

@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "frangia/core/angles.h"
-#include "frangia/core/median.h"
+#include "frangia/core/statistics.h"
 #include "frangia/geometry/vertex_data.h"
 #include "frangia/reconstruct/merge_scans.h"
 #include "frangia/reconstruct/reconstruct.h"

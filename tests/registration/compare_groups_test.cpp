@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "frangia/local_fit/make_surfel_maps.h"
+#include "frangia/local_fit/surfel_map.h"
 
 #include "support/analytic_views.h"
 

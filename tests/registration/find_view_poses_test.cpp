@@ -8,7 +8,7 @@
 #include <tbb/global_control.h>
 
 #include "frangia/core/random.h"
-#include "frangia/local_fit/make_surfel_maps.h"
+#include "frangia/local_fit/surfel_map.h"
 
 #include "support/analytic_views.h"
 

@@ -6,9 +6,9 @@
 
 #include <gtest/gtest.h>
 
+#include "frangia/core/durable_file.h"
 #include "frangia/core/random.h"
-#include "frangia/core/write_text_file.h"
-#include "frangia/inspection/tolerance_use.h"
+#include "frangia/inspection/verdict_reasons.h"
 #include "frangia/report/inspection_report.h"
 #include "frangia/report/result_table.h"
 

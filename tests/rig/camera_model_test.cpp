@@ -7,8 +7,6 @@
 
 #include <gtest/gtest.h>
 
-#include "frangia/rig/fast_camera_model.h"
-
 namespace frangia {
 namespace {
 

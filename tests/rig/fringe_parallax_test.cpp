@@ -1,10 +1,9 @@
 // Which fringes measure depth, by where the projector stands.
-#include "frangia/rig/fringe_parallax.h"
-
 #include <gtest/gtest.h>
 
 #include "frangia/core/angles.h"
 #include "frangia/rig/paper_rig.h"
+#include "frangia/rig/rig.h"
 
 namespace frangia {
 namespace {

@@ -1,11 +1,10 @@
-#include "frangia/rig/response_curve.h"
-
 #include <cmath>
 #include <vector>
 
 #include <gtest/gtest.h>
 
 #include "frangia/core/error.h"
+#include "frangia/rig/fringe_waveform.h"
 
 #include "support/linspace.h"
 

@@ -1,7 +1,6 @@
-#include "frangia/rig/rig_of_camera.h"
-
 #include <gtest/gtest.h>
 
+#include "frangia/rig/rig.h"
 #include "frangia/simulate/rig_presets.h"
 
 namespace frangia {

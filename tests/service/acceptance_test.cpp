@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "frangia/core/read_text_file.h"
+#include "frangia/core/read_file.h"
 #include "frangia/files/write_mesh.h"
 #include "frangia/rig/write_rig.h"
 #include "frangia/simulate/parts.h"

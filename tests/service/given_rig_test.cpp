@@ -1,11 +1,10 @@
-#include "frangia/service/given_rig.h"
-
 #include <gtest/gtest.h>
 
 #include "frangia/devices/device_table.h"
 #include "frangia/rig/read_rig.h"
 #include "frangia/rig/rig_covariance.h"
 #include "frangia/rig/write_rig.h"
+#include "frangia/service/rig_history.h"
 
 #include "support/error_of.h"
 #include "support/small_scan.h"

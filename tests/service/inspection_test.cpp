@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "frangia/core/read_text_file.h"
+#include "frangia/core/read_file.h"
 #include "frangia/files/write_mesh.h"
 
 #include "service/service_fixture.h"

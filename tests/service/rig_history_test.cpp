@@ -4,10 +4,10 @@
 
 #include <gtest/gtest.h>
 
-#include "frangia/core/read_text_file.h"
+#include "frangia/core/read_file.h"
 #include "frangia/rig/read_rig.h"
 #include "frangia/rig/write_rig.h"
-#include "frangia/service/simulated_rig.h"
+#include "frangia/service/example_rigs.h"
 #include "frangia/simulate/rig_presets.h"
 
 #include "support/error_of.h"

@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "frangia/core/read_text_file.h"
+#include "frangia/core/read_file.h"
 #include "frangia/dataset/scan_folder.h"
 #include "frangia/files/write_mesh.h"
 #include "frangia/files/zip_folder.h"

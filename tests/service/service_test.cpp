@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "frangia/core/read_text_file.h"
+#include "frangia/core/read_file.h"
 #include "frangia/editor/edit_script.h"
 #include "frangia/files/read_mesh.h"
 

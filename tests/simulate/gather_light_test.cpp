@@ -14,7 +14,6 @@
 #include "frangia/simulate/default_patterns.h"
 #include "frangia/simulate/internal/light_sample.h"
 #include "frangia/simulate/internal/render_view.h"
-#include "frangia/simulate/internal/sum_gathered_light.h"
 #include "frangia/simulate/parts.h"
 #include "frangia/simulate/rig_presets.h"
 

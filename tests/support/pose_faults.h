@@ -13,7 +13,7 @@
 
 #include "frangia/core/missing.h"
 #include "frangia/geometry/ray_scene.h"
-#include "frangia/range/fringe_ray.h"
+#include "frangia/range/triangulate.h"
 #include "frangia/registration/register_views.h"
 #include "frangia/rig/rig.h"
 #include "frangia/simulate/parts.h"

@@ -1,8 +1,8 @@
-#include "frangia/views/collect_points.h"
-
 #include <cmath>
 
 #include <gtest/gtest.h>
+
+#include "frangia/views/view_store.h"
 
 #include "support/analytic_views.h"
 

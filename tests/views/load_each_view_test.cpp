@@ -1,10 +1,9 @@
-#include "frangia/views/load_each_view.h"
-
 #include <vector>
 
 #include <gtest/gtest.h>
 
 #include "frangia/core/error.h"
+#include "frangia/views/view_store.h"
 
 namespace frangia {
 namespace {

@@ -1,8 +1,7 @@
-#include "frangia/views/subsample.h"
-
 #include <gtest/gtest.h>
 
 #include "frangia/core/error.h"
+#include "frangia/views/thin_view.h"
 
 namespace frangia {
 namespace {

@@ -6,7 +6,7 @@ READERS = {
     "rig.toml": ["src/frangia/rig/read_rig.cpp", "src/frangia/rig/internal/calibration_table.cpp"],
     "scan.toml": [
         "src/frangia/dataset/scan_folder.cpp",
-        "src/frangia/dataset/internal/read_board.cpp",
+        "src/frangia/dataset/internal/read_pattern.cpp",
         "src/frangia/dataset/internal/read_pattern.cpp",
     ],
 }

@@ -4,12 +4,12 @@
 
 #include <fmt/format.h>
 
-#include "frangia/core/crc32.h"
+#include "frangia/core/checksums.h"
 #include "frangia/core/error.h"
-#include "frangia/core/lowercase_extension.h"
-#include "frangia/core/read_regular_file.h"
+#include "frangia/core/read_file.h"
+#include "frangia/core/text.h"
+#include "frangia/dataset/read_frames.h"
 #include "frangia/dataset/scan_folder.h"
-#include "frangia/dataset/stored_frames.h"
 #include "frangia/inspection/inspection_plan.h"
 
 namespace frangia {

@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "frangia/core/atomic_file.h"
+#include "frangia/core/durable_file.h"
 
 #include "terminal_text.h"
 #include "text_table.h"

@@ -8,13 +8,10 @@
 
 #include <fmt/format.h>
 
+#include "frangia/core/durable_file.h"
 #include "frangia/core/error.h"
 #include "frangia/core/folder_lock.h"
-#include "frangia/core/make_folder.h"
 #include "frangia/core/open_below.h"
-#include "frangia/core/read_json_below.h"
-#include "frangia/core/sync_to_disk.h"
-#include "frangia/core/write_text_file.h"
 
 #include "batch/batch_inputs.h"
 #include "batch/child_process.h"

@@ -3,11 +3,10 @@
 #include <fmt/format.h>
 #include <sys/stat.h>
 
-#include "frangia/core/crc32.h"
+#include "frangia/core/checksums.h"
 #include "frangia/core/error.h"
-#include "frangia/core/lowercase_extension.h"
-#include "frangia/core/read_regular_file.h"
-#include "frangia/core/sha256.h"
+#include "frangia/core/read_file.h"
+#include "frangia/core/text.h"
 
 namespace frangia {
 namespace {

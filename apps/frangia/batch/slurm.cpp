@@ -5,11 +5,10 @@
 
 #include <fmt/format.h>
 
+#include "frangia/core/durable_file.h"
 #include "frangia/core/error.h"
-#include "frangia/core/make_folder.h"
 #include "frangia/core/open_below.h"
-#include "frangia/core/read_text_file.h"
-#include "frangia/core/write_text_file.h"
+#include "frangia/core/read_file.h"
 
 #include "batch/child_process.h"
 #include "shell_quoted.h"

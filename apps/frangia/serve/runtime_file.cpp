@@ -14,10 +14,10 @@
 #include <sys/time.h>
 #include <unistd.h>
 
+#include "frangia/core/durable_file.h"
 #include "frangia/core/error.h"
-#include "frangia/core/html_escaped.h"
-#include "frangia/core/read_text_file.h"
-#include "frangia/core/write_private_file.h"
+#include "frangia/core/read_file.h"
+#include "frangia/core/text.h"
 
 namespace frangia {
 namespace {

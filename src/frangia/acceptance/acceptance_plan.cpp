@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "frangia/core/error.h"
-#include "frangia/core/read_text_file.h"
+#include "frangia/core/read_file.h"
 #include "frangia/rig/toml_reader.h"
 
 namespace frangia {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "frangia/core/sha256.h"
+#include "frangia/core/checksums.h"
 
 namespace frangia {
 

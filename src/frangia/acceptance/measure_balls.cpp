@@ -11,7 +11,7 @@
 
 #include "frangia/core/angles.h"
 #include "frangia/core/error.h"
-#include "frangia/core/median.h"
+#include "frangia/core/statistics.h"
 #include "frangia/features/find_features.h"
 #include "frangia/features/fit_shape.h"
 #include "frangia/features/shape.h"

@@ -16,7 +16,6 @@
 #include "frangia/acquisition/internal/capture_devices.h"
 #include "frangia/acquisition/internal/capture_folder.h"
 #include "frangia/acquisition/internal/capture_session.h"
-#include "frangia/acquisition/internal/check_devices.h"
 #include "frangia/core/angles.h"
 #include "frangia/devices/device_settings.h"
 #include "frangia/frames/jpeg_noise.h"

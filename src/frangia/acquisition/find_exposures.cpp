@@ -4,8 +4,7 @@
 #include <fmt/ranges.h>
 
 #include "frangia/acquisition/internal/capture_devices.h"
-#include "frangia/acquisition/internal/exposure_search.h"
-#include "frangia/acquisition/internal/probe_exposure.h"
+#include "frangia/acquisition/internal/choose_exposures.h"
 #include "frangia/core/error.h"
 
 namespace frangia {

@@ -6,9 +6,8 @@
 
 #include <fmt/format.h>
 
+#include "frangia/acquisition/internal/choose_exposures.h"
 #include "frangia/acquisition/internal/display_probe.h"
-#include "frangia/acquisition/internal/exposure_search.h"
-#include "frangia/acquisition/internal/flash_code.h"
 #include "frangia/acquisition/internal/room_light.h"
 #include "frangia/core/angles.h"
 #include "frangia/phase/waveform/measure_response.h"

@@ -7,7 +7,7 @@
 #include "frangia/acquisition/capture_options.h"
 #include "frangia/core/run.h"
 #include "frangia/devices/rig_devices.h"
-#include "frangia/rig/response_curve.h"
+#include "frangia/rig/fringe_waveform.h"
 #include "frangia/rig/rig.h"
 
 namespace frangia {

@@ -5,8 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "frangia/align/internal/fit_pose.h"
 #include "frangia/align/internal/pose_candidates.h"
-#include "frangia/align/internal/pose_covariance.h"
 #include "frangia/align/internal/refuse_alignment.h"
 #include "frangia/core/angles.h"
 

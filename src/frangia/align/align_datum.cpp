@@ -7,9 +7,8 @@
 
 #include "frangia/align/internal/free_motions.h"
 #include "frangia/core/error.h"
-#include "frangia/core/matrix_products.h"
-#include "frangia/core/student_95.h"
-#include "frangia/core/symmetric_eigen.h"
+#include "frangia/core/linear_algebra.h"
+#include "frangia/core/statistics.h"
 
 namespace frangia {
 namespace {

@@ -10,7 +10,7 @@
 
 #include "frangia/cad/internal/faces.h"
 #include "frangia/cad/internal/separate_process.h"
-#include "frangia/core/lowercase_extension.h"
+#include "frangia/core/text.h"
 
 namespace frangia {
 namespace {

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "frangia/core/pixel_allocator.h"
+#include "frangia/core/pixel_buffer.h"
 
 namespace frangia {
 

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <numeric>
 
-#include "frangia/core/pixel_allocator.h"
+#include "frangia/core/pixel_buffer.h"
 
 namespace frangia {
 

@@ -10,9 +10,9 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include "frangia/core/durable_file.h"
 #include "frangia/core/error.h"
 #include "frangia/core/internal/parse_log.h"
-#include "frangia/core/sync_to_disk.h"
 
 namespace frangia {
 

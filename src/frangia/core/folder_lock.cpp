@@ -14,8 +14,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "frangia/core/durable_file.h"
 #include "frangia/core/error.h"
-#include "frangia/core/make_folder.h"
 
 namespace frangia {
 namespace {

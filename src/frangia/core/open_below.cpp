@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <sys/stat.h>
 
+#include "frangia/core/check_nesting.h"
 #include "frangia/core/error.h"
 
 namespace frangia {
@@ -171,6 +172,14 @@ std::string read_below(const fs::path& folder, const fs::path& inner, std::uint6
     done += static_cast<std::size_t>(got);
   }
   text.resize(done);
+  return text;
+}
+
+std::string read_json_below(const std::filesystem::path& folder,
+                            const std::filesystem::path& inner,
+                            std::uint64_t max_bytes) {
+  std::string text = read_below(folder, inner, max_bytes);
+  check_json_nesting(text, folder / inner);
   return text;
 }
 

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "frangia/core/missing.h"
-#include "frangia/dataset/stored_frames.h"
+#include "frangia/dataset/read_frames.h"
 
 namespace frangia {
 

@@ -13,9 +13,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "frangia/core/durable_file.h"
 #include "frangia/core/error.h"
-#include "frangia/core/make_folder.h"
-#include "frangia/core/write_text_file.h"
 #include "frangia/dataset/internal/write_imported_frames.h"
 #include "frangia/dataset/write_scan.h"
 #include "frangia/frames/jpeg_noise.h"

@@ -13,7 +13,6 @@
 #include "frangia/core/angles.h"
 #include "frangia/core/open_below.h"
 #include "frangia/core/run.h"
-#include "frangia/dataset/internal/read_board.h"
 #include "frangia/dataset/internal/read_pattern.h"
 #include "frangia/frames/png.h"
 #include "frangia/rig/read_rig.h"
@@ -356,6 +355,15 @@ Scan read_scan(const std::filesystem::path& folder, const Run& run, RigContent c
   if (content == RigContent::PhaseOnly) assume_field(scan, run);
   reader.warn_of_unused_keys(run);
   return scan;
+}
+
+Scan scan_of_camera(const Scan& scan, std::size_t camera) {
+  Scan out = scan;
+  out.rig = rig_of_camera(scan.rig, camera);
+  if (camera == 0) return out;
+  for (ScanView& view : out.views)
+    view.folder /= out.rig.reference().name;
+  return out;
 }
 
 }  // namespace frangia

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <map>
 #include <optional>
@@ -78,5 +79,9 @@ struct Scan {
 
 /// PATTERN-FRAME.png, or PATTERN-FRAME@EXPOSURE.png for a pattern with several exposures.
 [[nodiscard]] std::string frame_file_name(const Pattern& pattern, int frame, int exposure = 0);
+
+/// Returns a scan as one camera captured it: its rig is `rig_of_camera(scan.rig, camera)`, and the
+/// folder of each view is that of the camera's frames. Camera 0 is the reference camera.
+[[nodiscard]] Scan scan_of_camera(const Scan& scan, std::size_t camera);
 
 }  // namespace frangia

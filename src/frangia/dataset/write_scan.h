@@ -6,7 +6,7 @@
 
 #include <Eigen/Geometry>
 
-#include "frangia/core/durability.h"
+#include "frangia/core/durable_file.h"
 #include "frangia/dataset/scan_folder.h"
 
 namespace frangia {

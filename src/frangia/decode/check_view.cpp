@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "frangia/range/check_orientation.h"
-#include "frangia/rig/has_geometry.h"
+#include "frangia/rig/rig.h"
 
 namespace frangia {
 namespace {

@@ -7,9 +7,9 @@
 
 #include "frangia/core/missing.h"
 #include "frangia/decode/triangulate_view.h"
-#include "frangia/range/difference_uncertainty.h"
+#include "frangia/range/calibration_uncertainty.h"
 #include "frangia/range/match_by_phase.h"
-#include "frangia/range/recover_edge_pixels.h"
+#include "frangia/range/remove_mixed_pixels.h"
 
 namespace frangia {
 namespace {

@@ -10,8 +10,7 @@
 #include "frangia/core/error.h"
 #include "frangia/decode/decode_options.h"
 #include "frangia/phase/temporal/unwrap_levels.h"
-#include "frangia/rig/has_geometry.h"
-#include "frangia/rig/phase_range.h"
+#include "frangia/rig/rig.h"
 
 namespace frangia {
 namespace {

@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <span>
 
-#include "frangia/range/difference_uncertainty.h"
+#include "frangia/range/calibration_uncertainty.h"
 #include "frangia/range/triangulate.h"
 
 namespace frangia {

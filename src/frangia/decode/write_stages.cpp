@@ -11,7 +11,7 @@
 #include <fmt/ranges.h>
 
 #include "frangia/core/angles.h"
-#include "frangia/core/atomic_file.h"
+#include "frangia/core/durable_file.h"
 #include "frangia/core/error.h"
 #include "frangia/decode/stage_pictures.h"
 #include "frangia/frames/float_tiff.h"

@@ -7,9 +7,18 @@
 
 #include "frangia/core/error.h"
 #include "frangia/devices/deadline.h"
-#include "frangia/devices/safe_off.h"
 
 namespace frangia {
+
+/// The bytes that switch a device off over its open line. A `Guardian` sends them when the program
+/// that opened the device dies.
+struct SafeOff {
+  std::string line;         ///< name of the line for messages: "/dev/ttyUSB0", "10.0.0.7:5025"
+  int file = -1;            ///< open file descriptor of the line; devices on one line share it
+  std::string end_command;  ///< ends a command of which only a part was sent
+  double pause_s = 0.0;     ///< from `end_command` until the device accepts `off`
+  std::string off;          ///< switches light off and stops motion
+};
 
 /// Common interface of all devices of a rig.
 ///
@@ -51,5 +60,17 @@ class Device {
 [[noreturn]] inline void fail_device(const Device& device, std::string_view what) {
   throw Error(ErrorKind::Device, device.name() + ": " + std::string(what));
 }
+
+/// A light that is on or off: the laser or lamp of the fringes (`light`), or the source of the
+/// laser sheet (`line`). Off when opened and after `make_safe`.
+class SwitchDevice : public Device {
+ public:
+  /// Switches and returns when the light has changed.
+  virtual void set(bool on, const Deadline& deadline) = 0;
+  [[nodiscard]] virtual bool is_on() const = 0;  ///< whether the light is on
+};
+
+/// The source of the laser sheet.
+using LaserSheetSource = SwitchDevice;
 
 }  // namespace frangia

@@ -9,7 +9,7 @@
 
 #include <sys/types.h>
 
-#include "frangia/devices/safe_off.h"
+#include "frangia/devices/device.h"
 
 namespace frangia {
 

@@ -1,11 +1,43 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "frangia/devices/device.h"
-#include "frangia/devices/phase_curve.h"
+#include "frangia/devices/device_settings.h"
 
 namespace frangia {
+
+/// Measured phase of a phase shifter as a function of its command, interpolated linearly. The phase
+/// shifter calibration determines it.
+struct PhaseCurve {
+  std::vector<double> commands;    ///< rising; in the unit of the shifter
+  std::vector<double> phases_rad;  ///< monotonic, one per command
+
+  /// @errors   Error(Input) unless there are at least two points with rising commands and monotonic
+  ///          phases
+  void check(const std::string& whose) const;
+
+  /// The phase at a command, clamped to the ends of the curve.
+  ///
+  /// @units    rad
+  [[nodiscard]] double phase_at(double command) const;
+
+  /// The command for a phase. A phase beyond the ends is shifted by whole turns where that brings
+  /// it into the curve.
+  ///
+  /// @units    rad
+  /// @errors   Error(Input) when the curve does not contain the phase modulo a turn
+  [[nodiscard]] double command_for(double phase_rad) const;
+};
+
+/// The curve in the settings of a phase shifter: `curve_commands` with `curve_phases_deg`, or
+/// `command_per_turn` for a linear one from `min_command` to `max_command`.
+///
+/// @errors   Error(Input) that names the file and the key
+[[nodiscard]] PhaseCurve read_phase_curve(DeviceSettings& settings,
+                                          double min_command,
+                                          double max_command);
 
 /// Properties of a phase shifter; constant while it is open.
 struct ShifterInfo {
@@ -38,6 +70,33 @@ class PhaseShifter : public Device {
  protected:
   /// @errors   Error(Device) when the command is out of range
   void check_command(double command) const;
+};
+
+/// Sets phase shifts through a phase shifter with its curve and a correction factor from the
+/// measured shifts. Approaches every command from below to avoid hysteresis.
+class PhaseShiftController {
+ public:
+  /// `shifter` must outlive the controller.
+  explicit PhaseShiftController(PhaseShifter& shifter) : shifter_(shifter) {}
+
+  /// Drives to the lowest command, where every set of frames starts.
+  void return_to_start(const Deadline& deadline);
+
+  /// Drives to a shift from the phase at rest; from rest when the shift is below the previous one.
+  ///
+  /// @units    rad
+  /// @errors   Error(Device) as the shifter; Error(Input) when its curve does not contain the shift
+  void shift_to(double shift_rad, const Deadline& deadline);
+
+  /// Sets the factor on all requested shifts; initially 1.
+  [[nodiscard]] double scale() const { return scale_; }
+  void set_scale(double scale) { scale_ = scale; }  ///< see `scale`
+
+ private:
+  PhaseShifter& shifter_;
+  double scale_ = 1.0;
+  double command_ = 0.0;
+  bool started_ = false;
 };
 
 }  // namespace frangia

@@ -9,7 +9,7 @@
 
 #include <fmt/format.h>
 
-#include "frangia/rig/rig_of_camera.h"
+#include "frangia/rig/rig.h"
 
 namespace frangia {
 namespace {

@@ -7,12 +7,12 @@
 
 #include "frangia/core/run.h"
 #include "frangia/devices/camera_device.h"
+#include "frangia/devices/device.h"
 #include "frangia/devices/device_settings.h"
 #include "frangia/devices/driver.h"
 #include "frangia/devices/guardian.h"
 #include "frangia/devices/pattern_display.h"
 #include "frangia/devices/phase_shifter.h"
-#include "frangia/devices/switch_device.h"
 #include "frangia/devices/turntable_device.h"
 
 namespace frangia {

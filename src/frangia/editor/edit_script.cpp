@@ -7,9 +7,9 @@
 #include <nlohmann/json.hpp>
 
 #include "frangia/core/check_nesting.h"
+#include "frangia/core/durable_file.h"
 #include "frangia/core/error.h"
-#include "frangia/core/read_text_file.h"
-#include "frangia/core/write_text_file.h"
+#include "frangia/core/read_file.h"
 
 namespace frangia {
 namespace {

@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "frangia/core/durability.h"
+#include "frangia/core/durable_file.h"
 #include "frangia/editor/edit_operation.h"
 
 namespace frangia {

@@ -9,7 +9,7 @@
 #include <fmt/ranges.h>
 
 #include "frangia/core/error.h"
-#include "frangia/core/lowercase_extension.h"
+#include "frangia/core/text.h"
 #include "frangia/exchange/internal/interpret_values.h"
 #include "frangia/exchange/internal/named_values.h"
 #include "frangia/exchange/internal/read_colmap_cameras.h"

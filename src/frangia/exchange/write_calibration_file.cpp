@@ -11,9 +11,9 @@
 #include <nlohmann/json.hpp>
 #include <opencv2/core.hpp>
 
+#include "frangia/core/durable_file.h"
 #include "frangia/core/error.h"
-#include "frangia/core/lowercase_extension.h"
-#include "frangia/core/write_text_file.h"
+#include "frangia/core/text.h"
 
 namespace frangia {
 namespace {

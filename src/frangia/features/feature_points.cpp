@@ -7,8 +7,8 @@
 #include <Eigen/Geometry>
 
 #include "frangia/core/error.h"
-#include "frangia/core/median.h"
-#include "frangia/geometry/sample_surface.h"
+#include "frangia/core/statistics.h"
+#include "frangia/geometry/surface_samples.h"
 #include "frangia/geometry/vertex_data.h"
 
 namespace frangia {

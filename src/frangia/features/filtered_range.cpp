@@ -8,8 +8,8 @@
 #include <Eigen/Geometry>
 
 #include "frangia/core/error.h"
-#include "frangia/core/student_95.h"
-#include "frangia/core/symmetric_eigen.h"
+#include "frangia/core/linear_algebra.h"
+#include "frangia/core/statistics.h"
 
 namespace frangia {
 namespace {

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "frangia/core/error.h"
-#include "frangia/core/interruptible_chunks.h"
-#include "frangia/core/median.h"
+#include "frangia/core/parallel.h"
+#include "frangia/core/statistics.h"
 #include "frangia/features/internal/weighted_sums.h"
 #include "frangia/geometry/robust_gauss_newton.h"
 

@@ -12,7 +12,7 @@
 
 #include "frangia/core/angles.h"
 #include "frangia/core/error.h"
-#include "frangia/core/student_95.h"
+#include "frangia/core/statistics.h"
 #include "frangia/features/feature_points.h"
 #include "frangia/features/filtered_range.h"
 #include "frangia/features/internal/minimum_zone.h"

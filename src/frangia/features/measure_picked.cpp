@@ -11,7 +11,7 @@
 
 #include "frangia/core/angles.h"
 #include "frangia/core/error.h"
-#include "frangia/core/student_95.h"
+#include "frangia/core/statistics.h"
 #include "frangia/features/geometric_tolerance.h"
 #include "frangia/geometry/pick_surface.h"
 #include "frangia/geometry/surface_extent.h"

@@ -8,6 +8,7 @@
 #include "frangia/core/missing.h"
 #include "frangia/features/feature_points.h"
 #include "frangia/features/fit_shape.h"
+#include "frangia/geometry/mesh.h"
 
 namespace frangia {
 
@@ -51,5 +52,15 @@ struct ShapeUncertainty {
 /// they do not: what their residuals show is not all of it.
 [[nodiscard]] ShapeUncertainty known_uncertainty(const FeaturePoints& points,
                                                  ShapeUncertainty of_residuals);
+
+/// How an error of the part's temperature, of one standard uncertainty, displaces the vertices of
+/// its mesh along their normals: it scales the part about its middle. It is a further row of
+/// `FeaturePoints::calibration_mm`.
+///
+/// @shape    one row, a column for each vertex
+/// @units    mm; 1/K; K
+[[nodiscard]] Eigen::MatrixXf thermal_displacement(const Mesh& mesh,
+                                                   double expansion_per_k,
+                                                   double temperature_u_k);
 
 }  // namespace frangia

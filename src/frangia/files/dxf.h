@@ -4,7 +4,7 @@
 
 #include "frangia/core/enum_names.h"
 #include "frangia/core/run.h"
-#include "frangia/files/read_options.h"
+#include "frangia/files/read_mesh.h"
 #include "frangia/geometry/mesh.h"
 
 namespace frangia {

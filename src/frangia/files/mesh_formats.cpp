@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "frangia/core/lowercase_extension.h"
+#include "frangia/core/text.h"
 #include "frangia/files/dxf.h"
 #include "frangia/files/internal/gltf.h"
 #include "frangia/files/internal/obj.h"

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "frangia/core/run.h"
-#include "frangia/files/read_options.h"
+#include "frangia/files/read_mesh.h"
 #include "frangia/files/write_mesh.h"
 #include "frangia/geometry/mesh.h"
 

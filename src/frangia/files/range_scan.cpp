@@ -8,11 +8,11 @@
 
 #include <fmt/format.h>
 
-#include "frangia/core/atomic_file.h"
+#include "frangia/core/durable_file.h"
 #include "frangia/core/error.h"
 #include "frangia/core/memory_budget.h"
-#include "frangia/core/read_text_file.h"
-#include "frangia/files/internal/mesh_memory.h"
+#include "frangia/core/read_file.h"
+#include "frangia/files/internal/check_mesh.h"
 #include "frangia/files/read_mesh.h"
 
 namespace frangia {

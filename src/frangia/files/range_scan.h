@@ -6,7 +6,7 @@
 #include <Eigen/Geometry>
 
 #include "frangia/core/run.h"
-#include "frangia/files/read_options.h"
+#include "frangia/files/read_mesh.h"
 #include "frangia/geometry/mesh.h"
 
 namespace frangia {

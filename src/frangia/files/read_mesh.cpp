@@ -6,8 +6,8 @@
 #include <fmt/format.h>
 
 #include "frangia/core/error.h"
+#include "frangia/files/internal/check_mesh.h"
 #include "frangia/files/internal/join_soup.h"
-#include "frangia/files/internal/other_kind.h"
 #include "frangia/files/mesh_formats.h"
 
 namespace frangia {
@@ -46,6 +46,18 @@ Mesh read_mesh(const std::filesystem::path& path, const Run& run, const ReadOpti
   }
   Mesh mesh = join_soup(format->read(path, options, run), path, run);
   warn_of_rounding(mesh, path, run);
+  return mesh;
+}
+
+Mesh read_surface(const std::filesystem::path& path, const Run& run, const ReadOptions& options) {
+  Mesh mesh = read_mesh(path, run, options);
+  if (mesh.triangles.empty()) {
+    throw Error(ErrorKind::Input,
+                fmt::format("{}: it has {} point{} and no triangles; name a mesh with a surface",
+                            path.string(),
+                            mesh.vertices_mm.size(),
+                            mesh.vertices_mm.size() == 1 ? "" : "s"));
+  }
   return mesh;
 }
 

@@ -1,12 +1,20 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 
+#include "frangia/core/memory_budget.h"
 #include "frangia/core/run.h"
-#include "frangia/files/read_options.h"
 #include "frangia/geometry/mesh.h"
 
 namespace frangia {
+
+/// Options of the readers of meshes and range scans.
+struct ReadOptions {
+  /// Memory that a file may take, whatever its size; bytes. Files above 10 MB may take 200 times
+  /// their size.
+  std::uint64_t allow_memory_bytes = kAllowMemoryBytes;
+};
 
 /// Reads a mesh; the extension selects the format (mesh_formats.h). Where faces have vertices of
 /// their own, as exporters of flat-shaded parts write them, the vertices are joined where edges
@@ -19,5 +27,13 @@ namespace frangia {
 [[nodiscard]] Mesh read_mesh(const std::filesystem::path& path,
                              const Run& run = {},
                              const ReadOptions& options = {});
+
+/// Reads a mesh that must have triangles.
+///
+/// @units    mm, as read_mesh
+/// @errors   Error(Input) as read_mesh, and when the file holds points alone
+[[nodiscard]] Mesh read_surface(const std::filesystem::path& path,
+                                const Run& run = {},
+                                const ReadOptions& options = {});
 
 }  // namespace frangia

@@ -7,9 +7,8 @@
 
 #include <fmt/format.h>
 
-#include "frangia/core/atomic_file.h"
+#include "frangia/core/durable_file.h"
 #include "frangia/core/error.h"
-#include "frangia/core/make_folder.h"
 #include "frangia/files/internal/zip_file.h"
 
 namespace frangia {

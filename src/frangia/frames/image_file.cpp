@@ -9,9 +9,9 @@
 
 #include <fmt/format.h>
 
-#include "frangia/core/crc32.h"
+#include "frangia/core/checksums.h"
 #include "frangia/core/error.h"
-#include "frangia/core/read_regular_file.h"
+#include "frangia/core/read_file.h"
 #include "frangia/frames/internal/image_decoders.h"
 
 namespace frangia {

@@ -9,9 +9,9 @@
 #include <fmt/format.h>
 #include <spng.h>
 
+#include "frangia/core/durable_file.h"
 #include "frangia/core/error.h"
-#include "frangia/core/read_regular_file.h"
-#include "frangia/core/write_text_file.h"
+#include "frangia/core/read_file.h"
 #include "frangia/frames/encode_picture.h"
 
 namespace frangia {

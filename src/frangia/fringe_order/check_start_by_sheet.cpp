@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "frangia/core/angles.h"
-#include "frangia/range/fringe_ray.h"
+#include "frangia/range/triangulate.h"
 
 namespace frangia {
 namespace {

@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "frangia/core/angles.h"
-#include "frangia/range/fringe_ray.h"
-#include "frangia/rig/phase_range.h"
+#include "frangia/range/triangulate.h"
+#include "frangia/rig/rig.h"
 
 namespace frangia {
 

@@ -5,7 +5,7 @@
 
 #include "frangia/core/angles.h"
 #include "frangia/core/parallel.h"
-#include "frangia/range/fringe_ray.h"
+#include "frangia/range/triangulate.h"
 
 namespace frangia {
 namespace {

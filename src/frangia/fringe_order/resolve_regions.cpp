@@ -9,9 +9,9 @@
 #include <utility>
 
 #include "frangia/core/angles.h"
-#include "frangia/core/median.h"
 #include "frangia/core/missing.h"
-#include "frangia/range/fringe_ray.h"
+#include "frangia/core/statistics.h"
+#include "frangia/range/triangulate.h"
 
 namespace frangia {
 namespace {

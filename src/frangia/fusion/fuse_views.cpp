@@ -10,23 +10,21 @@
 #include <fmt/format.h>
 
 #include "frangia/fusion/internal/accumulate_view.h"
+#include "frangia/fusion/internal/cell_loops.h"
 #include "frangia/fusion/internal/differing_part.h"
 #include "frangia/fusion/internal/distance_field.h"
-#include "frangia/fusion/internal/edge_crossings.h"
 #include "frangia/fusion/internal/hermite_accumulators.h"
-#include "frangia/fusion/internal/measure_sampling.h"
 #include "frangia/fusion/internal/mesh_quads.h"
-#include "frangia/fusion/internal/narrow_strips.h"
 #include "frangia/fusion/internal/place_vertices.h"
 #include "frangia/fusion/internal/remove_weak_rim.h"
-#include "frangia/fusion/internal/voxel_budget.h"
+#include "frangia/fusion/internal/sampling.h"
 #include "frangia/geometry/clean_mesh.h"
 #include "frangia/geometry/vertex_data.h"
 #include "frangia/local_fit/local_planes.h"
 #include "frangia/views/add_edge_pixels.h"
-#include "frangia/views/load_each_view.h"
 #include "frangia/views/sigma_terms.h"
-#include "frangia/views/subsample.h"
+#include "frangia/views/thin_view.h"
+#include "frangia/views/view_store.h"
 
 namespace frangia {
 namespace {

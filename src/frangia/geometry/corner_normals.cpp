@@ -6,7 +6,7 @@
 #include <Eigen/Geometry>
 
 #include "frangia/core/parallel.h"
-#include "frangia/geometry/one_rings.h"
+#include "frangia/geometry/connectivity.h"
 
 namespace frangia {
 namespace {

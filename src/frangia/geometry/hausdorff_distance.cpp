@@ -6,7 +6,7 @@
 
 #include "frangia/core/error.h"
 #include "frangia/core/parallel.h"
-#include "frangia/geometry/triangle_samples.h"
+#include "frangia/geometry/surface_samples.h"
 
 namespace frangia {
 namespace {

@@ -16,8 +16,8 @@
 #include <Eigen/Geometry>
 
 #include "frangia/core/error.h"
-#include "frangia/geometry/nearest_on_triangle.h"
-#include "frangia/geometry/repeated_triangles.h"
+#include "frangia/geometry/clean_mesh.h"
+#include "frangia/geometry/triangle_predicates.h"
 
 namespace frangia {
 namespace {

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "frangia/core/error.h"
-#include "frangia/core/solve_symmetric.h"
+#include "frangia/core/linear_algebra.h"
 
 namespace frangia {
 namespace {

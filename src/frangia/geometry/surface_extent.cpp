@@ -4,9 +4,8 @@
 #include <vector>
 
 #include "frangia/core/error.h"
-#include "frangia/geometry/boundary_loops.h"
+#include "frangia/geometry/boundary.h"
 #include "frangia/geometry/internal/triangle_area.h"
-#include "frangia/geometry/median_sigma.h"
 #include "frangia/geometry/vertex_data.h"
 
 namespace frangia {

@@ -8,10 +8,10 @@
 #include <Eigen/LU>
 
 #include "frangia/core/error.h"
-#include "frangia/core/symmetric_eigen.h"
-#include "frangia/geometry/half_edges.h"
+#include "frangia/core/linear_algebra.h"
+#include "frangia/geometry/connectivity.h"
 #include "frangia/geometry/internal/triangle_area.h"
-#include "frangia/geometry/nearest_on_triangle.h"
+#include "frangia/geometry/triangle_predicates.h"
 
 namespace frangia {
 namespace {

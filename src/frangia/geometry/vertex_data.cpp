@@ -2,11 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <utility>
+#include <vector>
 
 #include <Eigen/Geometry>
 
 #include "frangia/core/error.h"
 #include "frangia/core/missing.h"
+#include "frangia/core/statistics.h"
 #include "frangia/geometry/clean_mesh.h"
 
 namespace frangia {
@@ -217,6 +221,24 @@ void mark_displaced(Mesh& mesh, std::span<const Eigen::Vector3f> before_mm) {
 
 void recompute_normals(Mesh& mesh) {
   if (!mesh.normals.empty()) mesh.normals = vertex_normals(mesh);
+}
+
+namespace {
+
+double median_of_known(const std::vector<float>& sigmas) {
+  std::vector<float> known;
+  known.reserve(sigmas.size());
+  for (const float sigma : sigmas)
+    if (std::isfinite(sigma)) known.push_back(sigma);
+  return known.empty() ? kMissing : static_cast<double>(median(std::move(known)));
+}
+
+}  // namespace
+
+MedianSigma median_sigma(const Mesh& mesh) {
+  return {median_of_known(mesh.sigma_mm),
+          median_of_known(mesh.sigma_noise_mm),
+          median_of_known(mesh.sigma_systematic_mm)};
 }
 
 }  // namespace frangia

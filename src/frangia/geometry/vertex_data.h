@@ -1,9 +1,13 @@
 #pragma once
 
+#include <array>
+#include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
 
+#include "frangia/core/missing.h"
 #include "frangia/geometry/mesh.h"
 #include "frangia/uncertainty/combined_sigma.h"
 
@@ -87,5 +91,39 @@ void mark_displaced(Mesh& mesh, std::span<const Eigen::Vector3f> before_mm);
 
 /// Recomputes the vertex normals if the mesh has any.
 void recompute_normals(Mesh& mesh);
+
+/// Medians of the uncertainties of a mesh's vertices.
+///
+/// @units    mm
+/// @missing  NaN without a known value; the parts are NaN when no systematic part is known
+struct MedianSigma {
+  double combined_mm = kMissing;    ///< median of `Mesh::sigma_mm`
+  double noise_mm = kMissing;       ///< median of `Mesh::sigma_noise_mm`
+  double systematic_mm = kMissing;  ///< median of `Mesh::sigma_systematic_mm`
+};
+
+/// Computes the medians of the known values. The medians of the parts do not combine to that of
+/// their combination.
+[[nodiscard]] MedianSigma median_sigma(const Mesh& mesh);
+
+/// Diffuse colors of the marks as linear red, green, blue, indexed by Mark: measured light grey,
+/// displaced yellow, synthesized blue. Pictures and the materials of files use them.
+inline constexpr std::array<std::array<double, 3>, 3> kMarkColors{
+    {{0.80, 0.775, 0.74}, {0.80, 0.58, 0.12}, {0.12, 0.36, 0.72}}};
+
+/// The color of a mark.
+[[nodiscard]] inline const std::array<double, 3>& mark_color(Mark mark) {
+  return kMarkColors.at(static_cast<std::size_t>(mark));
+}
+
+/// The color of a mark as red, green, blue of a screen with gamma 2.2.
+[[nodiscard]] inline std::array<std::uint8_t, 3> mark_screen_color(Mark mark) {
+  std::array<std::uint8_t, 3> bytes{};
+  for (std::size_t i = 0; i < bytes.size(); ++i) {
+    const double value = std::pow(mark_color(mark).at(i), 1.0 / 2.2);
+    bytes.at(i) = static_cast<std::uint8_t>(std::lround(255.0 * value));
+  }
+  return bytes;
+}
 
 }  // namespace frangia

@@ -9,7 +9,7 @@
 #include <Eigen/Core>
 
 #include "frangia/core/angles.h"
-#include "frangia/core/solve_symmetric.h"
+#include "frangia/core/linear_algebra.h"
 
 namespace frangia {
 namespace {

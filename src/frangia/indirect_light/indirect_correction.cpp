@@ -4,10 +4,10 @@
 #include <span>
 #include <vector>
 
-#include "frangia/core/median.h"
 #include "frangia/core/missing.h"
 #include "frangia/core/parallel.h"
-#include "frangia/range/fringe_ray.h"
+#include "frangia/core/statistics.h"
+#include "frangia/range/triangulate.h"
 
 namespace frangia {
 

@@ -8,7 +8,7 @@
 
 #include "frangia/core/missing.h"
 #include "frangia/geometry/cosine_cells.h"
-#include "frangia/range/fringe_ray.h"
+#include "frangia/range/triangulate.h"
 
 namespace frangia {
 namespace {

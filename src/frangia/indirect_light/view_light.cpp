@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "frangia/core/parallel.h"
-#include "frangia/range/fringe_ray.h"
+#include "frangia/range/triangulate.h"
 
 namespace frangia {
 namespace {

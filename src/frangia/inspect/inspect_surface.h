@@ -1,7 +1,6 @@
 #pragma once
 
 #include "frangia/inspect/deviation.h"
-#include "frangia/inspect/deviation_summary.h"
 #include "frangia/inspect/surface_verdict.h"
 
 namespace frangia {

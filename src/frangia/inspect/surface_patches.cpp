@@ -9,9 +9,9 @@
 #include <utility>
 
 #include "frangia/core/error.h"
-#include "frangia/core/median.h"
 #include "frangia/core/missing.h"
-#include "frangia/geometry/sample_surface.h"
+#include "frangia/core/statistics.h"
+#include "frangia/geometry/surface_samples.h"
 #include "frangia/inspect/internal/edge_strips.h"
 #include "frangia/inspect/internal/missing_patches.h"
 #include "frangia/inspect/internal/patch_filter.h"

@@ -7,7 +7,7 @@
 
 #include <Eigen/Geometry>
 
-#include "frangia/core/interruptible_chunks.h"
+#include "frangia/core/parallel.h"
 #include "frangia/inspect/surface_error.h"
 #include "frangia/mesh/make_manifold.h"
 

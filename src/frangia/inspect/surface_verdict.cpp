@@ -10,8 +10,7 @@
 #include <fmt/format.h>
 
 #include "frangia/core/error.h"
-#include "frangia/core/median.h"
-#include "frangia/core/student_95.h"
+#include "frangia/core/statistics.h"
 #include "frangia/inspect/internal/out_guard.h"
 
 namespace frangia {

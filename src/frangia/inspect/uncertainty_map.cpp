@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "frangia/core/missing.h"
-#include "frangia/core/student_95.h"
+#include "frangia/core/statistics.h"
 #include "frangia/inspect/internal/patch_grid.h"
 
 namespace frangia {

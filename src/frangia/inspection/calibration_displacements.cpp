@@ -7,7 +7,7 @@
 
 #include <Eigen/Geometry>
 
-#include "frangia/core/interruptible_chunks.h"
+#include "frangia/core/parallel.h"
 #include "frangia/inspection/internal/view_poses.h"
 #include "frangia/range/rig_change_field.h"
 

@@ -7,7 +7,7 @@
 #include <fmt/ranges.h>
 
 #include "frangia/core/error.h"
-#include "frangia/features/thermal_displacement.h"
+#include "frangia/features/shape_uncertainty.h"
 #include "frangia/geometry/transform_mesh.h"
 #include "frangia/inspection/align_part.h"
 #include "frangia/inspection/calibration_displacements.h"

@@ -17,7 +17,6 @@
 #include "frangia/features/find_features.h"
 #include "frangia/geometry/mesh.h"
 #include "frangia/inspect/inspect_surface.h"
-#include "frangia/inspect/surface_completeness.h"
 #include "frangia/inspect/surface_error.h"
 #include "frangia/inspect/surface_validity.h"
 #include "frangia/inspect/thickness.h"

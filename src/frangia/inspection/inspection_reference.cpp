@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "frangia/core/error.h"
-#include "frangia/files/read_surface.h"
+#include "frangia/files/read_mesh.h"
 
 namespace frangia {
 

@@ -6,7 +6,7 @@
 
 #include "frangia/cad/read_cad.h"
 #include "frangia/core/run.h"
-#include "frangia/files/read_options.h"
+#include "frangia/files/read_mesh.h"
 #include "frangia/geometry/mesh.h"
 #include "frangia/geometry/ray_scene.h"
 

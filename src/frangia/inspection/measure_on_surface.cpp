@@ -12,8 +12,7 @@
 #include <fmt/format.h>
 
 #include "frangia/core/error.h"
-#include "frangia/core/median.h"
-#include "frangia/core/student_95.h"
+#include "frangia/core/statistics.h"
 #include "frangia/features/filtered_range.h"
 #include "frangia/geometry/vertex_data.h"
 #include "frangia/inspect/verdict_clause.h"

@@ -7,7 +7,7 @@
 #include <Eigen/Geometry>
 #include <fmt/format.h>
 
-#include "frangia/core/student_95.h"
+#include "frangia/core/statistics.h"
 #include "frangia/inspection/internal/assign_features.h"
 #include "frangia/inspection/internal/shape_mismatch.h"
 

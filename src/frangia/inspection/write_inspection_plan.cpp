@@ -8,7 +8,7 @@
 #include <fmt/ranges.h>
 #include <toml++/toml.h>
 
-#include "frangia/core/write_text_file.h"
+#include "frangia/core/durable_file.h"
 
 namespace frangia {
 namespace {

@@ -9,13 +9,13 @@
 #include "frangia/core/error.h"
 #include "frangia/core/missing.h"
 #include "frangia/core/parallel.h"
-#include "frangia/local_fit/choose_window.h"
+#include "frangia/local_fit/fit_windows.h"
 #include "frangia/local_fit/internal/estimate_lateral_noise.h"
 #include "frangia/local_fit/internal/extrapolate_planes.h"
 #include "frangia/local_fit/internal/link_pixels.h"
 #include "frangia/local_fit/internal/plane_row.h"
-#include "frangia/range/measured_box.h"
-#include "frangia/rig/fast_camera_model.h"
+#include "frangia/range/measured_volume.h"
+#include "frangia/rig/camera_model.h"
 
 namespace frangia {
 namespace {

@@ -9,8 +9,7 @@
 #include <Eigen/Geometry>
 
 #include "frangia/core/image.h"
-#include "frangia/core/pixel_box.h"
-#include "frangia/local_fit/choose_window.h"
+#include "frangia/local_fit/fit_windows.h"
 #include "frangia/rig/camera_model.h"
 #include "frangia/views/view.h"
 #include "frangia/views/view_store.h"

@@ -6,7 +6,10 @@
 #include <Eigen/Core>
 
 #include "frangia/core/image.h"
+#include "frangia/core/run.h"
 #include "frangia/local_fit/local_planes.h"
+#include "frangia/rig/camera_model.h"
+#include "frangia/views/view_store.h"
 
 namespace frangia {
 
@@ -47,5 +50,22 @@ struct SurfelMap {
 
 /// Picks about `count` surfels spread evenly over the image; all when the map has fewer.
 [[nodiscard]] std::vector<SurfelMap::Surfel> pick_surfels(const SurfelMap& map, std::size_t count);
+
+/// Number of surfels of a view that keeps them denser than the pairs of the registration.
+inline constexpr std::size_t kSurfelsPerView = 250'000;
+
+/// Largest number of surfels in the map of one view. It shrinks with the number of views from 24
+/// on, so that the maps of all views hold six million surfels (170 MB) at most.
+[[nodiscard]] std::size_t surfel_budget(std::size_t pixels, std::size_t views);
+
+/// Builds the surfel map of every view. Each view is loaded once.
+///
+/// @shape    one map for each view, each of at most about `surfel_budget(pixels, views.size())`
+///          surfels
+/// @errors   Error(Input) when a view and the camera differ in size
+[[nodiscard]] std::vector<SurfelMap> make_surfel_maps(const ViewStore& views,
+                                                      const CameraModel& camera,
+                                                      std::size_t pixels = kSurfelsPerView,
+                                                      const Run& run = {});
 
 }  // namespace frangia

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "frangia/core/error.h"
-#include "frangia/geometry/boundary_loops.h"
+#include "frangia/geometry/boundary.h"
 #include "frangia/geometry/vertex_data.h"
 
 namespace frangia {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "frangia/core/error.h"
-#include "frangia/geometry/boundary_loops.h"
+#include "frangia/geometry/boundary.h"
 #include "frangia/geometry/triangulate_polygon.h"
 #include "frangia/geometry/vertex_data.h"
 #include "frangia/mesh/internal/steps_per_check.h"

@@ -13,12 +13,11 @@
 
 #include "frangia/core/error.h"
 #include "frangia/core/parallel.h"
-#include "frangia/geometry/half_edges.h"
+#include "frangia/geometry/connectivity.h"
 #include "frangia/geometry/ray_scene.h"
 #include "frangia/geometry/vertex_data.h"
-#include "frangia/mesh/internal/collapse_cost.h"
-#include "frangia/mesh/internal/collapse_topology.h"
 #include "frangia/mesh/internal/distance_guard.h"
+#include "frangia/mesh/internal/edge_collapse.h"
 #include "frangia/mesh/internal/lazy_priority_queue.h"
 #include "frangia/mesh/internal/with_manifold_edges.h"
 

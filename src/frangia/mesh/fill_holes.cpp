@@ -11,14 +11,14 @@
 
 #include "frangia/core/error.h"
 #include "frangia/core/run.h"
-#include "frangia/geometry/boundary_loops.h"
-#include "frangia/geometry/half_edges.h"
+#include "frangia/geometry/boundary.h"
+#include "frangia/geometry/connectivity.h"
 #include "frangia/geometry/mesh.h"
 #include "frangia/geometry/triangles_intersect.h"
 #include "frangia/geometry/vertex_data.h"
 #include "frangia/mesh/internal/are_adjacent.h"
 #include "frangia/mesh/internal/hole_patch.h"
-#include "frangia/mesh/internal/patch_intersections.h"
+#include "frangia/mesh/internal/smooth_patch.h"
 #include "frangia/mesh/internal/with_manifold_edges.h"
 
 namespace frangia {

@@ -9,9 +9,8 @@
 
 #include "frangia/core/disjoint_sets.h"
 #include "frangia/geometry/clean_mesh.h"
-#include "frangia/geometry/connected_components.h"
-#include "frangia/geometry/half_edges.h"
-#include "frangia/geometry/pair_sides.h"
+#include "frangia/geometry/components.h"
+#include "frangia/geometry/connectivity.h"
 #include "frangia/geometry/selection.h"
 #include "frangia/geometry/vertex_data.h"
 #include "frangia/mesh/internal/steps_per_check.h"

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "frangia/core/run.h"
-#include "frangia/geometry/half_edges.h"
+#include "frangia/geometry/connectivity.h"
 #include "frangia/geometry/mesh.h"
 
 namespace frangia {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "frangia/core/missing.h"
-#include "frangia/geometry/half_edges.h"
+#include "frangia/geometry/connectivity.h"
 #include "frangia/geometry/triangles_intersect.h"
 #include "frangia/geometry/vertex_data.h"
 #include "frangia/mesh/make_manifold.h"

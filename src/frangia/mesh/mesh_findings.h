@@ -8,8 +8,8 @@
 #include <Eigen/Geometry>
 
 #include "frangia/core/run.h"
-#include "frangia/geometry/boundary_loops.h"
-#include "frangia/geometry/connected_components.h"
+#include "frangia/geometry/boundary.h"
+#include "frangia/geometry/components.h"
 #include "frangia/geometry/mesh.h"
 
 namespace frangia {

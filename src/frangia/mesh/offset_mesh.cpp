@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 
 #include "frangia/core/error.h"
-#include "frangia/core/symmetric_eigen.h"
+#include "frangia/core/linear_algebra.h"
 #include "frangia/geometry/ray_scene.h"
 #include "frangia/geometry/vertex_data.h"
 #include "frangia/mesh/internal/steps_per_check.h"

@@ -10,7 +10,7 @@
 #include <Eigen/Geometry>
 
 #include "frangia/core/parallel.h"
-#include "frangia/geometry/half_edges.h"
+#include "frangia/geometry/connectivity.h"
 #include "frangia/geometry/hausdorff_distance.h"
 #include "frangia/geometry/vertex_data.h"
 

@@ -9,7 +9,7 @@
 
 #include "frangia/core/error.h"
 #include "frangia/core/random.h"
-#include "frangia/geometry/half_edges.h"
+#include "frangia/geometry/connectivity.h"
 #include "frangia/geometry/vertex_data.h"
 #include "frangia/mesh/internal/are_adjacent.h"
 #include "frangia/mesh/internal/steps_per_check.h"

@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "frangia/core/base64.h"
-#include "frangia/core/html_escaped.h"
+#include "frangia/core/text.h"
 #include "frangia/frames/encode_picture.h"
 
 namespace frangia {

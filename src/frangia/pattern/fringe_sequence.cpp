@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -90,6 +92,134 @@ SequencePlan plan_sequence(double fringes, double sigma_rad, double max_wrong_or
     plan.fringes.back() = fringes;
     return plan;
   }
+}
+
+namespace {
+
+constexpr double kMaxCount = 1e5;
+
+/// Share of the field up to which two orders are compared. Orders a whole field apart lie at its
+/// two ends only; the margin absorbs the rounding of the counts.
+constexpr double kFieldEnd = 1.0 - 1e-6;
+
+/// Squared distance of two orders of the finest fringes, rad squared.
+double squared_distance(std::span<const double> fringes, double finest, double orders_apart) {
+  double square = 0.0;
+  double along = 0.0;
+  double slope = 0.0;
+  for (const double count : fringes) {
+    const double ratio = count / finest;
+    const double apart = wrap_rad(kTwoPi * ratio * orders_apart);
+    square += apart * apart;
+    along += ratio * apart;
+    slope += ratio * ratio;
+  }
+  return std::max(0.0, square - along * along / slope);
+}
+
+/// The probability of confusion. Stops when the sum over the orders reaches `limit`.
+double confusion_up_to(double limit, std::span<const double> fringes, double sigma_rad) {
+  const double finest = *std::max_element(fringes.begin(), fringes.end());
+  double sum = 0.0;
+  for (double apart = 1.0; sum < limit && apart < finest * kFieldEnd; apart += 1.0) {
+    // The share of the field where the other order is inside it, on either side.
+    const double share = 1.0 - apart / finest;
+    const double distance = std::sqrt(squared_distance(fringes, finest, apart));
+    sum += share * std::erfc(distance / (2.0 * std::numbers::sqrt2 * sigma_rad));
+  }
+  return sum;
+}
+
+/// Replaces each count but the finest by the one of least confusion, until none improves.
+double improve(std::vector<double>& fringes, double lowest, double sigma_rad) {
+  const double finest = fringes.back();
+  double least = confusion_probability(fringes, sigma_rad);
+  for (bool improved = true; improved;) {
+    improved = false;
+    for (std::size_t m = 0; m + 1 < fringes.size(); ++m) {
+      double best = fringes[m];
+      for (double count = std::ceil(lowest); count < finest; count += 1.0) {
+        fringes[m] = count;
+        const double found = confusion_up_to(least, fringes, sigma_rad);
+        if (found >= least) continue;
+        least = found;
+        best = count;
+        improved = true;
+      }
+      fringes[m] = best;
+    }
+  }
+  return least;
+}
+
+}  // namespace
+
+double confusion_probability(std::span<const double> fringes, double sigma_rad) {
+  require(!fringes.empty(), "confusion_probability: no fringe counts given");
+  for (const double count : fringes) {
+    require(count > 0.0 && count <= kMaxCount,
+            "confusion_probability: a fringe count must be above 0 and at most 1e5");
+  }
+  return std::min(1.0, confusion_up_to(1.0, fringes, sigma_rad));
+}
+
+bool determines_order(std::span<const double> fringes) {
+  constexpr double kSigma = 0.05;
+  constexpr double kMaxConfusion = 1e-3;
+  return confusion_probability(fringes, kSigma) < kMaxConfusion;
+}
+
+SequencePlan plan_beats(
+    double fringes, int maps, double lowest, double sigma_rad, double max_wrong_order) {
+  constexpr int kMaxMaps = 16;
+  constexpr double kMaxPlanned = 1000.0;
+  constexpr int kStarts = 4;
+  require(maps >= 2 && maps <= kMaxMaps, "the number of `maps` must be from 2 to 16");
+  require(fringes >= 2.0 && fringes <= kMaxPlanned, "`fringes` must be from 2 to 1000 for beats");
+  require(lowest >= 1.0 && lowest < fringes, "`lowest` must be from 1 to less than `fringes`");
+  require(std::isfinite(sigma_rad) && sigma_rad > 0.0, "a plan needs a sigma above 0 rad");
+  SequencePlan plan{.wrong_order = 2.0};
+  for (int start = 1; start <= kStarts; ++start) {
+    // Spread over a different share of the band each time.
+    std::vector<double> counts;
+    for (int m = 0; m + 1 < maps; ++m) {
+      const double share = start * (maps - 1.0 - m) / (kStarts * (maps - 1.0));
+      counts.push_back(
+          std::max(std::ceil(lowest), std::floor(fringes - share * (fringes - lowest))));
+    }
+    counts.push_back(fringes);
+    const double found = improve(counts, lowest, sigma_rad);
+    if (found >= plan.wrong_order) continue;
+    std::sort(counts.begin(), counts.end());
+    plan = {counts, found};
+  }
+  if (plan.wrong_order > max_wrong_order) {
+    throw Error(ErrorKind::Input,
+                fmt::format("no {} maps from {:g} to {:g} fringes keep the probability of a wrong "
+                            "order below {:g} at a sigma of {:g} rad; take more `maps`, a lower "
+                            "`lowest`, or more light",
+                            maps,
+                            lowest,
+                            fringes,
+                            max_wrong_order,
+                            sigma_rad));
+  }
+  return plan;
+}
+
+SequencePlan plan_narrow_band(double fringes, int maps, double sigma_rad, double max_wrong_order) {
+  constexpr double kStep = 0.02;
+  constexpr double kLowest = 0.5;  // of `fringes`
+  for (double band = kStep; band < kLowest; band += kStep) {
+    const double lowest = std::floor((1.0 - band) * fringes);
+    if (!(lowest >= 1.0 && lowest <= fringes - maps + 1.0)) continue;  // too few whole counts
+    try {
+      return plan_beats(fringes, maps, lowest, sigma_rad, max_wrong_order);
+    } catch (const Error& error) {
+      if (error.kind() != ErrorKind::Input) throw;
+    }
+  }
+  return plan_beats(fringes, maps, std::floor(kLowest * fringes), sigma_rad, max_wrong_order);
 }
 
 }  // namespace frangia

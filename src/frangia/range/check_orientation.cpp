@@ -7,9 +7,9 @@
 
 #include "frangia/core/angles.h"
 #include "frangia/core/error.h"
-#include "frangia/core/median.h"
-#include "frangia/range/fringe_ray.h"
-#include "frangia/rig/phase_range.h"
+#include "frangia/core/statistics.h"
+#include "frangia/range/triangulate.h"
+#include "frangia/rig/rig.h"
 
 namespace frangia {
 namespace {

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "frangia/core/error.h"
-#include "frangia/core/median.h"
 #include "frangia/core/missing.h"
 #include "frangia/core/parallel.h"
+#include "frangia/core/statistics.h"
 #include "frangia/range/internal/common_point.h"
 #include "frangia/range/internal/phase_sample.h"
 #include "frangia/uncertainty/combined_sigma.h"

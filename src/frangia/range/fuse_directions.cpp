@@ -9,9 +9,9 @@
 #include <Eigen/Geometry>
 
 #include "frangia/core/error.h"
-#include "frangia/core/median.h"
 #include "frangia/core/missing.h"
 #include "frangia/core/parallel.h"
+#include "frangia/core/statistics.h"
 #include "frangia/uncertainty/combined_sigma.h"
 
 namespace frangia {

@@ -7,7 +7,7 @@
 #include <span>
 
 #include "frangia/core/error.h"
-#include "frangia/core/median.h"
+#include "frangia/core/statistics.h"
 
 namespace frangia {
 namespace {

@@ -4,6 +4,8 @@
 
 #include <Eigen/Core>
 
+#include "frangia/core/image.h"
+
 namespace frangia {
 
 /// A place of the surface as the rig has it before it at two stations of the turntable. The normals
@@ -22,5 +24,11 @@ struct MeasuredVolume {
   /// there, whatever the rig does.
   std::vector<SharedPlace> shared;
 };
+
+/// Finds the smallest box that holds every pixel with a value. A part usually covers a small share
+/// of the image, so later stages leave out the rest.
+///
+/// @missing  NaN; the box is empty when all pixels are missing
+[[nodiscard]] PixelBox measured_box(const Image<float>& image);
 
 }  // namespace frangia

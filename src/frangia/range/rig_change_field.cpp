@@ -5,7 +5,7 @@
 
 #include "frangia/core/parallel.h"
 #include "frangia/range/internal/changed_rigs.h"
-#include "frangia/range/internal/node_values.h"
+#include "frangia/range/internal/phase_sample.h"
 
 namespace frangia {
 namespace {

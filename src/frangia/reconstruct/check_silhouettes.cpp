@@ -8,8 +8,8 @@
 #include <fmt/format.h>
 
 #include "frangia/core/error.h"
-#include "frangia/core/median.h"
 #include "frangia/core/parallel.h"
+#include "frangia/core/statistics.h"
 
 namespace frangia {
 namespace {

@@ -10,10 +10,10 @@
 #include <Eigen/Geometry>
 #include <fmt/format.h>
 
-#include "frangia/core/median.h"
 #include "frangia/core/parallel.h"
-#include "frangia/geometry/boundary_loops.h"
-#include "frangia/geometry/connected_components.h"
+#include "frangia/core/statistics.h"
+#include "frangia/geometry/boundary.h"
+#include "frangia/geometry/components.h"
 #include "frangia/geometry/hausdorff_distance.h"
 #include "frangia/geometry/ray_scene.h"
 #include "frangia/geometry/vertex_data.h"

@@ -8,7 +8,7 @@
 
 #include "frangia/fusion/color_vertices.h"
 #include "frangia/geometry/vertex_data.h"
-#include "frangia/local_fit/make_surfel_maps.h"
+#include "frangia/local_fit/surfel_map.h"
 #include "frangia/reconstruct/internal/assess_merge.h"
 #include "frangia/reconstruct/internal/resample_scan.h"
 #include "frangia/reconstruct/internal/turntable_part.h"

@@ -12,7 +12,7 @@
 #include <fmt/format.h>
 
 #include "frangia/core/missing.h"
-#include "frangia/core/release_cached_pixels.h"
+#include "frangia/core/pixel_buffer.h"
 #include "frangia/fusion/color_vertices.h"
 #include "frangia/geometry/vertex_data.h"
 #include "frangia/reconstruct/capabilities.h"

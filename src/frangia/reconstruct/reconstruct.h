@@ -15,8 +15,8 @@
 #include "frangia/fringe_order/correct_fringe_orders.h"
 #include "frangia/fringe_order/resolve_by_views.h"
 #include "frangia/fusion/fuse_views.h"
-#include "frangia/geometry/median_sigma.h"
 #include "frangia/geometry/mesh.h"
+#include "frangia/geometry/vertex_data.h"
 #include "frangia/indirect_light/indirect_light_report.h"
 #include "frangia/range/remove_mixed_pixels.h"
 #include "frangia/reconstruct/check_silhouettes.h"
@@ -27,7 +27,7 @@
 #include "frangia/registration/find_turntable_top.h"
 #include "frangia/registration/refine_rig.h"
 #include "frangia/registration/register_views.h"
-#include "frangia/views/collect_points.h"
+#include "frangia/views/view_store.h"
 
 namespace frangia {
 

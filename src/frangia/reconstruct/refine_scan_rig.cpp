@@ -9,7 +9,7 @@
 
 #include "frangia/calibrate/check/check_kinds.h"
 #include "frangia/core/error.h"
-#include "frangia/core/release_cached_pixels.h"
+#include "frangia/core/pixel_buffer.h"
 #include "frangia/reconstruct/internal/measure_views.h"
 #include "frangia/reconstruct/internal/remove_background.h"
 #include "frangia/reconstruct/internal/resolve_fringe_orders.h"

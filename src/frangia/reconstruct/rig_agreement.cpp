@@ -9,11 +9,10 @@
 
 #include <fmt/format.h>
 
-#include "frangia/core/matrix_products.h"
-#include "frangia/core/median.h"
-#include "frangia/core/solve_symmetric.h"
+#include "frangia/core/linear_algebra.h"
+#include "frangia/core/statistics.h"
 #include "frangia/diagnose/score.h"
-#include "frangia/range/fringe_ray.h"
+#include "frangia/range/triangulate.h"
 #include "frangia/rig/rig_covariance.h"
 
 namespace frangia {

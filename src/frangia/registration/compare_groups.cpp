@@ -5,9 +5,9 @@
 #include <utility>
 #include <vector>
 
-#include "frangia/core/median.h"
+#include "frangia/core/linear_algebra.h"
 #include "frangia/core/parallel.h"
-#include "frangia/core/symmetric_eigen.h"
+#include "frangia/core/statistics.h"
 #include "frangia/geometry/robust_gauss_newton.h"
 #include "frangia/registration/internal/surfel_pair.h"
 

@@ -10,11 +10,11 @@
 #include <Eigen/Geometry>
 
 #include "frangia/core/error.h"
-#include "frangia/core/median.h"
-#include "frangia/geometry/fit_plane.h"
+#include "frangia/core/statistics.h"
+#include "frangia/geometry/fit_primitives.h"
 #include "frangia/local_fit/surfel_map.h"
 #include "frangia/registration/internal/view_pairs.h"
-#include "frangia/views/load_each_view.h"
+#include "frangia/views/view_store.h"
 
 namespace frangia {
 namespace {

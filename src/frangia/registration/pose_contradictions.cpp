@@ -5,8 +5,8 @@
 #include <cmath>
 #include <map>
 
-#include "frangia/core/median.h"
 #include "frangia/core/parallel.h"
+#include "frangia/core/statistics.h"
 #include "frangia/registration/compare_groups.h"
 #include "frangia/registration/internal/surfel_pair.h"
 

@@ -5,10 +5,8 @@
 #include <utility>
 
 #include "frangia/core/error.h"
-#include "frangia/core/least_squares.h"
-#include "frangia/core/matrix_products.h"
-#include "frangia/core/median.h"
-#include "frangia/core/symmetric_eigen.h"
+#include "frangia/core/linear_algebra.h"
+#include "frangia/core/statistics.h"
 #include "frangia/registration/internal/drift_bundle.h"
 #include "frangia/registration/internal/drift_model.h"
 #include "frangia/registration/internal/drift_views.h"

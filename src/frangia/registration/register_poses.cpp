@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 
 #include "frangia/core/error.h"
-#include "frangia/core/median.h"
+#include "frangia/core/statistics.h"
 #include "frangia/geometry/robust_gauss_newton.h"
 #include "frangia/registration/internal/free_pose_bundle.h"
 #include "frangia/registration/internal/free_pose_motions.h"

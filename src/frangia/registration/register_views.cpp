@@ -10,8 +10,8 @@
 #include <fmt/format.h>
 
 #include "frangia/core/error.h"
-#include "frangia/core/median.h"
 #include "frangia/core/missing.h"
+#include "frangia/core/statistics.h"
 #include "frangia/registration/internal/assess_fit.h"
 #include "frangia/registration/internal/assess_observability.h"
 #include "frangia/registration/internal/assess_places.h"

@@ -9,7 +9,7 @@
 
 #include "frangia/core/angles.h"
 #include "frangia/core/error.h"
-#include "frangia/core/symmetric_eigen.h"
+#include "frangia/core/linear_algebra.h"
 #include "frangia/registration/compare_groups.h"
 #include "frangia/registration/pose_contradictions.h"
 

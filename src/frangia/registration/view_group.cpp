@@ -4,7 +4,7 @@
 
 #include <Eigen/Geometry>
 
-#include "frangia/core/median.h"
+#include "frangia/core/statistics.h"
 
 namespace frangia {
 namespace {

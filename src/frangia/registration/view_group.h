@@ -8,7 +8,7 @@
 
 #include "frangia/local_fit/surfel_map.h"
 #include "frangia/registration/surface_points.h"
-#include "frangia/rig/fast_camera_model.h"
+#include "frangia/rig/camera_model.h"
 
 namespace frangia {
 

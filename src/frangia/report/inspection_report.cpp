@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "frangia/core/write_text_file.h"
+#include "frangia/core/durable_file.h"
 #include "frangia/inspection/verdict_reasons.h"
 #include "frangia/report/internal/report_sheets.h"
 

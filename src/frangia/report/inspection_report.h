@@ -8,13 +8,13 @@
 
 #include "frangia/cad/nominal_face.h"
 #include "frangia/features/find_features.h"
-#include "frangia/inspect/deviation_summary.h"
+#include "frangia/inspect/deviation.h"
 #include "frangia/inspect/surface_verdict.h"
 #include "frangia/inspect/thickness.h"
 #include "frangia/inspection/inspection_plan.h"
 #include "frangia/inspection/measured_characteristics.h"
 #include "frangia/report/labelled_picture.h"
-#include "frangia/report/report_logo.h"
+#include "frangia/report/report_pictures.h"
 #include "frangia/report/section_drawing.h"
 
 namespace frangia {

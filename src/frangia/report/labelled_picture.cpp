@@ -2,15 +2,54 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <set>
 
 #include <fmt/format.h>
 
-#include "frangia/core/html_escaped.h"
+#include "frangia/core/text.h"
 #include "frangia/frames/encode_picture.h"
+#include "frangia/inspect/deviation.h"
 #include "frangia/page/html_page.h"
 
 namespace frangia {
+
+double deviation_scale_mm(double scale_mm, const ToleranceLimits& limits) {
+  constexpr double kBeyond = 1.5;
+  if (scale_mm > 0.0) return scale_mm;
+  return kBeyond * std::max(std::abs(limits.lower), std::abs(limits.upper));
+}
+
+RenderOptions deviation_picture(const Mesh& mesh,
+                                const SurfaceInspection& surface,
+                                double scale_mm) {
+  constexpr std::size_t kBins = 60;
+  RenderOptions options;
+  const ToleranceLimits& limits = surface.verdict.rule.limits;
+  const double scale = deviation_scale_mm(scale_mm, limits);
+  options.values = surface.deviations.deviation_mm;
+  options.value_max = static_cast<float>(scale);
+  options.value_min = -options.value_max;
+  options.color_map = ColorMap::Diverging;
+  options.value_label = "deviation, mm";
+  options.histogram = deviation_histogram(mesh, options.values, -scale, scale, kBins);
+  options.value_limits = {limits.lower, limits.upper};
+  return options;
+}
+
+RenderOptions thickness_picture(const Mesh& mesh, const MeasuredWalls& walls, double scale_mm) {
+  constexpr std::size_t kBins = 60;
+  RenderOptions options;
+  options.values = walls.thickness.thickness_mm;
+  options.value_label = "thickness, mm";
+  const double top = scale_mm > 0.0                        ? scale_mm
+                     : std::isfinite(walls.summary.p95_mm) ? 1.1 * walls.summary.p95_mm
+                                                           : 1.0;
+  options.value_max = static_cast<float>(top);
+  options.histogram = deviation_histogram(mesh, options.values, 0.0, top, kBins);
+  return options;
+}
+
 namespace {
 
 constexpr double kSheetWidth_mm = 182.0;  // A4 less its margins
@@ -147,6 +186,68 @@ std::string labelled_picture(const ReportPicture& picture) {
   if (picture.scale) html += drawn_scale(*picture.scale);
   return html +
          fmt::format("<figcaption>{}</figcaption></figure>\n", html_escaped(picture.caption));
+}
+
+namespace {
+
+/// Moves the boxes of a column apart: pooled neighbors share the mean of what each would like
+/// (isotonic regression by pooling adjacent violators).
+void spread(std::vector<LabelBox>& boxes, double height_px, double step, double box_height) {
+  struct Pool {
+    double sum = 0.0;
+    std::size_t count = 0;
+    [[nodiscard]] double mean() const { return sum / static_cast<double>(count); }
+  };
+  std::vector<Pool> pools;
+  for (std::size_t i = 0; i < boxes.size(); ++i) {
+    pools.push_back({boxes[i].top_px - static_cast<double>(i) * step, 1});
+    while (pools.size() > 1 && pools[pools.size() - 2].mean() >= pools.back().mean()) {
+      pools[pools.size() - 2].sum += pools.back().sum;
+      pools[pools.size() - 2].count += pools.back().count;
+      pools.pop_back();
+    }
+  }
+  const double most = height_px - box_height - step * static_cast<double>(boxes.size() - 1);
+  std::size_t next = 0;
+  for (const Pool& pool : pools) {
+    for (std::size_t k = 0; k < pool.count; ++k, ++next) {
+      boxes[next].top_px =
+          std::clamp(pool.mean(), 0.0, std::max(0.0, most)) + static_cast<double>(next) * step;
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<LabelBox> place_labels(const std::vector<PictureLabel>& labels,
+                                   double width_px,
+                                   double height_px,
+                                   const LabelLayout& layout) {
+  const double step = layout.height_px + layout.gap_px;
+  const auto room = static_cast<std::size_t>((height_px + layout.gap_px) / step);
+  std::vector<std::size_t> kept(std::min({labels.size(), layout.most, 2 * room}));
+  std::iota(kept.begin(), kept.end(), std::size_t{0});
+  std::stable_sort(kept.begin(), kept.end(), [&](std::size_t a, std::size_t b) {
+    return labels[a].at_px.x() < labels[b].at_px.x();
+  });
+  // Each label goes to its side; what does not fit there goes to the other one.
+  auto left = static_cast<std::size_t>(std::count_if(kept.begin(), kept.end(), [&](std::size_t i) {
+    return labels[i].at_px.x() < 0.5 * width_px;
+  }));
+  left = std::clamp(left, kept.size() > room ? kept.size() - room : 0, std::min(room, kept.size()));
+  std::vector<LabelBox> placed;
+  for (const bool right : {false, true}) {
+    std::vector<LabelBox> column;
+    for (std::size_t i = right ? left : 0; i < (right ? kept.size() : left); ++i)
+      column.push_back({kept[i], right, labels[kept[i]].at_px.y() - 0.5 * layout.height_px});
+    if (column.empty()) continue;
+    std::stable_sort(column.begin(), column.end(), [](const LabelBox& a, const LabelBox& b) {
+      return a.top_px < b.top_px;
+    });
+    spread(column, height_px, step, layout.height_px);
+    placed.insert(placed.end(), column.begin(), column.end());
+  }
+  return placed;
 }
 
 }  // namespace frangia

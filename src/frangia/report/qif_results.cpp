@@ -5,9 +5,9 @@
 
 #include <fmt/format.h>
 
-#include "frangia/core/html_escaped.h"
-#include "frangia/core/sha256.h"
-#include "frangia/core/student_95.h"
+#include "frangia/core/checksums.h"
+#include "frangia/core/statistics.h"
+#include "frangia/core/text.h"
 
 namespace frangia {
 namespace {

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <utility>
 
-#include "frangia/core/html_escaped.h"
-#include "frangia/inspection/tolerance_use.h"
+#include "frangia/core/text.h"
+#include "frangia/inspection/verdict_reasons.h"
 #include "frangia/report/internal/report_sheets.h"
 #include "frangia/report/result_table.h"
 

@@ -5,17 +5,20 @@
 #include <cmath>
 #include <map>
 #include <set>
+#include <string_view>
 #include <utility>
 
 #include <Eigen/Geometry>
 #include <fmt/format.h>
 
 #include "frangia/core/angles.h"
-#include "frangia/core/student_95.h"
-#include "frangia/inspect/picture_positions.h"
+#include "frangia/core/error.h"
+#include "frangia/core/read_file.h"
+#include "frangia/core/statistics.h"
+#include "frangia/frames/image_file.h"
 #include "frangia/inspect/render_mesh.h"
-#include "frangia/inspection/tolerance_use.h"
-#include "frangia/report/inspection_picture.h"
+#include "frangia/inspection/verdict_reasons.h"
+#include "frangia/report/labelled_picture.h"
 
 namespace frangia {
 namespace {
@@ -256,6 +259,24 @@ std::vector<ReportPicture> report_pictures(const Inspection& part,
   for (const double azimuth : {35.0, 215.0})
     add("thickness, ", azimuth, 20.0);
   return pictures;
+}
+
+ReportLogo read_logo(const std::filesystem::path& path) {
+  constexpr std::size_t kMost = 2U << 20U;
+  const auto content = read_regular_file(path, kMost);
+  const std::string_view begin(content.data(), content.size());
+  ReportLogo logo;
+  if (begin.starts_with("\x89PNG\r\n\x1A\n")) logo.media_type = "image/png";
+  if (begin.starts_with("\xFF\xD8\xFF")) logo.media_type = "image/jpeg";
+  if (logo.media_type.empty()) {
+    throw Error(
+        ErrorKind::Input,
+        fmt::format("{}: the logo of a report must be a PNG or JPEG picture", path.string()));
+  }
+  // A picture that is cut short would leave a hole in a report that is signed.
+  static_cast<void>(ImageFile(path).read());
+  logo.bytes.assign(content.begin(), content.end());
+  return logo;
 }
 
 }  // namespace frangia

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <filesystem>
+#include <string>
 #include <vector>
 
 #include "frangia/inspection/inspect_part.h"
@@ -15,5 +17,16 @@ namespace frangia {
 [[nodiscard]] std::vector<ReportPicture> report_pictures(const Inspection& part,
                                                          double scale_mm = 0.0,
                                                          const Run& run = {});
+
+/// The picture at the head of a report.
+struct ReportLogo {
+  std::string media_type;   ///< image/png or image/jpeg
+  std::vector<char> bytes;  ///< of the file
+};
+
+/// Reads a logo.
+///
+/// @errors   Error(Input) that names the file when it is neither PNG nor JPEG, or above 2 MB
+[[nodiscard]] ReportLogo read_logo(const std::filesystem::path& path);
 
 }  // namespace frangia

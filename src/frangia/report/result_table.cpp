@@ -5,8 +5,8 @@
 
 #include <fmt/format.h>
 
-#include "frangia/core/html_escaped.h"
-#include "frangia/inspection/tolerance_use.h"
+#include "frangia/core/text.h"
+#include "frangia/inspection/verdict_reasons.h"
 
 namespace frangia {
 namespace {

@@ -11,9 +11,9 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "frangia/core/median.h"
-#include "frangia/core/sha256.h"
-#include "frangia/core/write_text_file.h"
+#include "frangia/core/checksums.h"
+#include "frangia/core/durable_file.h"
+#include "frangia/core/statistics.h"
 #include "frangia/report/inspection_json.h"
 #include "frangia/report/report_pictures.h"
 #include "frangia/report/section_drawing.h"

@@ -8,10 +8,9 @@
 
 #include <Eigen/Core>
 
-#include "frangia/pattern/pixel_layout.h"
+#include "frangia/pattern/pattern_picture.h"
 #include "frangia/rig/camera_model.h"
 #include "frangia/rig/fringe_waveform.h"
-#include "frangia/rig/response_curve.h"
 #include "frangia/rig/wavefront.h"
 
 namespace frangia {

@@ -1,13 +1,16 @@
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include <Eigen/Core>
 #include <Eigen/Geometry>
 
 #include "frangia/core/missing.h"
 #include "frangia/frames/noise_model.h"
+#include "frangia/pattern/pattern.h"
 #include "frangia/rig/calibration.h"
 #include "frangia/rig/camera_model.h"
 #include "frangia/rig/projector.h"
@@ -72,5 +75,63 @@ struct Rig {
   /// Returns `Turntable::rig_from_object`, or the identity for a rig without a turntable.
   [[nodiscard]] Eigen::Isometry3d rig_from_object(double angle_rad) const;
 };
+
+/// Returns the rig as a rig with one camera: its frame is that of the given camera. What works with
+/// the reference camera works with every other one in its own frame. The object frame stays that of
+/// the reference camera.
+///
+/// @missing  the covariance of the calibration is that of the reference camera, and is left out for
+///           the others
+[[nodiscard]] Rig rig_of_camera(const Rig& rig, std::size_t camera);
+
+/// Returns whether points can be triangulated: the poses and lenses of camera and projector are
+/// known. Without them, phases can still be decoded.
+[[nodiscard]] inline bool has_geometry(const Rig& rig) {
+  const auto knows_lens = [](const CameraModel& model) {
+    return model.focal_px.allFinite() && model.principal_point_px.allFinite() &&
+           model.focal_px.minCoeff() > 0.0;
+  };
+  const auto* pinhole = std::get_if<PinholeModel>(&rig.projector.model);
+  return knows_lens(rig.reference().model) && rig.projector.position_mm.allFinite() &&
+         rig.projector.rotation.allFinite() && (pinhole == nullptr || knows_lens(*pinhole));
+}
+
+/// The point in the middle between the axes of camera and projector where they are nearest.
+///
+/// @units    mm, rig frame
+[[nodiscard]] Eigen::Vector3d crossing_of_axes(const Rig& rig);
+
+/// The range of absolute phases over the illuminated field.
+struct PhaseRange {
+  double min_rad = 0.0;  ///< smallest phase in the field
+  double max_rad = 0.0;  ///< largest phase in the field
+  /// Difference of the largest and the smallest phase.
+  [[nodiscard]] double width_rad() const { return max_rad - min_rad; }
+  /// Phase in the middle of the range.
+  [[nodiscard]] double center_rad() const { return 0.5 * (min_rad + max_rad); }
+};
+
+/// Returns the range of a pattern's absolute phase over the projector's field.
+[[nodiscard]] PhaseRange phase_range(const Pattern& pattern, const Projector& projector);
+
+/// Returns whether the field spans at most one fringe, so that the wrapped phase is the absolute
+/// phase.
+[[nodiscard]] bool is_absolute(const Pattern& pattern, const Projector& projector);
+
+/// How far a point moves across fringes of a direction, in pixels of the projector, when its depth
+/// in the middle of the camera's image grows by 1 %, where the axes of camera and projector come
+/// nearest. Fringes without parallax do not measure depth.
+///
+/// @units    px
+/// @missing  0 for an angular projector, a label, and a projector at the place of the camera
+[[nodiscard]] double fringe_parallax_px(const Rig& rig, FringeDirection direction);
+
+/// The direction of fringes that measures depth better: horizontal for a projector above or below
+/// the camera, vertical for one beside it and for an angular projector.
+[[nodiscard]] FringeDirection measuring_direction(const Rig& rig);
+
+/// Whether fringes of a direction measure next to nothing, while those of the other would: their
+/// parallax is less than a twentieth.
+[[nodiscard]] bool lacks_parallax(const Rig& rig, FringeDirection direction);
 
 }  // namespace frangia

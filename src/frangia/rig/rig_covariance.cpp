@@ -13,10 +13,10 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "frangia/core/durable_file.h"
 #include "frangia/core/error.h"
+#include "frangia/core/linear_algebra.h"
 #include "frangia/core/open_below.h"
-#include "frangia/core/symmetric_eigen.h"
-#include "frangia/core/write_text_file.h"
 #include "frangia/rig/internal/parameter_names.h"
 #include "frangia/rig/rig.h"
 

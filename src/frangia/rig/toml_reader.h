@@ -18,9 +18,9 @@
 #include "frangia/core/check_nesting.h"
 #include "frangia/core/enum_names.h"
 #include "frangia/core/error.h"
-#include "frangia/core/nearest_name.h"
-#include "frangia/core/read_text_file.h"
+#include "frangia/core/read_file.h"
 #include "frangia/core/run.h"
+#include "frangia/core/text.h"
 
 namespace frangia {
 

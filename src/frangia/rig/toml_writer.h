@@ -11,7 +11,7 @@
 #include <fmt/ranges.h>
 #include <toml++/toml.h>
 
-#include "frangia/core/atomic_file.h"
+#include "frangia/core/durable_file.h"
 
 namespace frangia {
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "frangia/core/angles.h"
-#include "frangia/core/write_text_file.h"
+#include "frangia/core/durable_file.h"
 #include "frangia/rig/internal/calibration_table.h"
 #include "frangia/rig/rig_covariance.h"
 #include "frangia/rig/toml_reader.h"

@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <string>
 
-#include "frangia/core/durability.h"
+#include "frangia/core/durable_file.h"
 #include "frangia/rig/rig.h"
 
 namespace frangia {

@@ -8,10 +8,9 @@
 
 #include "frangia/acceptance/frame_checksums.h"
 #include "frangia/acceptance/measure_balls.h"
+#include "frangia/core/durable_file.h"
 #include "frangia/core/error.h"
-#include "frangia/core/make_folder.h"
 #include "frangia/core/open_below.h"
-#include "frangia/core/write_text_file.h"
 
 namespace frangia {
 namespace {

@@ -6,9 +6,9 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "frangia/core/durable_file.h"
 #include "frangia/core/error.h"
-#include "frangia/core/read_json_below.h"
-#include "frangia/core/write_text_file.h"
+#include "frangia/core/open_below.h"
 #include "frangia/phase/algorithm/published_algorithms.h"
 #include "frangia/simulate/default_patterns.h"
 

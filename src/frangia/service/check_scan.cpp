@@ -10,7 +10,7 @@
 #include "frangia/core/missing.h"
 #include "frangia/rig/read_rig.h"
 #include "frangia/service/internal/opened_devices.h"
-#include "frangia/service/internal/seconds_since_1970.h"
+#include "frangia/service/internal/project_names.h"
 #include "frangia/service/live_preview.h"
 
 namespace frangia {

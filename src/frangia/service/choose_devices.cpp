@@ -9,15 +9,14 @@
 
 #include <fmt/format.h>
 
+#include "frangia/core/durable_file.h"
 #include "frangia/core/error.h"
 #include "frangia/core/missing.h"
-#include "frangia/core/write_text_file.h"
 #include "frangia/devices/device_settings.h"
 #include "frangia/devices/device_table.h"
 #include "frangia/devices/rig_devices.h"
 #include "frangia/rig/read_rig.h"
 #include "frangia/rig/write_rig.h"
-#include "frangia/service/given_rig.h"
 #include "frangia/service/rig_history.h"
 
 namespace frangia {

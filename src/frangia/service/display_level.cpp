@@ -2,11 +2,18 @@
 
 #include <algorithm>
 #include <array>
+#include <string>
 
 #include <meshoptimizer.h>
 
+#include "frangia/acquisition/with_display.h"
+#include "frangia/core/durable_file.h"
+#include "frangia/core/read_file.h"
 #include "frangia/geometry/vertex_data.h"
+#include "frangia/rig/read_rig.h"
 #include "frangia/service/internal/array_packer.h"
+#include "frangia/service/internal/opened_devices.h"
+#include "frangia/service/rig_history.h"
 
 namespace frangia {
 namespace {
@@ -139,6 +146,24 @@ Selection selection_of_level(const Mesh& mesh,
                              const DisplayLevel& level) {
   if (level.exact || selection.empty()) return selection;
   return shared_by_corners(mesh, selection, level);
+}
+
+DisplayMeasurement measure_project_display(const ProjectFolder& project,
+                                           const CaptureSettings& settings,
+                                           const CaptureSetup& setup,
+                                           const Run& run) {
+  const Rig rig = read_rig(project.rig(), run, RigContent::StartValues);
+  CaptureOptions options;
+  options.camera = settings.camera;
+  DisplayMeasurement found;
+  {
+    OpenedDevices opened(project.rig(), rig, setup.drivers(), setup, run);
+    found = measure_display(opened.devices(), rig, options, run);
+  }
+  const std::string text = with_display(read_text_file(project.rig()), rig, found);
+  keep_rig(project, RigChange::Display);
+  write_text_file(project.rig(), text, Durability::Synced);
+  return found;
 }
 
 }  // namespace frangia

@@ -6,9 +6,13 @@
 #include <string>
 #include <vector>
 
+#include "frangia/acquisition/measure_display.h"
 #include "frangia/core/run.h"
 #include "frangia/geometry/mesh.h"
 #include "frangia/geometry/selection.h"
+#include "frangia/service/capture_settings.h"
+#include "frangia/service/project_folder.h"
+#include "frangia/service/project_scan.h"
 
 namespace frangia {
 
@@ -55,5 +59,14 @@ template <typename T>
     taken.push_back(values[vertex]);
   return taken;
 }
+
+/// Measures the display and the camera of a project by `measure_display`, and writes what it found
+/// into the project's rig.toml; the rig before is kept.
+///
+/// @errors   as open_devices, measure_display and with_display; rig.toml is then unchanged
+[[nodiscard]] DisplayMeasurement measure_project_display(const ProjectFolder& project,
+                                                         const CaptureSettings& settings,
+                                                         const CaptureSetup& setup,
+                                                         const Run& run);
 
 }  // namespace frangia

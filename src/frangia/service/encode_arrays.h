@@ -5,7 +5,7 @@
 
 #include "frangia/geometry/mesh.h"
 #include "frangia/geometry/selection.h"
-#include "frangia/views/collect_points.h"
+#include "frangia/views/view_store.h"
 
 namespace frangia {
 

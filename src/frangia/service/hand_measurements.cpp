@@ -13,9 +13,9 @@
 #include <nlohmann/json.hpp>
 
 #include "frangia/core/angles.h"
+#include "frangia/core/durable_file.h"
 #include "frangia/core/error.h"
 #include "frangia/core/missing.h"
-#include "frangia/core/write_text_file.h"
 
 namespace frangia {
 namespace {

@@ -11,7 +11,7 @@
 #include "frangia/phase/algorithm/fit_algorithm.h"
 #include "frangia/phase/waveform/assess_frames.h"
 #include "frangia/phase/wrap/wrap_phase.h"
-#include "frangia/rig/has_geometry.h"
+#include "frangia/rig/rig.h"
 
 namespace frangia {
 namespace {

@@ -9,9 +9,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "frangia/core/durable_file.h"
 #include "frangia/core/error.h"
-#include "frangia/core/make_folder.h"
-#include "frangia/core/write_text_file.h"
 #include "frangia/inspection/write_inspection_plan.h"
 #include "frangia/service/acceptance_record.h"
 

@@ -6,14 +6,12 @@
 
 #include <fmt/format.h>
 
+#include "frangia/core/durable_file.h"
 #include "frangia/core/error.h"
 #include "frangia/core/folder_lock.h"
-#include "frangia/core/make_folder.h"
 #include "frangia/core/open_below.h"
-#include "frangia/core/read_json_below.h"
-#include "frangia/core/read_text_file.h"
-#include "frangia/core/write_text_file.h"
-#include "frangia/service/internal/move_folder.h"
+#include "frangia/core/read_file.h"
+#include "frangia/service/internal/project_names.h"
 
 namespace frangia {
 namespace {

@@ -12,10 +12,9 @@
 #include "frangia/acquisition/capture_scan.h"
 #include "frangia/acquisition/left_table.h"
 #include "frangia/core/angles.h"
+#include "frangia/core/durable_file.h"
 #include "frangia/core/folder_lock.h"
 #include "frangia/core/image.h"
-#include "frangia/core/make_folder.h"
-#include "frangia/core/write_text_file.h"
 #include "frangia/decode/decode_view.h"
 #include "frangia/decode/triangulate_view.h"
 #include "frangia/range/range_grid.h"
@@ -25,8 +24,8 @@
 #include "frangia/rig/rig.h"
 #include "frangia/service/encode_arrays.h"
 #include "frangia/service/internal/opened_devices.h"
-#include "frangia/service/internal/station_json.h"
-#include "frangia/views/collect_points.h"
+#include "frangia/service/internal/state_json.h"
+#include "frangia/views/view_store.h"
 
 namespace frangia {
 namespace {

@@ -9,11 +9,11 @@
 #include <nlohmann/json.hpp>
 
 #include "frangia/core/error.h"
-#include "frangia/core/read_text_file.h"
+#include "frangia/core/read_file.h"
 #include "frangia/geometry/pick_surface.h"
 #include "frangia/service/encode_arrays.h"
-#include "frangia/service/internal/answered_commands.h"
 #include "frangia/service/internal/array_packer.h"
+#include "frangia/service/internal/command_arguments.h"
 #include "frangia/service/internal/implementation.h"
 
 namespace frangia {

@@ -13,12 +13,11 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "frangia/core/checksums.h"
+#include "frangia/core/durable_file.h"
 #include "frangia/core/error.h"
-#include "frangia/core/make_folder.h"
-#include "frangia/core/read_json_below.h"
-#include "frangia/core/sha256.h"
-#include "frangia/core/write_private_file.h"
-#include "frangia/service/internal/seconds_since_1970.h"
+#include "frangia/core/open_below.h"
+#include "frangia/service/internal/project_names.h"
 
 namespace frangia {
 namespace {

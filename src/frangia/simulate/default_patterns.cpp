@@ -11,7 +11,7 @@
 #include "frangia/core/error.h"
 #include "frangia/pattern/fringe_sequence.h"
 #include "frangia/pattern/gray_code.h"
-#include "frangia/rig/fringe_parallax.h"
+#include "frangia/rig/rig.h"
 
 namespace frangia {
 namespace {

@@ -11,7 +11,7 @@
 #include "frangia/core/missing.h"
 #include "frangia/core/random.h"
 #include "frangia/geometry/ray_scene.h"
-#include "frangia/geometry/sample_surface.h"
+#include "frangia/geometry/surface_samples.h"
 
 namespace frangia {
 namespace {

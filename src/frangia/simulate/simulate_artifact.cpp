@@ -14,9 +14,9 @@
 #include "frangia/core/random.h"
 #include "frangia/dataset/write_scan.h"
 #include "frangia/geometry/transform_mesh.h"
-#include "frangia/rig/crossing_of_axes.h"
+#include "frangia/rig/rig.h"
 #include "frangia/rig/write_rig.h"
-#include "frangia/simulate/internal/sheet.h"
+#include "frangia/simulate/internal/simulated_scene.h"
 #include "frangia/simulate/parts.h"
 #include "frangia/simulate/simulate_scan.h"
 

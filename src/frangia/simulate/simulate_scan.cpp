@@ -10,19 +10,17 @@
 
 #include <fmt/format.h>
 
-#include "frangia/core/atomic_file.h"
-#include "frangia/core/make_folder.h"
+#include "frangia/core/durable_file.h"
 #include "frangia/core/parallel.h"
 #include "frangia/core/srgb.h"
 #include "frangia/dataset/write_scan.h"
 #include "frangia/files/ply.h"
 #include "frangia/frames/png.h"
 #include "frangia/geometry/transform_mesh.h"
-#include "frangia/rig/rig_of_camera.h"
+#include "frangia/rig/rig.h"
 #include "frangia/simulate/internal/move_views.h"
 #include "frangia/simulate/internal/render_view.h"
 #include "frangia/simulate/internal/simulated_scene.h"
-#include "frangia/simulate/internal/surface_color.h"
 
 namespace frangia {
 namespace {

@@ -9,8 +9,8 @@
 
 #include <Eigen/Geometry>
 
+#include "frangia/calibrate/board/find_board.h"
 #include "frangia/calibrate/board/find_ellipses.h"
-#include "frangia/calibrate/board/find_markers.h"
 #include "frangia/core/error.h"
 #include "frangia/core/parallel.h"
 #include "frangia/rig/aruco_dictionary.h"

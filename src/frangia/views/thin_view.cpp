@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "frangia/core/error.h"
+#include "frangia/core/image.h"
+
 namespace frangia {
 
 int thinning_step(const CameraModel& camera, double pixels) {
@@ -28,6 +31,37 @@ RangeGrid thinned(const RangeGrid& range, int step) {
       out.sigma_mm(x, y) = range.sigma_mm(x * step, y * step);
     }
   }
+  return out;
+}
+
+namespace {
+
+int subsampled_size(int pixels, int step) {
+  return (pixels + step - 1) / step;
+}
+
+}  // namespace
+
+CameraModel subsample(const CameraModel& camera, int step) {
+  require(step >= 1, "subsample: the step must be at least one pixel");
+  CameraModel out = camera;
+  out.width_px = subsampled_size(camera.width_px, step);
+  out.height_px = subsampled_size(camera.height_px, step);
+  out.focal_px /= step;
+  out.principal_point_px /= step;
+  return out;
+}
+
+View subsample(const View& view, int step) {
+  require(step >= 1, "subsample: the step must be at least one pixel");
+  View out;
+  out.rig_from_object = view.rig_from_object;
+  out.range.depth_mm = every_nth_pixel(view.range.depth_mm, step);
+  out.range.sigma_mm = every_nth_pixel(view.range.sigma_mm, step);
+  if (!view.range.phase_rad.empty())
+    out.range.phase_rad = every_nth_pixel(view.range.phase_rad, step);
+  if (!view.range.systematic_mm.empty())
+    out.range.systematic_mm = every_nth_pixel(view.range.systematic_mm, step);
   return out;
 }
 

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cmath>
 #include <cstddef>
 #include <cstdlib>
 #include <cstring>
+#include <future>
 #include <span>
 #include <string>
 #include <utility>
@@ -14,7 +16,7 @@
 
 #include "frangia/core/error.h"
 #include "frangia/core/missing.h"
-#include "frangia/range/measured_box.h"
+#include "frangia/range/measured_volume.h"
 
 namespace frangia {
 namespace {
@@ -265,6 +267,50 @@ View ViewStore::read(std::size_t index, const OptionalImages& wanted) const {
     view.color = read_box(entry.width, entry.height, entry.box, PixelColor{}, colors, cursor);
   }
   return view;
+}
+
+void load_each_view(const ViewStore& views,
+                    const std::function<void(std::size_t index, View& view)>& use,
+                    PointSigma sigma) {
+  const auto load = [&](std::size_t i) {
+    return std::async(std::launch::async,
+                      [&views, i, sigma] { return views.load_points(i, sigma); });
+  };
+  std::future<View> next;
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    View view = i == 0 ? views.load_points(0, sigma) : next.get();
+    if (i + 1 < views.size()) next = load(i + 1);
+    use(i, view);
+  }
+}
+
+PointCloud collect_points(const ViewStore& views,
+                          const CameraModel& camera,
+                          const Run& run,
+                          std::span<const SigmaTerm> terms,
+                          std::size_t camera_index) {
+  const auto rays = rays_of(camera);
+  const bool has_systematic = views.has_systematic() || !terms.empty();
+  PointCloud cloud;
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    run.check();
+    View view = views.load_points(i, PointSigma::BothParts);
+    add_terms(view, camera_index, terms);
+    require(same_size(view.range.depth_mm, rays),
+            "collect_points: a view and the camera differ in size");
+    const Eigen::Isometry3d object_from_rig = view.rig_from_object.inverse();
+    for (std::size_t pixel = 0; pixel < rays.pixels().size(); ++pixel) {
+      const float depth = view.range.depth_mm.pixels()[pixel];
+      if (std::isnan(depth)) continue;
+      const Eigen::Vector3f seen = depth * rays.pixels()[pixel].homogeneous();
+      cloud.points_mm.emplace_back((object_from_rig * seen.cast<double>()).cast<float>());
+      cloud.sigma_mm.push_back(view.range.sigma_mm.pixels()[pixel]);
+      if (!has_systematic) continue;
+      cloud.systematic_mm.push_back(
+          view.range.systematic_mm.empty() ? 0.0F : view.range.systematic_mm.pixels()[pixel]);
+    }
+  }
+  return cloud;
 }
 
 }  // namespace frangia

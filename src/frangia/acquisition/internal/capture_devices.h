@@ -6,7 +6,8 @@
 
 #include "frangia/acquisition/capture_options.h"
 #include "frangia/core/run.h"
-#include "frangia/devices/phase_shift_controller.h"
+#include "frangia/dataset/scan_folder.h"
+#include "frangia/devices/phase_shifter.h"
 #include "frangia/devices/rig_devices.h"
 #include "frangia/pattern/pattern.h"
 
@@ -96,5 +97,11 @@ class SafeStateGuard {
  private:
   RigDevices& devices_;
 };
+
+/// Checks, before any light is on, that the devices can show the patterns at their exposures and
+/// reach the angles of a plan.
+///
+/// @errors   Error(Input) that names the table that rig.toml lacks, the pattern or the angle
+void check_devices(const RigDevices& devices, const Scan& plan, const CaptureOptions& options);
 
 }  // namespace frangia

@@ -12,15 +12,12 @@
 #include <fmt/format.h>
 
 #include "frangia/acquisition/internal/capture_manifest.h"
-#include "frangia/core/atomic_file.h"
-#include "frangia/core/crc32.h"
+#include "frangia/core/checksums.h"
+#include "frangia/core/durable_file.h"
 #include "frangia/core/error.h"
 #include "frangia/core/folder_lock.h"
-#include "frangia/core/make_folder.h"
 #include "frangia/core/open_below.h"
-#include "frangia/core/read_text_file.h"
-#include "frangia/core/sync_to_disk.h"
-#include "frangia/core/write_text_file.h"
+#include "frangia/core/read_file.h"
 #include "frangia/dataset/scan_folder.h"
 #include "frangia/dataset/write_scan.h"
 #include "frangia/rig/write_rig.h"

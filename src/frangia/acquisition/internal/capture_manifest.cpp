@@ -9,11 +9,11 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "frangia/core/crc32.h"
+#include "frangia/core/checksums.h"
+#include "frangia/core/durable_file.h"
 #include "frangia/core/error.h"
 #include "frangia/core/open_below.h"
-#include "frangia/core/read_regular_file.h"
-#include "frangia/core/write_text_file.h"
+#include "frangia/core/read_file.h"
 
 namespace frangia {
 namespace {

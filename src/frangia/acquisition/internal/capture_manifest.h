@@ -13,7 +13,7 @@
 
 #include "frangia/core/durable_log.h"
 #include "frangia/core/missing.h"
-#include "frangia/dataset/stored_frames.h"
+#include "frangia/dataset/read_frames.h"
 
 namespace frangia {
 

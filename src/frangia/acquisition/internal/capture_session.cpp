@@ -14,12 +14,12 @@
 
 #include "frangia/acquisition/internal/capture_folder.h"
 #include "frangia/acquisition/internal/capture_manifest.h"
-#include "frangia/acquisition/internal/set_files.h"
+#include "frangia/acquisition/internal/set_capture.h"
 #include "frangia/acquisition/internal/wait_for_drift.h"
+#include "frangia/core/durable_file.h"
 #include "frangia/core/error.h"
-#include "frangia/core/make_folder.h"
 #include "frangia/core/open_below.h"
-#include "frangia/core/read_regular_file.h"
+#include "frangia/core/read_file.h"
 #include "frangia/dataset/scan_folder.h"
 #include "frangia/frames/png.h"
 

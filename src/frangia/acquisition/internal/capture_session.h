@@ -9,7 +9,6 @@
 #include "frangia/acquisition/internal/choose_exposures.h"
 #include "frangia/acquisition/internal/frame_store.h"
 #include "frangia/acquisition/internal/set_capture.h"
-#include "frangia/acquisition/internal/set_files.h"
 #include "frangia/acquisition/internal/table_mover.h"
 #include "frangia/acquisition/internal/view_assessor.h"
 #include "frangia/core/run.h"

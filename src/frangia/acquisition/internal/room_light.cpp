@@ -4,8 +4,7 @@
 #include <cmath>
 
 #include "frangia/core/angles.h"
-#include "frangia/core/least_squares.h"
-#include "frangia/core/matrix_products.h"
+#include "frangia/core/linear_algebra.h"
 
 namespace frangia {
 namespace {

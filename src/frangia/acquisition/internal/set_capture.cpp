@@ -1,12 +1,21 @@
 #include "frangia/acquisition/internal/set_capture.h"
 
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
 #include <utility>
 
 #include <fmt/format.h>
 
-#include "frangia/acquisition/internal/assess_set.h"
+#include "frangia/core/durable_file.h"
 #include "frangia/core/open_below.h"
 #include "frangia/frames/png.h"
+#include "frangia/phase/algorithm/estimate_shifts.h"
+#include "frangia/phase/algorithm/estimate_step.h"
+#include "frangia/phase/algorithm/fit_algorithm.h"
+#include "frangia/phase/waveform/assess_frames.h"
+#include "frangia/phase/wrap/estimate_noise.h"
+#include "frangia/phase/wrap/wrap_phase.h"
 
 namespace frangia {
 
@@ -159,6 +168,166 @@ double SetCapture::exposure_of(const Pattern& pattern, int exposure) const {
   if (!pattern.exposures_ms.empty())
     return pattern.exposures_ms[static_cast<std::size_t>(exposure)];
   return exposure_ms_;
+}
+
+std::string SetFiles::set_of(std::size_t view, const Pattern& pattern) const {
+  return (plan_.views[view].folder / pattern.name).generic_string();
+}
+
+std::filesystem::path SetFiles::folder_of(std::size_t view, std::size_t camera) const {
+  const std::filesystem::path& folder = plan_.views[view].folder;
+  return camera == 0 ? folder : folder / plan_.rig.cameras[camera].camera.name;
+}
+
+std::size_t SetFiles::cameras() const {
+  return plan_.rig.cameras.size();
+}
+
+std::string SetFiles::file_of(
+    std::size_t view, const Pattern& pattern, int frame, int exposure, std::size_t camera) const {
+  return (folder_of(view, camera) / frame_file_name(pattern, frame, exposure)).generic_string();
+}
+
+std::size_t SetFiles::frames_per_view() const {
+  int count = 0;
+  for (const Pattern& pattern : plan_.patterns)
+    count += pattern.frame_count() * pattern.exposure_count();
+  return static_cast<std::size_t>(count);
+}
+
+bool SetFiles::has_all_frames(std::size_t view, const Pattern& pattern) const {
+  for (int frame = 0; frame < pattern.frame_count(); ++frame) {
+    for (int exposure = 0; exposure < pattern.exposure_count(); ++exposure) {
+      for (std::size_t camera = 0; camera < cameras(); ++camera)
+        if (!manifest_.has(file_of(view, pattern, frame, exposure, camera))) return false;
+    }
+  }
+  return true;
+}
+
+bool SetFiles::is_complete(std::size_t view) const {
+  return std::all_of(plan_.patterns.begin(), plan_.patterns.end(), [&](const Pattern& pattern) {
+    return has_all_frames(view, pattern) && manifest_.is_good(set_of(view, pattern));
+  });
+}
+
+bool SetFiles::is_begun(std::size_t view) const {
+  return std::any_of(plan_.patterns.begin(), plan_.patterns.end(), [&](const Pattern& pattern) {
+    const std::vector<bool> stored = stored_frames(view, pattern);
+    return manifest_.attempt_of(set_of(view, pattern)) > 0 ||
+           std::find(stored.begin(), stored.end(), true) != stored.end();
+  });
+}
+
+double SetFiles::scale_of(std::size_t view, const Pattern& pattern) const {
+  for (int frame = 0; frame < pattern.frame_count(); ++frame) {
+    for (int exposure = 0; exposure < pattern.exposure_count(); ++exposure) {
+      const ManifestFrame* stored = manifest_.find(file_of(view, pattern, frame, exposure));
+      if (stored != nullptr) return stored->scale;
+    }
+  }
+  return manifest_.scale();
+}
+
+std::vector<bool> SetFiles::stored_frames(std::size_t view, const Pattern& pattern) const {
+  std::vector<bool> stored;
+  for (int frame = 0; frame < pattern.frame_count(); ++frame) {
+    for (int exposure = 0; exposure < pattern.exposure_count(); ++exposure)
+      stored.push_back(manifest_.has(file_of(view, pattern, frame, exposure)));
+  }
+  return stored;
+}
+
+void SetFiles::move_to_rejected(std::size_t view, const Pattern& pattern, int attempt) const {
+  for (std::size_t camera = 0; camera < cameras(); ++camera) {
+    const std::filesystem::path folder = path_below(plan_.folder, folder_of(view, camera));
+    const std::filesystem::path rejected = path_below(folder, "rejected");
+    make_folder(rejected, Durability::Synced);
+    for (int frame = 0; frame < pattern.frame_count(); ++frame) {
+      for (int exposure = 0; exposure < pattern.exposure_count(); ++exposure) {
+        const std::string name = frame_file_name(pattern, frame, exposure);
+        const std::filesystem::path to = rejected / fmt::format("{}-{}", attempt, name);
+        const bool counts = manifest_.has(file_of(view, pattern, frame, exposure, camera));
+        if (!counts && std::filesystem::exists(folder / name) && !std::filesystem::exists(to))
+          std::filesystem::rename(folder / name, to);
+      }
+    }
+    sync_to_disk(rejected);
+    sync_to_disk(folder);
+  }
+}
+
+namespace {
+
+/// Ratio of residual to noise variance above which a set with a phase shifter shows vibration.
+/// Piezo steps that are wrong by a degree stay below it.
+constexpr double kVibratingPiezo = 6.0;
+/// Gain errors above this are failed estimates, such as a step wrong by a fringe.
+constexpr double kMaxGainError = 0.3;
+
+NoiseModel noise_of(const FrameStack& stack, const std::optional<NoiseModel>& camera) {
+  return camera ? *camera : estimate_noise({&stack, 1});
+}
+
+/// Estimates the gain error: by a fit to all shifts for six frames or more, else by the mean step.
+void find_gain(const FrameStack& stack, const NoiseModel& noise, SetAssessment& assessment) {
+  const std::vector<double>& nominal = stack.pattern.shifts_rad;
+  if (nominal.size() >= 6) {
+    const ShiftEstimate shifts = estimate_shifts(stack, noise);
+    double covariance = 0.0;
+    double variance = 0.0;
+    double mean_nominal = 0.0;
+    double mean_found = 0.0;
+    const auto count = static_cast<double>(nominal.size());
+    for (std::size_t i = 0; i < nominal.size(); ++i) {
+      mean_nominal += nominal[i] / count;
+      mean_found += shifts.shifts_rad[i] / count;
+    }
+    for (std::size_t i = 0; i < nominal.size(); ++i) {
+      covariance += (nominal[i] - mean_nominal) * (shifts.shifts_rad[i] - mean_found);
+      variance += (nominal[i] - mean_nominal) * (nominal[i] - mean_nominal);
+    }
+    assessment.step_found = shifts.found;
+    assessment.gain_error = covariance / variance - 1.0;
+  } else {
+    const StepEstimate step = estimate_step(stack);
+    assessment.step_found = step.found;
+    assessment.gain_error = step.gain_error();
+  }
+  assessment.step_found = assessment.step_found && std::abs(assessment.gain_error) < kMaxGainError;
+}
+
+}  // namespace
+
+SetAssessment assess_set(std::span<const FrameStack> exposures,
+                         const std::optional<NoiseModel>& camera,
+                         bool shifter) {
+  SetAssessment assessment;
+  double best_share = -1.0;
+  const FrameStack* best = nullptr;
+  FrameAssessment best_assessment;
+  for (const FrameStack& stack : exposures) {
+    const NoiseModel noise = noise_of(stack, camera);
+    const FittedAlgorithm fitted = fit_algorithm("auto", stack, noise);
+    const FrameAssessment frame_assessment =
+        assess_frames(stack, fitted, wrap_phase(stack, fitted.algorithm, noise), noise);
+    if (frame_assessment.measured_fraction <= best_share) continue;
+    best_share = frame_assessment.measured_fraction;
+    best = &stack;
+    best_assessment = frame_assessment;
+  }
+  if (best == nullptr) return assessment;
+  const bool vibrating =
+      shifter ? best_assessment.residual_ratio > kVibratingPiezo : best_assessment.exceeds_noise;
+  if (shifter) find_gain(*best, noise_of(*best, camera), assessment);
+  assessment.moved = camera && vibrating;
+  return assessment;
+}
+
+Image<PixelStatus> pixel_status_of(const FrameStack& stack,
+                                   const std::optional<NoiseModel>& camera) {
+  const NoiseModel noise = noise_of(stack, camera);
+  return wrap_phase(stack, fit_algorithm("auto", stack, noise).algorithm, noise).status;
 }
 
 }  // namespace frangia

@@ -9,7 +9,7 @@
 
 #include "frangia/core/angles.h"
 #include "frangia/decode/plan_decoding.h"
-#include "frangia/rig/has_geometry.h"
+#include "frangia/rig/rig.h"
 
 namespace frangia {
 namespace {

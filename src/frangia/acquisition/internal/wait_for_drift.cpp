@@ -11,7 +11,7 @@
 
 #include <fmt/format.h>
 
-#include "frangia/acquisition/internal/probe_exposure.h"
+#include "frangia/acquisition/internal/choose_exposures.h"
 #include "frangia/core/angles.h"
 #include "frangia/core/error.h"
 #include "frangia/core/missing.h"

@@ -1,16 +1,36 @@
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <span>
+#include <vector>
 
+#include <Eigen/Core>
 #include <Eigen/Geometry>
 
-#include "frangia/align/internal/measured_samples.h"
 #include "frangia/core/run.h"
+#include "frangia/geometry/mesh.h"
 #include "frangia/geometry/ray_scene.h"
+#include "frangia/uncertainty/pose_uncertainty.h"
 
 namespace frangia {
+
+/// A sample of the measured surface.
+struct MeasuredSample {
+  Eigen::Vector3d point_mm;
+  Eigen::Vector3d normal;
+  double sigma_mm = 0.0;  ///< combined; 0 when unknown
+};
+
+/// Samples the measured triangles of a mesh evenly over their area, in random order: the first n
+/// samples are spread over the whole surface, too.
+///
+/// @errors   Error(Input) when no triangle is measured
+[[nodiscard]] std::vector<MeasuredSample> measured_samples(const Mesh& mesh,
+                                                           std::size_t count,
+                                                           std::uint64_t seed);
 
 /// A point of the reference and its normal.
 struct Foot {
@@ -58,5 +78,14 @@ struct PoseFit {
 [[nodiscard]] Eigen::Isometry3d motion_of(const Eigen::Matrix<double, 6, 1>& twist,
                                           const Eigen::Vector3d& center,
                                           double lever_mm);
+
+/// The covariance of a fitted pose from the residuals of its samples. Residuals of neighbouring
+/// samples are alike, so the spread of the gradients of 64 compact blocks is propagated. Directions
+/// that the samples hardly determine are held and have no variance.
+///
+/// @source   Liang & Zeger 1986 (clustered errors)
+[[nodiscard]] PoseUncertainty pose_covariance(std::span<const MeasuredSample> samples,
+                                              const FindFoot& find_foot,
+                                              const PoseFit& fit);
 
 }  // namespace frangia

@@ -7,8 +7,7 @@
 
 #include "frangia/align/internal/search_poses.h"
 #include "frangia/core/angles.h"
-#include "frangia/core/solve_symmetric.h"
-#include "frangia/core/symmetric_eigen.h"
+#include "frangia/core/linear_algebra.h"
 
 namespace frangia {
 namespace {

@@ -6,7 +6,7 @@
 #include <span>
 
 #include "frangia/align/internal/search_poses.h"
-#include "frangia/core/interruptible_chunks.h"
+#include "frangia/core/parallel.h"
 
 namespace frangia {
 namespace {

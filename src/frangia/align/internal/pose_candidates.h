@@ -7,7 +7,6 @@
 #include "frangia/align/align_best_fit.h"
 #include "frangia/align/internal/fit_pose.h"
 #include "frangia/align/internal/free_motions.h"
-#include "frangia/align/internal/measured_samples.h"
 
 namespace frangia {
 

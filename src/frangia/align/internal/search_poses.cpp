@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "frangia/core/angles.h"
-#include "frangia/core/interruptible_chunks.h"
+#include "frangia/core/parallel.h"
 #include "frangia/core/random.h"
 
 namespace frangia {

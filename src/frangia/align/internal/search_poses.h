@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "frangia/align/internal/fit_pose.h"
-#include "frangia/align/internal/measured_samples.h"
 
 namespace frangia {
 

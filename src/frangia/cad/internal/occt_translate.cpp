@@ -26,7 +26,7 @@
 
 #include "frangia/cad/internal/shape_checks.h"
 #include "frangia/core/error.h"
-#include "frangia/core/lowercase_extension.h"
+#include "frangia/core/text.h"
 
 namespace frangia {
 namespace {

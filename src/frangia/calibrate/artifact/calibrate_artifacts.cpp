@@ -12,7 +12,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "frangia/calibrate/internal/artifact_sites.h"
+#include "frangia/calibrate/internal/artifact_model.h"
 #include "frangia/core/error.h"
 #include "frangia/range/calibration_uncertainty.h"
 

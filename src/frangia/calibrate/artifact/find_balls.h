@@ -6,7 +6,7 @@
 
 #include <Eigen/Core>
 
-#include "frangia/geometry/fit_sphere.h"
+#include "frangia/geometry/fit_primitives.h"
 
 namespace frangia {
 

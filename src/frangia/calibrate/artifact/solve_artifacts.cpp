@@ -13,14 +13,14 @@
 #include <fmt/ranges.h>
 
 #include "frangia/calibrate/internal/artifact_model.h"
+#include "frangia/calibrate/internal/assess_solution.h"
 #include "frangia/calibrate/internal/fit_sheet.h"
-#include "frangia/calibrate/internal/invert_normal.h"
 #include "frangia/calibrate/internal/rig_bundle.h"
-#include "frangia/calibrate/internal/select_wavefront.h"
+#include "frangia/calibrate/internal/start_values.h"
 #include "frangia/core/angles.h"
 #include "frangia/core/error.h"
-#include "frangia/core/median.h"
-#include "frangia/core/symmetric_eigen.h"
+#include "frangia/core/linear_algebra.h"
+#include "frangia/core/statistics.h"
 #include "frangia/rig/rig.h"
 #include "frangia/rig/rig_covariance.h"
 

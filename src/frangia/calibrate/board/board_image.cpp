@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "frangia/core/error.h"
-#include "frangia/core/symmetric_eigen.h"
+#include "frangia/core/linear_algebra.h"
 #include "frangia/pattern/pattern.h"
 
 namespace frangia {

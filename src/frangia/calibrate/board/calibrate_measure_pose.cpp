@@ -8,15 +8,13 @@
 #include <vector>
 
 #include "frangia/calibrate/board/board_image.h"
-#include "frangia/calibrate/board/count_corners.h"
 #include "frangia/calibrate/board/find_board.h"
 #include "frangia/calibrate/board/find_charuco.h"
-#include "frangia/calibrate/board/find_circles.h"
-#include "frangia/calibrate/board/measure_fringe_misfit.h"
+#include "frangia/calibrate/board/fit_phase_at.h"
 #include "frangia/calibrate/board/measure_sharpness.h"
 #include "frangia/core/angles.h"
 #include "frangia/core/image.h"
-#include "frangia/core/median.h"
+#include "frangia/core/statistics.h"
 
 namespace frangia {
 namespace {

@@ -8,12 +8,12 @@
 
 #include <fmt/format.h>
 
-#include "frangia/calibrate/board/internal/describe_other_board.h"
+#include "frangia/calibrate/board/internal/read_markers.h"
 #include "frangia/calibrate/internal/pose_faults.h"
 #include "frangia/calibrate/internal/start_values.h"
 #include "frangia/core/angles.h"
 #include "frangia/core/error.h"
-#include "frangia/core/least_squares.h"
+#include "frangia/core/linear_algebra.h"
 
 namespace frangia {
 namespace {

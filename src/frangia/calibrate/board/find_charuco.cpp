@@ -14,7 +14,6 @@
 
 #include "frangia/calibrate/board/internal/opencv_image.h"
 #include "frangia/calibrate/board/internal/read_markers.h"
-#include "frangia/calibrate/board/internal/refine_corner.h"
 #include "frangia/rig/aruco_dictionary.h"
 #include "frangia/rig/board.h"
 

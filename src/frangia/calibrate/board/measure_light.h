@@ -1,16 +1,29 @@
 #pragma once
 
+#include <limits>
 #include <span>
 #include <vector>
 
+#include <Eigen/Core>
+
 #include "frangia/calibrate/board/fit_phase_at.h"
-#include "frangia/calibrate/board/light_site.h"
 #include "frangia/core/run.h"
 #include "frangia/decode/decode_view.h"
 #include "frangia/frames/frame_stack.h"
 #include "frangia/rig/rig.h"
 
 namespace frangia {
+
+/// Where the light comes from that a camera pixel sees, by the phase of each fringe direction:
+/// pixels of a projector or screen, or the nominal angle psi of an angular projector in rad.
+struct LightSite {
+  Eigen::Vector2d camera_px = Eigen::Vector2d::Zero();  ///< in the camera image
+  /// By vertical and by horizontal fringes; NaN where a direction is not measured.
+  Eigen::Vector2d light = Eigen::Vector2d::Constant(std::numeric_limits<double>::quiet_NaN());
+  Eigen::Vector2d sigma = Eigen::Vector2d::Zero();  ///< standard deviation of `light`
+  /// Derivative of `light` with respect to the camera pixel, on the surface around the site.
+  Eigen::Matrix2d by_camera = Eigen::Matrix2d::Zero();
+};
 
 /// How the light is measured on a grid of camera pixels.
 struct MeasureLightOptions {

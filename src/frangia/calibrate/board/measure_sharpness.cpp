@@ -9,7 +9,7 @@
 
 #include "frangia/calibrate/board/internal/opencv_image.h"
 #include "frangia/core/angles.h"
-#include "frangia/core/median.h"
+#include "frangia/core/statistics.h"
 
 namespace frangia {
 namespace {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <string>
 
+#include "frangia/calibrate/board/find_board.h"
 #include "frangia/calibrate/board/find_charuco.h"
-#include "frangia/calibrate/board/find_markers.h"
 #include "frangia/core/error.h"
 
 namespace frangia {

@@ -5,8 +5,8 @@
 #include <limits>
 
 #include "frangia/core/error.h"
+#include "frangia/core/linear_algebra.h"
 #include "frangia/core/random.h"
-#include "frangia/core/solve_symmetric.h"
 
 namespace frangia {
 namespace {

@@ -10,7 +10,7 @@
 
 #include "frangia/calibrate/check/check_kinds.h"
 #include "frangia/core/error.h"
-#include "frangia/dataset/scan_of_camera.h"
+#include "frangia/dataset/scan_folder.h"
 
 namespace frangia {
 namespace {

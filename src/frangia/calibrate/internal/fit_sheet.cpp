@@ -6,9 +6,9 @@
 
 #include <Eigen/Geometry>
 
-#include "frangia/core/median.h"
 #include "frangia/core/random.h"
-#include "frangia/geometry/fit_plane.h"
+#include "frangia/core/statistics.h"
+#include "frangia/geometry/fit_primitives.h"
 
 namespace frangia {
 namespace {

@@ -7,7 +7,7 @@
 #include <fmt/ranges.h>
 #include <opencv2/calib3d.hpp>
 
-#include "frangia/core/median.h"
+#include "frangia/core/statistics.h"
 
 namespace frangia {
 namespace {

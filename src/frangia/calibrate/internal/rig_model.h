@@ -9,6 +9,8 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
+#include "frangia/rig/camera_model.h"
+
 namespace frangia {
 
 constexpr int kIntrinsics = 9;
@@ -164,5 +166,11 @@ template <typename T>
   return {intrinsics[0] * bent_x + intrinsics[2],
           intrinsics[0] * intrinsics[1] * bent_y + intrinsics[3]};
 }
+
+/// The intrinsics of a model as an adjustment has them: fx fy/fx cx cy k1 k2 p1 p2 k3.
+[[nodiscard]] std::array<double, 9> intrinsics_block(const CameraModel& model);
+
+/// The model with these intrinsics; its further coefficients of distortion stay.
+[[nodiscard]] CameraModel with_intrinsics(CameraModel model, const std::array<double, 9>& values);
 
 }  // namespace frangia

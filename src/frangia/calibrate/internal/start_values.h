@@ -1,8 +1,10 @@
 #pragma once
 
+#include <array>
 #include <span>
 
 #include "frangia/calibrate/board/board_view.h"
+#include "frangia/calibrate/internal/artifact_model.h"
 #include "frangia/calibrate/internal/rig_model.h"
 #include "frangia/calibrate/solve/solve_rig.h"
 #include "frangia/rig/board.h"
@@ -21,5 +23,14 @@ namespace frangia {
 [[nodiscard]] RigParameters start_values(const Board& board,
                                          std::span<const BoardView> views,
                                          const Rig& known);
+
+/// Returns the terms of the wavefront that would explain the residuals of a fit and are not yet
+/// estimated: first the second order, then the third; none when the residuals are noise.
+///
+/// @source   score test, Rao 1948, at the optimum without them
+[[nodiscard]] std::array<bool, Wavefront::kTerms> missing_wavefront_terms(
+    const ArtifactProblem& problem,
+    const ArtifactNoise& noise,
+    const ArtifactParameters& parameters);
 
 }  // namespace frangia

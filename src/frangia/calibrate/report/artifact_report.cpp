@@ -8,12 +8,12 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "frangia/calibrate/internal/artifact_distances.h"
+#include "frangia/calibrate/internal/artifact_model.h"
 #include "frangia/calibrate/report/internal/residual_figure.h"
 #include "frangia/calibrate/solve/calibrate_rig.h"
 #include "frangia/core/angles.h"
-#include "frangia/core/html_escaped.h"
-#include "frangia/core/write_text_file.h"
+#include "frangia/core/durable_file.h"
+#include "frangia/core/text.h"
 #include "frangia/page/html_page.h"
 
 namespace frangia {

@@ -14,8 +14,8 @@
 #include "frangia/calibrate/report/internal/residual_figure.h"
 #include "frangia/calibrate/report/residual_maps.h"
 #include "frangia/core/angles.h"
-#include "frangia/core/html_escaped.h"
-#include "frangia/core/write_text_file.h"
+#include "frangia/core/durable_file.h"
+#include "frangia/core/text.h"
 #include "frangia/frames/png.h"
 #include "frangia/page/html_page.h"
 

@@ -20,9 +20,8 @@
 #include "frangia/core/run.h"
 #include "frangia/dataset/read_frames.h"
 #include "frangia/dataset/scan_folder.h"
-#include "frangia/dataset/scan_of_camera.h"
 #include "frangia/decode/plan_decoding.h"
-#include "frangia/rig/rig_of_camera.h"
+#include "frangia/rig/rig.h"
 
 namespace frangia {
 namespace {

@@ -8,9 +8,7 @@
 #include <opencv2/calib3d.hpp>
 
 #include "frangia/calibrate/internal/rig_bundle.h"
-#include "frangia/calibrate/internal/rig_observations.h"
 #include "frangia/calibrate/solve/internal/rig_covariance.h"
-#include "frangia/calibrate/solve/internal/select_terms.h"
 #include "frangia/core/angles.h"
 #include "frangia/core/error.h"
 #include "frangia/rig/rig.h"

@@ -7,7 +7,7 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
-#include "frangia/calibrate/board/light_site.h"
+#include "frangia/calibrate/board/measure_light.h"
 #include "frangia/calibrate/solve/solve_rig.h"
 #include "frangia/core/run.h"
 #include "frangia/rig/artifact.h"

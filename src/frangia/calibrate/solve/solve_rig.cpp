@@ -10,14 +10,12 @@
 
 #include <fmt/format.h>
 
-#include "frangia/calibrate/internal/point_sigma.h"
+#include "frangia/calibrate/internal/assess_solution.h"
 #include "frangia/calibrate/internal/rig_bundle.h"
 #include "frangia/calibrate/internal/rig_model.h"
-#include "frangia/calibrate/internal/rig_observations.h"
 #include "frangia/calibrate/internal/start_values.h"
 #include "frangia/calibrate/solve/internal/rig_covariance.h"
-#include "frangia/calibrate/solve/internal/select_terms.h"
-#include "frangia/core/solve_symmetric.h"
+#include "frangia/core/linear_algebra.h"
 #include "frangia/rig/rig.h"
 #include "frangia/rig/rig_covariance.h"
 

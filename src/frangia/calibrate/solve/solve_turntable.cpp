@@ -10,8 +10,7 @@
 
 #include "frangia/core/angles.h"
 #include "frangia/core/error.h"
-#include "frangia/core/matrix_products.h"
-#include "frangia/core/solve_symmetric.h"
+#include "frangia/core/linear_algebra.h"
 
 namespace frangia {
 namespace {

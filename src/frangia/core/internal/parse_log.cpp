@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "frangia/core/crc32.h"
+#include "frangia/core/checksums.h"
 
 namespace frangia {
 namespace {

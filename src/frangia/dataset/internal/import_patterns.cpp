@@ -9,7 +9,7 @@
 
 #include "frangia/core/angles.h"
 #include "frangia/core/check_nesting.h"
-#include "frangia/core/read_text_file.h"
+#include "frangia/core/read_file.h"
 #include "frangia/dataset/internal/read_pattern.h"
 #include "frangia/rig/toml_reader.h"
 

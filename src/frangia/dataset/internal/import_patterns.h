@@ -6,7 +6,7 @@
 
 #include "frangia/core/run.h"
 #include "frangia/dataset/import_frames.h"
-#include "frangia/dataset/internal/read_board.h"
+#include "frangia/dataset/internal/read_pattern.h"
 
 namespace frangia {
 

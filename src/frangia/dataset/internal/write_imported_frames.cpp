@@ -9,8 +9,8 @@
 
 #include <fmt/format.h>
 
+#include "frangia/core/durable_file.h"
 #include "frangia/core/error.h"
-#include "frangia/core/make_folder.h"
 #include "frangia/core/parallel.h"
 #include "frangia/frames/float_tiff.h"
 #include "frangia/frames/png.h"

@@ -9,7 +9,7 @@
 #include "frangia/phase/gray/check_gray_code.h"
 #include "frangia/phase/wrap/wrap_phase.h"
 #include "frangia/range/check_orientation.h"
-#include "frangia/rig/has_geometry.h"
+#include "frangia/rig/rig.h"
 
 namespace frangia {
 namespace {

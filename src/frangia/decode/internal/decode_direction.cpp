@@ -32,8 +32,8 @@
 #include "frangia/phase/waveform/frame_samples.h"
 #include "frangia/phase/wrap/merge_exposures.h"
 #include "frangia/phase/wrap/wrap_phase.h"
-#include "frangia/range/fringe_ray.h"
-#include "frangia/rig/phase_range.h"
+#include "frangia/range/triangulate.h"
+#include "frangia/rig/rig.h"
 
 namespace frangia {
 namespace {

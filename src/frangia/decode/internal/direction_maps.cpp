@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 
 #include "frangia/core/error.h"
-#include "frangia/core/every_nth_pixel.h"
+#include "frangia/core/image.h"
 #include "frangia/decode/explain/explain_predicted_frames.h"
 #include "frangia/decode/internal/wrap_pattern.h"
 #include "frangia/decode/select_stacks.h"

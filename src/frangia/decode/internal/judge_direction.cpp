@@ -12,7 +12,7 @@
 #include "frangia/decode/explain/find_ceiling.h"
 #include "frangia/decode/select_stacks.h"
 #include "frangia/phase/wrap/estimate_noise.h"
-#include "frangia/rig/phase_range.h"
+#include "frangia/rig/rig.h"
 #include "frangia/uncertainty/combined_sigma.h"
 
 namespace frangia {

@@ -7,10 +7,9 @@
 #include <fmt/format.h>
 
 #include "frangia/core/angles.h"
-#include "frangia/devices/internal/board_switch.h"
-#include "frangia/devices/internal/open_configured_transport.h"
+#include "frangia/devices/internal/board_devices.h"
+#include "frangia/devices/internal/open_transport.h"
 #include "frangia/devices/internal/own_drivers.h"
-#include "frangia/devices/internal/stepper_turntable.h"
 
 namespace frangia {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "frangia/devices/driver.h"
 #include "frangia/devices/pattern_display.h"
-#include "frangia/rig/response_curve.h"
+#include "frangia/rig/fringe_waveform.h"
 
 namespace frangia {
 

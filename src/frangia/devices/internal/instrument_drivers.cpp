@@ -3,12 +3,10 @@
 #include <string>
 #include <utility>
 
-#include "frangia/devices/internal/actuator_protocol.h"
-#include "frangia/devices/internal/instrument_shifter.h"
+#include "frangia/devices/device.h"
 #include "frangia/devices/internal/message_instrument.h"
-#include "frangia/devices/internal/open_configured_transport.h"
+#include "frangia/devices/internal/open_transport.h"
 #include "frangia/devices/internal/own_drivers.h"
-#include "frangia/devices/switch_device.h"
 
 namespace frangia {
 namespace {

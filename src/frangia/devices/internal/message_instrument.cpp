@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include "frangia/core/error.h"
+
 namespace frangia {
 namespace {
 
@@ -92,6 +94,91 @@ std::string MessageInstrument::query_error(const Deadline& deadline) {
 void MessageInstrument::fail_with(const std::string& reported, const std::string& after) const {
   fail_device(name(),
               fmt::format("reports {} after '{}'; check the command", printable(reported), after));
+}
+
+ActuatorProtocol scpi_protocol() {
+  return {.language = {"SYST:ERR?", "0", "\n", "*IDN?"},
+          .start = {"*CLS", "OUTP ON"},
+          .set = "VOLT:OFFS {value:.6f}",
+          .settled_query = "*OPC?",
+          .settled_answer = "1",
+          .stop = {"OUTP OFF"}};
+}
+
+ActuatorProtocol gcs2_protocol(const std::string& axis) {
+  return {.language = {"ERR?", "0", "\n", "*IDN?"},
+          .start = {"SVO " + axis + " 1"},
+          .set = "MOV " + axis + " {value:.5f}",
+          .settled_query = "ONT? " + axis,
+          .settled_answer = axis + "=1",
+          .stop = {"STP " + axis}};
+}
+
+std::string fill_command(const std::string& set, double value) {
+  if (set.find("{value") == std::string::npos) {
+    throw Error(ErrorKind::Input, fmt::format("the command '{}' has no {{value}} in it", set));
+  }
+  try {
+    return fmt::format(fmt::runtime(set), fmt::arg("value", value));
+  } catch (const fmt::format_error& error) {
+    throw Error(ErrorKind::Input,
+                fmt::format("the command '{}' cannot be filled: {}", set, error.what()));
+  }
+}
+
+InstrumentShifter::InstrumentShifter(std::unique_ptr<Transport> transport,
+                                     ActuatorProtocol protocol,
+                                     ShifterInfo info,
+                                     double settle_s,
+                                     const Deadline& deadline)
+    : instrument_(std::move(transport), protocol.language),
+      protocol_(std::move(protocol)),
+      info_(std::move(info)),
+      settle_s_(settle_s) {
+  static_cast<void>(fill_command(protocol_.set, info_.min_command));
+  instrument_.clear_errors(deadline);
+}
+
+InstrumentShifter::~InstrumentShifter() {
+  make_safe();
+}
+
+std::string InstrumentShifter::test(const Deadline& deadline) {
+  return instrument_.identify(deadline);
+}
+
+void InstrumentShifter::make_safe() noexcept {
+  started_ = false;
+  instrument_.send_unchecked(protocol_.stop);
+}
+
+void InstrumentShifter::drive(double command, const Deadline& deadline) {
+  check_command(command);
+  if (!started_) start(deadline);
+  instrument_.send(fill_command(protocol_.set, command), deadline);
+  if (!protocol_.settled_query.empty()) wait_until_settled(deadline);
+  deadline.sleep(settle_s_);
+}
+
+void InstrumentShifter::start(const Deadline& deadline) {
+  instrument_.clear_errors(deadline);  // a stop may be reported as an error
+  for (const std::string& command : protocol_.start)
+    instrument_.send(command, deadline);
+  started_ = true;
+}
+
+void InstrumentShifter::wait_until_settled(const Deadline& deadline) {
+  bool answered = false;
+  try {
+    while (instrument_.ask(protocol_.settled_query, deadline) != protocol_.settled_answer) {
+      answered = true;
+      deadline.sleep(0.005);
+    }
+  } catch (const Error& error) {
+    // A query that the deadline interrupts is not the cause.
+    if (!answered || error.kind() != ErrorKind::Device || !deadline.passed()) throw;
+    fail_device(*this, fmt::format("has not settled within {:.3g} s", deadline.timeout_s));
+  }
 }
 
 }  // namespace frangia

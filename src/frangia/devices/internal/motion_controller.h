@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "frangia/devices/device.h"
 #include "frangia/devices/internal/transport.h"
-#include "frangia/devices/safe_off.h"
 
 namespace frangia {
 

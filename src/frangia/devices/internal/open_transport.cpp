@@ -223,4 +223,122 @@ std::unique_ptr<Transport> open_tcp(const std::string& host, int port, const Dea
   return transport;
 }
 
+namespace {
+
+constexpr int kPrologixPort = 1234;
+constexpr int kScpiPort = 5025;
+/// A guardian process ends sooner.
+constexpr double kPortInUse_s = 4.0;
+
+int tcp_port_of(DeviceSettings& settings) {
+  const int usual = settings.has("gpib_address") ? kPrologixPort : kScpiPort;
+  return settings.integer_or("tcp_port", usual, 1, 65535);
+}
+
+std::unique_ptr<Transport> open_serial_or_tcp(DeviceSettings& settings,
+                                              const Deadline& deadline,
+                                              int default_baud) {
+  if (settings.has("host")) {
+    return open_tcp(settings.text("host"), tcp_port_of(settings), deadline);
+  }
+  SerialSettings serial;
+  serial.port = settings.text("port");
+  serial.baud = settings.integer_or("baud", default_baud, 50, 4'000'000);
+  serial.stop_bits = settings.integer_or("stop_bits", 1, 1, 2);
+  const std::string parity = settings.choice("parity", {"none", "even", "odd"});
+  serial.parity = parity == "even" ? Parity::Even : parity == "odd" ? Parity::Odd : Parity::None;
+  return open_serial(serial, deadline.at_most(kPortInUse_s));
+}
+
+}  // namespace
+
+std::unique_ptr<Transport> open_configured_transport(DeviceSettings& settings,
+                                                     const Deadline& deadline,
+                                                     int default_baud) {
+  auto wire = open_serial_or_tcp(settings, deadline, default_baud);
+  if (!settings.has("gpib_address")) return wire;
+  const int address = settings.integer_or("gpib_address", 0, 0, 30);
+  return open_prologix(std::move(wire), address, deadline);
+}
+
+std::string configured_transport_name(DeviceSettings& settings) {
+  if (!settings.has("host")) return settings.text("port");
+  return fmt::format("{}:{}", settings.text("host"), tcp_port_of(settings));
+}
+
+namespace {
+
+class PrologixTransport final : public Transport {
+ public:
+  PrologixTransport(std::unique_ptr<Transport> adapter, int gpib_address)
+      : adapter_(std::move(adapter)),
+        name_(fmt::format("{} GPIB {}", adapter_->name(), gpib_address)) {}
+
+  [[nodiscard]] const std::string& name() const override { return name_; }
+
+  /// Each line is one message; the adapter adds the terminator and EOI.
+  void write(std::string_view bytes, const Deadline& deadline) override {
+    adapter_->write(framed(bytes), deadline);
+    asked_ = false;
+  }
+
+  [[nodiscard]] int file() const override { return adapter_->file(); }
+  [[nodiscard]] std::string framed(std::string_view bytes) const override {
+    while (!bytes.empty() && (bytes.back() == '\n' || bytes.back() == '\r')) {
+      bytes.remove_suffix(1);
+    }
+    std::string message;
+    for (const char c : bytes) {
+      // The adapter itself would interpret these.
+      if (c == '\n' || c == '\r' || c == '+' || c == '\x1b') message += '\x1b';
+      message += c;
+    }
+    return message + "\n";
+  }
+  /// After an escape byte, the first line feed is data and the second ends the command.
+  [[nodiscard]] std::string end_of_command(std::string_view /*terminator*/) const override {
+    return "\n\n";
+  }
+
+  [[nodiscard]] std::optional<std::string> try_read(char end, const Deadline& deadline) override {
+    if (!std::exchange(asked_, true)) adapter_->write("++read eoi\n", deadline);
+    std::optional<std::string> text = adapter_->try_read(end, deadline);
+    if (text) asked_ = false;
+    return text;
+  }
+
+  void discard_input() override {
+    adapter_->discard_input();
+    asked_ = false;
+  }
+
+ private:
+  std::unique_ptr<Transport> adapter_;
+  std::string name_;
+  bool asked_ = false;  ///< the instrument is addressed to talk
+};
+
+}  // namespace
+
+std::unique_ptr<Transport> open_prologix(std::unique_ptr<Transport> adapter,
+                                         int gpib_address,
+                                         const Deadline& deadline) {
+  if (gpib_address < 0 || gpib_address > 30) {
+    throw Error(ErrorKind::Input,
+                fmt::format("gpib_address is {}; it must lie between 0 and 30", gpib_address));
+  }
+  adapter->write("++ver\n", deadline);
+  const std::string version = read_line(*adapter, deadline);
+  if (version.find("Prologix") == std::string::npos && version.find("GPIB") == std::string::npos) {
+    fail_device(adapter->name(),
+                fmt::format("is not a Prologix adapter: it answered '{}'", printable(version)));
+  }
+  // Do not save to EEPROM; no automatic read after write; EOI ends messages; append CR LF.
+  for (const char* command : {"++savecfg 0", "++mode 1", "++auto 0", "++eoi 1", "++eos 0"}) {
+    adapter->write(fmt::format("{}\n", command), deadline);
+  }
+  adapter->write(fmt::format("++addr {}\n", gpib_address), deadline);
+  return std::make_unique<PrologixTransport>(std::move(adapter), gpib_address);
+}
+
 }  // namespace frangia

@@ -3,6 +3,7 @@
 #include <memory>
 #include <string>
 
+#include "frangia/devices/device_settings.h"
 #include "frangia/devices/internal/transport.h"
 
 namespace frangia {
@@ -29,5 +30,25 @@ struct SerialSettings {
 [[nodiscard]] std::unique_ptr<Transport> open_tcp(const std::string& host,
                                                   int port,
                                                   const Deadline& deadline);
+
+/// Opens the line in the settings of a device: `port` with `baud`, `parity`, `stop_bits`, or `host`
+/// with `tcp_port`; with `gpib_address` through a Prologix adapter on that line.
+///
+/// @errors   Error(Input) that names the file and the key; Error(Device) when it cannot be opened
+[[nodiscard]] std::unique_ptr<Transport> open_configured_transport(DeviceSettings& settings,
+                                                                   const Deadline& deadline,
+                                                                   int default_baud = 115200);
+
+/// A unique name of the line: "/dev/ttyUSB0", "10.0.0.7:1234".
+[[nodiscard]] std::string configured_transport_name(DeviceSettings& settings);
+
+/// A GPIB instrument behind a Prologix GPIB-Ethernet or GPIB-USB adapter, as a line of its own. A
+/// read asks the adapter to address the instrument to talk until EOI.
+///
+/// @errors   those of the line; Error(Input) when the address is not 0 to 30
+/// @source   Prologix GPIB-ETHERNET Controller User Manual, 1.6
+[[nodiscard]] std::unique_ptr<Transport> open_prologix(std::unique_ptr<Transport> adapter,
+                                                       int gpib_address,
+                                                       const Deadline& deadline);
 
 }  // namespace frangia

@@ -11,8 +11,7 @@
 #include <fmt/format.h>
 #include <linux/videodev2.h>
 
-#include "frangia/devices/internal/v4l2_automatics.h"
-#include "frangia/devices/internal/v4l2_modes.h"
+#include "frangia/devices/internal/v4l2_system.h"
 #include "frangia/frames/decode_mjpeg.h"
 
 namespace frangia {

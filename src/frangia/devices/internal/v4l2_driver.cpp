@@ -4,7 +4,7 @@
 #include <linux/videodev2.h>
 
 #include "frangia/devices/internal/v4l2_camera.h"
-#include "frangia/devices/internal/v4l2_modes.h"
+#include "frangia/devices/internal/v4l2_system.h"
 
 namespace frangia {
 namespace {

@@ -6,7 +6,7 @@
 
 #include <Eigen/Geometry>
 
-#include "frangia/editor/internal/select_by_outline.h"
+#include "frangia/editor/internal/select_by_geometry.h"
 #include "frangia/geometry/mesh.h"
 
 namespace frangia {

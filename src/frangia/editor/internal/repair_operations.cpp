@@ -3,13 +3,13 @@
 
 #include "frangia/editor/internal/edit_value.h"
 #include "frangia/editor/internal/operation_groups.h"
-#include "frangia/geometry/connected_components.h"
+#include "frangia/geometry/components.h"
 #include "frangia/mesh/bridge_loops.h"
 #include "frangia/mesh/fill_holes.h"
 #include "frangia/mesh/make_manifold.h"
 #include "frangia/mesh/orient.h"
-#include "frangia/mesh/remove_self_intersections.h"
 #include "frangia/mesh/remove_spikes.h"
+#include "frangia/mesh/self_intersections.h"
 #include "frangia/mesh/stitch.h"
 
 namespace frangia {

@@ -8,7 +8,7 @@
 #include "frangia/core/error.h"
 #include "frangia/core/missing.h"
 #include "frangia/core/parallel.h"
-#include "frangia/geometry/half_edges.h"
+#include "frangia/geometry/connectivity.h"
 #include "frangia/geometry/vertex_data.h"
 
 namespace frangia {

@@ -14,7 +14,7 @@
 #include <zlib.h>
 
 #include "frangia/core/error.h"
-#include "frangia/core/read_regular_file.h"
+#include "frangia/core/read_file.h"
 #include "frangia/exchange/internal/named_values.h"
 
 namespace frangia {

@@ -10,8 +10,8 @@
 
 #include "frangia/core/check_nesting.h"
 #include "frangia/core/error.h"
-#include "frangia/core/plain_text.h"
-#include "frangia/core/read_text_file.h"
+#include "frangia/core/read_file.h"
+#include "frangia/core/text.h"
 #include "frangia/exchange/internal/named_values.h"
 #include "frangia/exchange/internal/storage_formats.h"
 

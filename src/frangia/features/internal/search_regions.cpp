@@ -6,7 +6,7 @@
 #include <optional>
 #include <utility>
 
-#include "frangia/core/interruptible_chunks.h"
+#include "frangia/core/parallel.h"
 #include "frangia/core/random.h"
 #include "frangia/features/fit_shape.h"
 #include "frangia/features/internal/shapes_from_normals.h"

@@ -7,7 +7,7 @@
 
 #include "frangia/core/run.h"
 #include "frangia/features/find_features.h"
-#include "frangia/features/internal/grow_region.h"
+#include "frangia/features/internal/surface_cells.h"
 
 namespace frangia {
 

@@ -5,8 +5,7 @@
 
 #include <Eigen/Geometry>
 
-#include "frangia/core/solve_symmetric.h"
-#include "frangia/core/symmetric_eigen.h"
+#include "frangia/core/linear_algebra.h"
 
 namespace frangia {
 namespace {

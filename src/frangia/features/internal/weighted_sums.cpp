@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "frangia/core/median.h"
+#include "frangia/core/statistics.h"
 #include "frangia/geometry/robust_gauss_newton.h"
 
 namespace frangia {

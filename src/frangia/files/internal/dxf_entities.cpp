@@ -12,7 +12,6 @@
 #include <fmt/format.h>
 
 #include "frangia/core/angles.h"
-#include "frangia/files/internal/dxf_blocks.h"
 #include "frangia/files/internal/dxf_drawing.h"
 #include "frangia/files/internal/text_reader.h"
 

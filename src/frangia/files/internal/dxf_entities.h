@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "frangia/files/internal/dxf_blocks.h"
+#include "frangia/files/internal/dxf_drawing.h"
 #include "frangia/files/internal/dxf_groups.h"
 #include "frangia/files/internal/dxf_triangles.h"
 

@@ -5,8 +5,8 @@
 #include <Eigen/Geometry>
 #include <fmt/format.h>
 
-#include "frangia/files/internal/polygon_triangles.h"
-#include "frangia/files/internal/weld_vertices.h"
+#include "frangia/files/internal/join_soup.h"
+#include "frangia/files/internal/polygon_faces.h"
 
 namespace frangia {
 

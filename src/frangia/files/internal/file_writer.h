@@ -1,14 +1,21 @@
 #pragma once
 
+#include <algorithm>
 #include <bit>
+#include <cmath>
+#include <cstdint>
 #include <filesystem>
+#include <span>
 #include <string>
 #include <string_view>
 #include <type_traits>
+#include <vector>
 
 #include <Eigen/Core>
 
-#include "frangia/core/atomic_file.h"
+#include "frangia/core/durable_file.h"
+#include "frangia/files/ply.h"
+#include "frangia/geometry/mesh.h"
 
 namespace frangia {
 
@@ -45,5 +52,48 @@ class FileWriter {
   AtomicFile file_;
   std::string buffer_;
 };
+
+/// How a format stores the color of a vertex.
+enum class ColorLayout {
+  Bytes,  ///< red, green and blue, a byte each
+  Packed  ///< four bytes: blue, green, red and zero
+};
+
+/// Writes the vertices interleaved, as binary PLY and PCD store them: position and normal (floats),
+/// sigma and its parts (float), views (2 bytes), mark (1 byte), color, the rest (float). Attributes
+/// that the mesh does not have are omitted.
+void write_vertices(FileWriter& file,
+                    const Mesh& mesh,
+                    ColorLayout colors,
+                    std::span<const VertexProperty> more = {});
+
+/// The color of screen values from 0 to 1; other values are clipped.
+///
+/// @missing  NaN gives 0
+[[nodiscard]] inline VertexColor color_of(float red, float green, float blue) {
+  const auto byte = [](float value) {
+    const float clipped = value > 0.0F ? std::min(value, 1.0F) : 0.0F;
+    return static_cast<std::uint8_t>(std::lround(255.0F * clipped));
+  };
+  return {byte(red), byte(green), byte(blue)};
+}
+
+/// The colors of numbers whose format allows 1 or 255 for full light: where one is larger than 2,
+/// as no rounding of 1 is, it is 255.
+[[nodiscard]] inline std::vector<VertexColor> colors_of(
+    const std::vector<Eigen::Vector3f>& values) {
+  constexpr float kRounded = 2.0F;
+  const float full =
+      std::any_of(values.begin(),
+                  values.end(),
+                  [](const Eigen::Vector3f& value) { return value.maxCoeff() > kRounded; })
+          ? 255.0F
+          : 1.0F;
+  std::vector<VertexColor> colors;
+  colors.reserve(values.size());
+  for (const Eigen::Vector3f& value : values)
+    colors.push_back(color_of(value.x() / full, value.y() / full, value.z() / full));
+  return colors;
+}
 
 }  // namespace frangia

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <span>
 
 #include "frangia/core/run.h"
 #include "frangia/geometry/mesh.h"
@@ -20,5 +21,14 @@ namespace frangia {
 ///
 /// @errors   Error(Cancelled)
 [[nodiscard]] Mesh join_soup(Mesh mesh, const std::filesystem::path& path, const Run& run);
+
+/// Merges corners with identical coordinates into shared vertices. Shells that touch each other
+/// stay apart, see `separate_shells`.
+///
+/// @shape    three corners per triangle; vertices are numbered in order of first appearance, those
+///           where shells touch at the end
+/// @missing  a triangle with two identical corners is omitted
+/// @errors   Error(Input) when the number of corners is not a multiple of three or exceeds 32 bits
+[[nodiscard]] Mesh weld_vertices(std::span<const Eigen::Vector3f> corners_mm);
 
 }  // namespace frangia

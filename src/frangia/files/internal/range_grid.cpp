@@ -11,8 +11,8 @@
 #include <fmt/format.h>
 
 #include "frangia/core/error.h"
-#include "frangia/core/median.h"
-#include "frangia/files/internal/ply_source.h"
+#include "frangia/core/statistics.h"
+#include "frangia/files/internal/ply_header.h"
 #include "frangia/files/internal/text_reader.h"
 
 namespace frangia {

@@ -8,13 +8,13 @@
 #include <fmt/format.h>
 
 #include "frangia/core/error.h"
-#include "frangia/core/plain_text.h"
+#include "frangia/core/text.h"
 #include "frangia/files/dxf.h"
 #include "frangia/files/internal/check_mesh.h"
-#include "frangia/files/internal/dxf_blocks.h"
+#include "frangia/files/internal/dxf_drawing.h"
 #include "frangia/files/internal/dxf_entities.h"
 #include "frangia/files/internal/dxf_groups.h"
-#include "frangia/files/internal/read_bytes.h"
+#include "frangia/files/internal/text_reader.h"
 
 namespace frangia {
 namespace {

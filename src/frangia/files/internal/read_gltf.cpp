@@ -16,7 +16,6 @@
 #include "frangia/files/internal/check_mesh.h"
 #include "frangia/files/internal/gltf.h"
 #include "frangia/files/internal/gltf_document.h"
-#include "frangia/files/internal/mesh_memory.h"
 #include "frangia/geometry/vertex_data.h"
 
 namespace frangia {

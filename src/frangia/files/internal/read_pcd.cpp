@@ -16,13 +16,11 @@
 #include <fmt/ranges.h>
 
 #include "frangia/core/error.h"
-#include "frangia/core/plain_text.h"
+#include "frangia/core/text.h"
 #include "frangia/files/internal/check_mesh.h"
-#include "frangia/files/internal/color_of.h"
+#include "frangia/files/internal/file_writer.h"
 #include "frangia/files/internal/pcd.h"
-#include "frangia/files/internal/read_bytes.h"
 #include "frangia/files/internal/text_reader.h"
-#include "frangia/files/internal/warn_of_rest.h"
 
 namespace frangia {
 namespace {

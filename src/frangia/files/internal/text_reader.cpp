@@ -2,11 +2,15 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cstdint>
+#include <limits>
 #include <system_error>
 
 #include <fmt/format.h>
 
 #include "frangia/core/error.h"
+#include "frangia/core/read_file.h"
+#include "frangia/files/internal/check_mesh.h"
 
 namespace frangia {
 namespace {
@@ -124,6 +128,26 @@ std::string in_quotes(std::string_view word) {
   std::replace_if(
       shown.begin(), shown.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
   return fmt::format("'{}{}'", shown, word.size() > kMaxShown ? "..." : "");
+}
+
+std::string without_percent(const std::string& uri) {
+  std::string plain;
+  for (std::size_t i = 0; i < uri.size(); ++i) {
+    unsigned code = 0;
+    const char* const digits = uri.data() + i + 1;
+    const bool is_escape = uri[i] == '%' && i + 2 < uri.size() &&
+                           std::from_chars(digits, digits + 2, code, 16).ptr == digits + 2;
+    plain += is_escape ? static_cast<char>(code) : uri[i];
+    if (is_escape) i += 2;
+  }
+  return plain;
+}
+
+std::string read_bytes(const std::filesystem::path& path) {
+  std::string bytes = read_text_file(path, std::numeric_limits<std::uint64_t>::max());
+  const std::string other = other_kind_of(bytes);
+  if (!other.empty()) throw Error(ErrorKind::Input, fmt::format("{}: {}", path.string(), other));
+  return bytes;
 }
 
 }  // namespace frangia

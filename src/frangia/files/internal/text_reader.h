@@ -49,4 +49,13 @@ class TextReader {
 /// word.
 [[nodiscard]] std::string in_quotes(std::string_view word);
 
+/// A uri, or the name of a part of a package, with its escapes, such as %20 for a blank, replaced.
+[[nodiscard]] std::string without_percent(const std::string& uri);
+
+/// Reads a whole file of any size.
+///
+/// @errors   Error(Input) that names the file: it does not exist, is not a regular file, cannot be
+///          read, or is packed or of a kind that no reader of meshes takes
+[[nodiscard]] std::string read_bytes(const std::filesystem::path& path);
+
 }  // namespace frangia

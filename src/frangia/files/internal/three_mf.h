@@ -3,7 +3,7 @@
 #include <filesystem>
 
 #include "frangia/core/run.h"
-#include "frangia/files/read_options.h"
+#include "frangia/files/read_mesh.h"
 #include "frangia/geometry/mesh.h"
 
 namespace frangia {

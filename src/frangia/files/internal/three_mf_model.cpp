@@ -9,7 +9,7 @@
 
 #include "frangia/core/error.h"
 #include "frangia/files/internal/append_transformed.h"
-#include "frangia/files/internal/mesh_memory.h"
+#include "frangia/files/internal/check_mesh.h"
 #include "frangia/files/internal/text_reader.h"
 #include "frangia/geometry/vertex_data.h"
 

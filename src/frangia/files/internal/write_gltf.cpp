@@ -9,12 +9,11 @@
 
 #include "frangia/core/base64.h"
 #include "frangia/core/error.h"
-#include "frangia/core/lowercase_extension.h"
 #include "frangia/core/srgb.h"
+#include "frangia/core/text.h"
 #include "frangia/files/internal/check_mesh.h"
 #include "frangia/files/internal/file_writer.h"
 #include "frangia/files/internal/gltf.h"
-#include "frangia/geometry/mark_colors.h"
 #include "frangia/geometry/vertex_data.h"
 
 namespace frangia {

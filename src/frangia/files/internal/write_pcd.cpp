@@ -5,7 +5,6 @@
 #include "frangia/files/internal/check_mesh.h"
 #include "frangia/files/internal/file_writer.h"
 #include "frangia/files/internal/pcd.h"
-#include "frangia/files/internal/write_vertices.h"
 
 namespace frangia {
 namespace {

@@ -8,9 +8,9 @@
 #include <unzip.h>
 #include <zip.h>
 
-#include "frangia/core/atomic_file.h"
+#include "frangia/core/durable_file.h"
 #include "frangia/core/error.h"
-#include "frangia/files/internal/other_kind.h"
+#include "frangia/files/internal/check_mesh.h"
 
 namespace frangia {
 namespace {

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "frangia/core/parallel.h"
-#include "frangia/rig/fast_camera_model.h"
+#include "frangia/rig/camera_model.h"
 
 namespace frangia {
 namespace {

@@ -4,7 +4,7 @@
 
 #include "frangia/core/image.h"
 #include "frangia/fusion/fusion_parameters.h"
-#include "frangia/fusion/internal/edge_crossings.h"
+#include "frangia/fusion/internal/cell_loops.h"
 #include "frangia/fusion/internal/hermite_accumulators.h"
 #include "frangia/local_fit/local_planes.h"
 

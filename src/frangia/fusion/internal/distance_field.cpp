@@ -6,7 +6,7 @@
 #include "frangia/core/parallel.h"
 #include "frangia/core/vectorized.h"
 #include "frangia/fusion/internal/blocks_near.h"
-#include "frangia/rig/fast_camera_model.h"
+#include "frangia/rig/camera_model.h"
 
 namespace frangia {
 namespace {

@@ -15,11 +15,9 @@
 
 #include "frangia/core/parallel.h"
 #include "frangia/fusion/internal/cell_loops.h"
-#include "frangia/fusion/internal/edge_crossings.h"
 #include "frangia/fusion/internal/hermite_accumulators.h"
 #include "frangia/fusion/internal/remove_foldovers.h"
 #include "frangia/fusion/internal/remove_slivers.h"
-#include "frangia/fusion/internal/settle_bends.h"
 #include "frangia/fusion/internal/sharpen_edges.h"
 
 namespace frangia {

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "frangia/fusion/fusion_parameters.h"
-#include "frangia/fusion/internal/edge_crossings.h"
+#include "frangia/fusion/internal/cell_loops.h"
 #include "frangia/fusion/internal/hermite_accumulators.h"
 #include "frangia/fusion/internal/place_vertices.h"
 #include "frangia/geometry/mesh.h"

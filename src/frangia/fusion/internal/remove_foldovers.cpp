@@ -9,7 +9,7 @@
 
 #include "frangia/core/parallel.h"
 #include "frangia/fusion/internal/normal_agreement.h"
-#include "frangia/geometry/one_rings.h"
+#include "frangia/geometry/connectivity.h"
 
 namespace frangia {
 namespace {

@@ -7,7 +7,7 @@
 
 #include <Eigen/Geometry>
 
-#include "frangia/geometry/half_edges.h"
+#include "frangia/geometry/connectivity.h"
 #include "frangia/inspect/internal/vertex_use.h"
 
 namespace frangia::inspect {

@@ -7,7 +7,7 @@
 #include <tuple>
 #include <vector>
 
-#include "frangia/core/median.h"
+#include "frangia/core/statistics.h"
 
 namespace frangia::inspect {
 namespace {

@@ -8,8 +8,8 @@
 
 #include <Eigen/Geometry>
 
-#include "frangia/core/median.h"
 #include "frangia/core/missing.h"
+#include "frangia/core/statistics.h"
 #include "frangia/geometry/vertex_data.h"
 #include "frangia/inspect/internal/vertex_use.h"
 

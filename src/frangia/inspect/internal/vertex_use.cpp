@@ -5,7 +5,7 @@
 
 #include <Eigen/Geometry>
 
-#include "frangia/geometry/half_edges.h"
+#include "frangia/geometry/connectivity.h"
 #include "frangia/geometry/vertex_data.h"
 
 namespace frangia {

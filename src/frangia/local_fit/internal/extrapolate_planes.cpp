@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "frangia/core/four_neighbors.h"
+#include "frangia/core/image.h"
 #include "frangia/core/parallel.h"
 
 namespace frangia {

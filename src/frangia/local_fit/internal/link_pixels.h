@@ -3,7 +3,6 @@
 #include <cstdint>
 
 #include "frangia/core/image.h"
-#include "frangia/core/pixel_box.h"
 #include "frangia/range/range_grid.h"
 #include "frangia/rig/camera_model.h"
 

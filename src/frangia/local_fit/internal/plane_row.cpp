@@ -7,7 +7,7 @@
 
 #include "frangia/core/missing.h"
 #include "frangia/core/vectorized.h"
-#include "frangia/local_fit/internal/residual_autocorrelation.h"
+#include "frangia/local_fit/internal/estimate_lateral_noise.h"
 
 namespace frangia {
 namespace {

@@ -5,10 +5,10 @@
 
 #include <Eigen/Core>
 
-#include "frangia/local_fit/choose_window.h"
+#include "frangia/local_fit/fit_windows.h"
 #include "frangia/local_fit/internal/link_pixels.h"
 #include "frangia/local_fit/local_planes.h"
-#include "frangia/rig/fast_camera_model.h"
+#include "frangia/rig/camera_model.h"
 
 namespace frangia {
 

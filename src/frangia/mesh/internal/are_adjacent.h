@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstdint>
 
-#include "frangia/geometry/half_edges.h"
+#include "frangia/geometry/connectivity.h"
 
 namespace frangia {
 

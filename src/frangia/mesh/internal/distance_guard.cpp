@@ -5,11 +5,11 @@
 #include <limits>
 #include <span>
 
-#include "frangia/core/interruptible_chunks.h"
+#include "frangia/core/parallel.h"
 #include "frangia/geometry/hausdorff_distance.h"
-#include "frangia/geometry/nearest_on_triangle.h"
 #include "frangia/geometry/selection.h"
-#include "frangia/geometry/triangle_samples.h"
+#include "frangia/geometry/surface_samples.h"
+#include "frangia/geometry/triangle_predicates.h"
 #include "frangia/geometry/vertex_data.h"
 
 namespace frangia {

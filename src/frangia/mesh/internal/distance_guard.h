@@ -6,11 +6,10 @@
 #include <Eigen/Core>
 
 #include "frangia/core/run.h"
-#include "frangia/geometry/half_edges.h"
+#include "frangia/geometry/connectivity.h"
 #include "frangia/geometry/mesh.h"
 #include "frangia/geometry/ray_scene.h"
-#include "frangia/mesh/internal/collapse_cost.h"
-#include "frangia/mesh/internal/collapse_topology.h"
+#include "frangia/mesh/internal/edge_collapse.h"
 
 namespace frangia {
 

@@ -11,7 +11,7 @@
 #include <Eigen/SparseCholesky>
 #include <Eigen/SparseCore>
 
-#include "frangia/core/median.h"
+#include "frangia/core/statistics.h"
 
 namespace frangia {
 namespace {

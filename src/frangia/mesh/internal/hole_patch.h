@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "frangia/core/run.h"
-#include "frangia/geometry/boundary_loops.h"
-#include "frangia/geometry/half_edges.h"
+#include "frangia/geometry/boundary.h"
+#include "frangia/geometry/connectivity.h"
 #include "frangia/geometry/mesh.h"
 
 namespace frangia {

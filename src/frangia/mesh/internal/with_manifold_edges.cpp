@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 
 #include "frangia/core/error.h"
-#include "frangia/geometry/half_edges.h"
+#include "frangia/geometry/connectivity.h"
 #include "frangia/mesh/make_manifold.h"
 
 namespace frangia {

@@ -6,10 +6,8 @@
 #include <Eigen/LU>
 
 #include "frangia/core/angles.h"
-#include "frangia/core/cholesky.h"
 #include "frangia/core/error.h"
-#include "frangia/core/matrix_products.h"
-#include "frangia/core/solve_symmetric.h"
+#include "frangia/core/linear_algebra.h"
 #include "frangia/phase/internal/fringe_model.h"
 #include "frangia/phase/waveform/frame_samples.h"
 

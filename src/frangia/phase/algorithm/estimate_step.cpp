@@ -8,9 +8,7 @@
 #include <Eigen/Core>
 
 #include "frangia/core/angles.h"
-#include "frangia/core/least_squares.h"
-#include "frangia/core/matrix_products.h"
-#include "frangia/core/symmetric_eigen.h"
+#include "frangia/core/linear_algebra.h"
 #include "frangia/frames/frame_stack.h"
 #include "frangia/phase/internal/fit_residuals.h"
 #include "frangia/phase/internal/fringe_bins.h"

@@ -10,7 +10,7 @@
 #include <fmt/ranges.h>
 
 #include "frangia/core/error.h"
-#include "frangia/core/median.h"
+#include "frangia/core/statistics.h"
 #include "frangia/pattern/gray_code.h"
 
 namespace frangia {

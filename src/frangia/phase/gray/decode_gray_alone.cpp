@@ -9,9 +9,9 @@
 #include <fmt/format.h>
 
 #include "frangia/core/error.h"
-#include "frangia/core/median.h"
 #include "frangia/core/missing.h"
 #include "frangia/core/parallel.h"
+#include "frangia/core/statistics.h"
 #include "frangia/phase/gray/internal/gray_line_decoder.h"
 
 namespace frangia {

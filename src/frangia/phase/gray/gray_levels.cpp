@@ -4,9 +4,9 @@
 #include <utility>
 #include <vector>
 
-#include "frangia/core/median.h"
 #include "frangia/core/missing.h"
 #include "frangia/core/parallel.h"
+#include "frangia/core/statistics.h"
 #include "frangia/pattern/gray_code.h"
 #include "frangia/phase/gray/decode_gray_alone.h"
 

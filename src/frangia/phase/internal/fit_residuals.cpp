@@ -5,8 +5,8 @@
 #include <cstddef>
 
 #include "frangia/core/angles.h"
+#include "frangia/core/linear_algebra.h"
 #include "frangia/core/missing.h"
-#include "frangia/core/solve_symmetric.h"
 #include "frangia/phase/algorithm/phase_algorithm.h"
 
 namespace frangia {

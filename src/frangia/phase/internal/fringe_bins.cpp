@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "frangia/core/median.h"
+#include "frangia/core/statistics.h"
 #include "frangia/phase/algorithm/phase_algorithm.h"
 
 namespace frangia {

@@ -11,7 +11,7 @@
 #include "frangia/phase/internal/frequency_slope.h"
 #include "frangia/phase/internal/unwrap_level_lanes.h"
 #include "frangia/phase/internal/wrap_tile.h"
-#include "frangia/rig/phase_range.h"
+#include "frangia/rig/rig.h"
 
 namespace frangia {
 namespace {

@@ -8,7 +8,7 @@
 
 #include "frangia/core/disjoint_sets.h"
 #include "frangia/core/parallel.h"
-#include "frangia/core/pixel_allocator.h"
+#include "frangia/core/pixel_buffer.h"
 #include "frangia/core/vectorized.h"
 #include "frangia/phase/internal/pixel_runs.h"
 #include "frangia/phase/spatial/internal/cut_mask.h"

@@ -8,9 +8,9 @@
 #include <fmt/format.h>
 
 #include "frangia/core/angles.h"
-#include "frangia/core/median.h"
 #include "frangia/core/missing.h"
 #include "frangia/core/parallel.h"
+#include "frangia/core/statistics.h"
 
 namespace frangia {
 namespace {

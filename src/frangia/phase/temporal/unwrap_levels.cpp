@@ -6,7 +6,7 @@
 
 #include "frangia/core/angles.h"
 #include "frangia/pattern/fringe_sequence.h"
-#include "frangia/rig/phase_range.h"
+#include "frangia/rig/rig.h"
 
 namespace frangia {
 namespace {

@@ -15,7 +15,7 @@
 #include "frangia/core/missing.h"
 #include "frangia/core/parallel.h"
 #include "frangia/core/vectorized.h"
-#include "frangia/pattern/order_confusion.h"
+#include "frangia/pattern/fringe_sequence.h"
 #include "frangia/pattern/pattern.h"
 #include "frangia/phase/internal/frequency_slope.h"
 #include "frangia/phase/internal/hierarchical_unwrapper.h"
@@ -23,8 +23,8 @@
 #include "frangia/phase/internal/tile_phases.h"
 #include "frangia/phase/internal/wrap_tile.h"
 #include "frangia/phase/temporal/unwrap_levels.h"
-#include "frangia/rig/phase_range.h"
 #include "frangia/rig/projector.h"
+#include "frangia/rig/rig.h"
 
 namespace frangia {
 namespace {

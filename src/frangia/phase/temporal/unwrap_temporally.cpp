@@ -10,7 +10,7 @@
 #include "frangia/core/missing.h"
 #include "frangia/core/parallel.h"
 #include "frangia/phase/internal/row_smoother.h"
-#include "frangia/rig/phase_range.h"
+#include "frangia/rig/rig.h"
 
 namespace frangia {
 

@@ -11,7 +11,7 @@
 #include <fmt/format.h>
 
 #include "frangia/core/angles.h"
-#include "frangia/core/median.h"
+#include "frangia/core/statistics.h"
 #include "frangia/phase/waveform/internal/residual_model.h"
 #include "frangia/phase/waveform/systematic_phase.h"
 

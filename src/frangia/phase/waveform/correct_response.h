@@ -6,7 +6,6 @@
 #include "frangia/phase/algorithm/phase_algorithm.h"
 #include "frangia/phase/wrap/phase_map.h"
 #include "frangia/rig/fringe_waveform.h"
-#include "frangia/rig/response_curve.h"
 
 namespace frangia {
 

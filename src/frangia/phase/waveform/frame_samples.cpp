@@ -6,7 +6,7 @@
 #include <type_traits>
 #include <utility>
 
-#include "frangia/core/every_nth_pixel.h"
+#include "frangia/core/image.h"
 
 namespace frangia {
 

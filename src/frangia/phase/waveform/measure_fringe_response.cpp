@@ -9,7 +9,7 @@
 
 #include "frangia/core/angles.h"
 #include "frangia/core/error.h"
-#include "frangia/core/solve_symmetric.h"
+#include "frangia/core/linear_algebra.h"
 #include "frangia/phase/algorithm/phase_algorithm.h"
 
 namespace frangia {

@@ -5,7 +5,6 @@
 
 #include "frangia/frames/frame_stack.h"
 #include "frangia/rig/fringe_waveform.h"
-#include "frangia/rig/response_curve.h"
 
 namespace frangia {
 

@@ -3,7 +3,7 @@
 #include <span>
 
 #include "frangia/frames/frame_stack.h"
-#include "frangia/rig/response_curve.h"
+#include "frangia/rig/fringe_waveform.h"
 
 namespace frangia {
 

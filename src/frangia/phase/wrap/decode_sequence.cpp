@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "frangia/core/error.h"
+#include "frangia/core/image.h"
 #include "frangia/core/missing.h"
 #include "frangia/core/parallel.h"
-#include "frangia/core/resize_uninitialized.h"
 #include "frangia/core/vectorized.h"
 #include "frangia/phase/internal/hierarchical_unwrapper.h"
 #include "frangia/phase/internal/wrap_tile.h"

@@ -12,7 +12,7 @@
 
 #include <Eigen/LU>
 
-#include "frangia/core/median.h"
+#include "frangia/core/statistics.h"
 #include "frangia/phase/algorithm/phase_algorithm.h"
 #include "frangia/phase/waveform/fit_waveform.h"
 #include "frangia/phase/wrap/internal/row_rounds.h"

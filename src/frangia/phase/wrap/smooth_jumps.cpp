@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "frangia/core/angles.h"
-#include "frangia/core/median.h"
 #include "frangia/core/missing.h"
 #include "frangia/core/parallel.h"
+#include "frangia/core/statistics.h"
 #include "frangia/core/vectorized.h"
 
 namespace frangia {

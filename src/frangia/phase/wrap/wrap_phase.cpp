@@ -6,9 +6,9 @@
 #include <cstdint>
 #include <utility>
 
+#include "frangia/core/image.h"
 #include "frangia/core/missing.h"
 #include "frangia/core/parallel.h"
-#include "frangia/core/resize_uninitialized.h"
 #include "frangia/core/vectorized.h"
 #include "frangia/phase/internal/wrap_tile.h"
 #include "frangia/phase/wrap/internal/phase_kernel.h"

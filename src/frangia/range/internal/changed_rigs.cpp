@@ -7,9 +7,9 @@
 #include <Eigen/QR>
 
 #include "frangia/core/parallel.h"
-#include "frangia/range/fringe_ray.h"
+#include "frangia/range/triangulate.h"
+#include "frangia/rig/rig.h"
 #include "frangia/rig/rig_covariance.h"
-#include "frangia/rig/rig_of_camera.h"
 
 namespace frangia {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "frangia/core/angles.h"
 #include "frangia/core/missing.h"
-#include "frangia/range/fringe_ray.h"
+#include "frangia/range/triangulate.h"
 
 namespace frangia {
 namespace {

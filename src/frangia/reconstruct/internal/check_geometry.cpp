@@ -8,7 +8,7 @@
 
 #include "frangia/core/angles.h"
 #include "frangia/core/error.h"
-#include "frangia/rig/fringe_parallax.h"
+#include "frangia/rig/rig.h"
 
 namespace frangia {
 namespace {

@@ -11,8 +11,8 @@
 
 #include "frangia/core/error.h"
 #include "frangia/core/image.h"
-#include "frangia/core/median.h"
 #include "frangia/core/missing.h"
+#include "frangia/core/statistics.h"
 #include "frangia/indirect_light/extrapolate_faces.h"
 #include "frangia/reconstruct/internal/indirect_part.h"
 #include "frangia/rig/camera_model.h"

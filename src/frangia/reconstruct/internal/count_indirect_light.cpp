@@ -4,7 +4,7 @@
 #include <memory>
 #include <vector>
 
-#include "frangia/dataset/scan_of_camera.h"
+#include "frangia/dataset/scan_folder.h"
 
 namespace frangia {
 namespace {

@@ -11,7 +11,7 @@
 #include <fmt/format.h>
 
 #include "frangia/core/parallel.h"
-#include "frangia/geometry/boundary_loops.h"
+#include "frangia/geometry/boundary.h"
 #include "frangia/mesh/fill_holes.h"
 #include "frangia/rig/camera_model.h"
 

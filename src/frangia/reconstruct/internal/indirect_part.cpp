@@ -8,14 +8,14 @@
 #include <variant>
 #include <vector>
 
-#include "frangia/core/median.h"
 #include "frangia/core/parallel.h"
+#include "frangia/core/statistics.h"
 #include "frangia/indirect_light/estimate_albedo.h"
 #include "frangia/indirect_light/indirect_phase.h"
 #include "frangia/indirect_light/lit_surface.h"
 #include "frangia/indirect_light/view_light.h"
-#include "frangia/range/fringe_ray.h"
-#include "frangia/views/subsample.h"
+#include "frangia/range/triangulate.h"
+#include "frangia/views/thin_view.h"
 
 namespace frangia {
 namespace {

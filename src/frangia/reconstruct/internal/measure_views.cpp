@@ -14,9 +14,9 @@
 
 #include <fmt/format.h>
 
-#include "frangia/core/median.h"
+#include "frangia/core/statistics.h"
 #include "frangia/dataset/capture_times.h"
-#include "frangia/dataset/scan_of_camera.h"
+#include "frangia/dataset/scan_folder.h"
 #include "frangia/decode/check_view.h"
 #include "frangia/decode/fuse_view_cameras.h"
 #include "frangia/decode/survey_scan.h"

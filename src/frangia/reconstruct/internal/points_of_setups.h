@@ -5,7 +5,7 @@
 
 #include "frangia/core/run.h"
 #include "frangia/reconstruct/internal/register_setups.h"
-#include "frangia/views/collect_points.h"
+#include "frangia/views/view_store.h"
 
 namespace frangia {
 

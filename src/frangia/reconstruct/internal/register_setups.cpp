@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "frangia/local_fit/make_surfel_maps.h"
+#include "frangia/local_fit/surfel_map.h"
 #include "frangia/registration/compare_groups.h"
 #include "frangia/registration/join_by_shape.h"
 #include "frangia/registration/settle_group_pose.h"

@@ -10,9 +10,9 @@
 #include <fmt/format.h>
 
 #include "frangia/core/error.h"
-#include "frangia/core/median.h"
 #include "frangia/core/missing.h"
 #include "frangia/core/parallel.h"
+#include "frangia/core/statistics.h"
 #include "frangia/geometry/ray_scene.h"
 
 namespace frangia {

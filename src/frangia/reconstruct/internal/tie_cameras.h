@@ -6,7 +6,7 @@
 #include "frangia/fusion/fuse_views.h"
 #include "frangia/reconstruct/internal/register_setups.h"
 #include "frangia/rig/rig.h"
-#include "frangia/views/collect_points.h"
+#include "frangia/views/view_store.h"
 
 namespace frangia {
 

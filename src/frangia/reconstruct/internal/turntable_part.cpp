@@ -6,8 +6,8 @@
 
 #include <Eigen/Geometry>
 
-#include "frangia/core/interruptible_chunks.h"
-#include "frangia/core/solve_symmetric.h"
+#include "frangia/core/linear_algebra.h"
+#include "frangia/core/parallel.h"
 #include "frangia/geometry/vertex_data.h"
 #include "frangia/uncertainty/combined_sigma.h"
 

@@ -6,7 +6,7 @@
 #include "frangia/fusion/fuse_views.h"
 #include "frangia/geometry/mesh.h"
 #include "frangia/registration/view_motions.h"
-#include "frangia/views/collect_points.h"
+#include "frangia/views/view_store.h"
 
 namespace frangia {
 

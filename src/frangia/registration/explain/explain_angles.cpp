@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "frangia/core/angles.h"
-#include "frangia/core/median.h"
+#include "frangia/core/statistics.h"
 #include "frangia/registration/explain/internal/describe_explanation.h"
 #include "frangia/registration/internal/assess_fit.h"
 #include "frangia/registration/internal/state_motions.h"

@@ -6,7 +6,7 @@
 #include <optional>
 #include <utility>
 
-#include "frangia/core/median.h"
+#include "frangia/core/statistics.h"
 #include "frangia/registration/explain/internal/correct_poses.h"
 #include "frangia/registration/explain/internal/describe_explanation.h"
 #include "frangia/registration/explain/internal/displace_views.h"

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "frangia/core/median.h"
+#include "frangia/core/statistics.h"
 
 namespace frangia {
 namespace {

@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "frangia/core/symmetric_eigen.h"
+#include "frangia/core/linear_algebra.h"
 #include "frangia/registration/internal/turntable_bundle.h"
 
 namespace frangia {

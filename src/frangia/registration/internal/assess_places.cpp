@@ -6,9 +6,8 @@
 #include <utility>
 #include <vector>
 
-#include "frangia/core/matrix_products.h"
-#include "frangia/core/median.h"
-#include "frangia/core/solve_symmetric.h"
+#include "frangia/core/linear_algebra.h"
+#include "frangia/core/statistics.h"
 #include "frangia/registration/internal/state_motions.h"
 #include "frangia/registration/internal/turntable_bundle.h"
 

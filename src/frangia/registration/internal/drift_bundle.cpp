@@ -4,10 +4,9 @@
 #include <array>
 #include <cmath>
 
-#include "frangia/core/matrix_products.h"
-#include "frangia/core/median.h"
+#include "frangia/core/linear_algebra.h"
 #include "frangia/core/parallel.h"
-#include "frangia/core/solve_symmetric.h"
+#include "frangia/core/statistics.h"
 #include "frangia/geometry/robust_gauss_newton.h"
 #include "frangia/registration/internal/surfel_pair.h"
 #include "frangia/registration/internal/turntable_bundle.h"

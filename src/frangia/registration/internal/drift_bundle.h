@@ -10,7 +10,7 @@
 #include "frangia/registration/internal/drift_model.h"
 #include "frangia/registration/internal/table_state.h"
 #include "frangia/registration/internal/view_pairs.h"
-#include "frangia/rig/fast_camera_model.h"
+#include "frangia/rig/camera_model.h"
 
 namespace frangia {
 

@@ -6,10 +6,8 @@
 
 #include <Eigen/Geometry>
 
-#include "frangia/core/least_squares.h"
-#include "frangia/core/matrix_products.h"
-#include "frangia/core/symmetric_eigen.h"
-#include "frangia/range/fringe_ray.h"
+#include "frangia/core/linear_algebra.h"
+#include "frangia/range/triangulate.h"
 #include "frangia/rig/rig_covariance.h"
 
 namespace frangia {

@@ -3,9 +3,9 @@
 #include <utility>
 
 #include "frangia/core/error.h"
-#include "frangia/core/median.h"
 #include "frangia/core/parallel.h"
-#include "frangia/local_fit/make_surfel_maps.h"
+#include "frangia/core/statistics.h"
+#include "frangia/local_fit/surfel_map.h"
 #include "frangia/registration/internal/retriangulate_views.h"
 
 namespace frangia {

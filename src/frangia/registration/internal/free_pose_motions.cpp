@@ -3,9 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "frangia/core/matrix_products.h"
-#include "frangia/core/median.h"
-#include "frangia/core/symmetric_eigen.h"
+#include "frangia/core/linear_algebra.h"
+#include "frangia/core/statistics.h"
 #include "frangia/registration/internal/turntable_bundle.h"
 
 namespace frangia {

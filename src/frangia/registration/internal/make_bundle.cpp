@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "frangia/core/error.h"
-#include "frangia/core/median.h"
-#include "frangia/local_fit/make_surfel_maps.h"
+#include "frangia/core/statistics.h"
+#include "frangia/local_fit/surfel_map.h"
 
 namespace frangia {
 namespace {

@@ -5,8 +5,8 @@
 
 #include "frangia/core/missing.h"
 #include "frangia/core/parallel.h"
-#include "frangia/range/fringe_ray.h"
-#include "frangia/views/load_each_view.h"
+#include "frangia/range/triangulate.h"
+#include "frangia/views/view_store.h"
 
 namespace frangia {
 

@@ -4,8 +4,7 @@
 #include <cmath>
 #include <cstddef>
 
-#include "frangia/core/matrix_products.h"
-#include "frangia/core/symmetric_eigen.h"
+#include "frangia/core/linear_algebra.h"
 #include "frangia/registration/register_views.h"
 
 namespace frangia {

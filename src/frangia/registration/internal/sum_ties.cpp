@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "frangia/core/symmetric_eigen.h"
+#include "frangia/core/linear_algebra.h"
 #include "frangia/registration/internal/view_transfer.h"
 
 namespace frangia {

@@ -7,7 +7,7 @@
 #include <Eigen/Geometry>
 
 #include "frangia/local_fit/surfel_map.h"
-#include "frangia/rig/fast_camera_model.h"
+#include "frangia/rig/camera_model.h"
 
 namespace frangia {
 

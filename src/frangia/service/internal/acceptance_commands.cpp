@@ -7,10 +7,10 @@
 #include <fmt/format.h>
 
 #include "frangia/acceptance/certificate.h"
+#include "frangia/core/durable_file.h"
 #include "frangia/core/error.h"
-#include "frangia/core/write_text_file.h"
 #include "frangia/service/internal/implementation.h"
-#include "frangia/service/internal/toml_text.h"
+#include "frangia/service/internal/rig_json.h"
 
 namespace frangia {
 namespace {

@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "frangia/core/check_nesting.h"
-#include "frangia/core/crc32.h"
+#include "frangia/core/checksums.h"
 #include "frangia/core/error.h"
 
 namespace frangia {
@@ -153,6 +153,26 @@ nlohmann::json CommandArguments::object(const char* key) {
 void CommandArguments::check_all_read() const {
   for (const auto& [key, value] : json_.items())
     if (!read_.contains(key)) fail_argument(key.c_str(), "the command has no such argument");
+}
+
+const nlohmann::ordered_json* AnsweredCommands::find(const CommandKey& key) const {
+  if (key.id.empty()) return nullptr;
+  const auto found = std::find_if(
+      last_.begin(), last_.end(), [&](const auto& one) { return one.first.id == key.id; });
+  if (found == last_.end()) return nullptr;
+  require_same_command(key, found->first);
+  return &found->second;
+}
+
+void AnsweredCommands::keep(const CommandKey& key, nlohmann::ordered_json answer) {
+  if (key.id.empty()) return;
+  if (last_.size() >= kMost) last_.pop_front();
+  last_.emplace_back(key, std::move(answer));
+}
+
+void require_same_command(const CommandKey& asked, const CommandKey& known) {
+  require(asked == known,
+          "id: belongs to another command; send each command with an id of its own");
 }
 
 }  // namespace frangia

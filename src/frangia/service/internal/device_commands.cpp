@@ -7,11 +7,10 @@
 
 #include "frangia/core/error.h"
 #include "frangia/devices/find_devices.h"
-#include "frangia/devices/test_devices.h"
 #include "frangia/rig/read_rig.h"
 #include "frangia/service/choose_devices.h"
+#include "frangia/service/display_level.h"
 #include "frangia/service/internal/implementation.h"
-#include "frangia/service/measure_project_display.h"
 
 namespace frangia {
 namespace {

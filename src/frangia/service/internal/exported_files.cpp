@@ -9,11 +9,8 @@
 #include <nlohmann/json.hpp>
 #include <sys/stat.h>
 
-#include "frangia/core/atomic_file.h"
+#include "frangia/core/durable_file.h"
 #include "frangia/core/error.h"
-#include "frangia/core/make_folder.h"
-#include "frangia/core/sync_to_disk.h"
-#include "frangia/core/write_text_file.h"
 
 namespace frangia {
 namespace {

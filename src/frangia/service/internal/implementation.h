@@ -11,7 +11,6 @@
 
 #include "frangia/reconstruct/reconstruct.h"
 #include "frangia/service/calibration_wizard.h"
-#include "frangia/service/internal/answered_commands.h"
 #include "frangia/service/internal/command_arguments.h"
 #include "frangia/service/internal/exported_files.h"
 #include "frangia/service/internal/state_json.h"

@@ -8,15 +8,15 @@
 
 #include <fmt/format.h>
 
+#include "frangia/core/durable_file.h"
 #include "frangia/core/error.h"
 #include "frangia/core/open_below.h"
-#include "frangia/core/write_text_file.h"
 #include "frangia/geometry/transform_mesh.h"
 #include "frangia/inspection/write_inspection_plan.h"
 #include "frangia/report/qif_results.h"
 #include "frangia/report/write_report.h"
 #include "frangia/service/internal/implementation.h"
-#include "frangia/service/internal/toml_text.h"
+#include "frangia/service/internal/rig_json.h"
 
 namespace frangia {
 namespace {

@@ -7,17 +7,15 @@
 
 #include "frangia/cad/read_cad.h"
 #include "frangia/core/base64.h"
+#include "frangia/core/durable_file.h"
 #include "frangia/core/error.h"
-#include "frangia/core/make_folder.h"
 #include "frangia/core/open_below.h"
-#include "frangia/core/write_text_file.h"
 #include "frangia/dataset/scan_folder.h"
 #include "frangia/files/mesh_formats.h"
 #include "frangia/files/read_mesh.h"
 #include "frangia/files/zip_folder.h"
 #include "frangia/service/internal/implementation.h"
-#include "frangia/service/internal/move_folder.h"
-#include "frangia/service/internal/name_for_people.h"
+#include "frangia/service/internal/project_names.h"
 #include "frangia/service/internal/surface_build.h"
 
 namespace frangia {

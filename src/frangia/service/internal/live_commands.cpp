@@ -5,8 +5,8 @@
 
 #include "frangia/acquisition/find_exposures.h"
 #include "frangia/core/angles.h"
+#include "frangia/core/durable_file.h"
 #include "frangia/core/error.h"
-#include "frangia/core/make_folder.h"
 #include "frangia/service/internal/implementation.h"
 #include "frangia/service/internal/opened_devices.h"
 

@@ -5,8 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "frangia/core/durable_file.h"
 #include "frangia/core/error.h"
-#include "frangia/core/write_text_file.h"
 #include "frangia/inspect/section_curves.h"
 #include "frangia/report/section_drawing.h"
 #include "frangia/service/hand_measurements.h"

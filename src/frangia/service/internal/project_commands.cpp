@@ -8,9 +8,8 @@
 #include "frangia/devices/device_table.h"
 #include "frangia/rig/read_rig.h"
 #include "frangia/service/example_rigs.h"
-#include "frangia/service/given_rig.h"
 #include "frangia/service/internal/implementation.h"
-#include "frangia/service/simulated_rig.h"
+#include "frangia/service/rig_history.h"
 
 namespace frangia {
 namespace {

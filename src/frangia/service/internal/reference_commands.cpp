@@ -10,13 +10,11 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "frangia/core/durable_file.h"
 #include "frangia/core/error.h"
-#include "frangia/core/make_folder.h"
 #include "frangia/core/open_below.h"
-#include "frangia/core/sync_to_disk.h"
-#include "frangia/core/write_text_file.h"
 #include "frangia/service/internal/implementation.h"
-#include "frangia/service/internal/name_for_people.h"
+#include "frangia/service/internal/project_names.h"
 
 namespace frangia {
 namespace {

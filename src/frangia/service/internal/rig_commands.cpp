@@ -9,9 +9,9 @@
 #include "frangia/rig/read_rig.h"
 #include "frangia/rig/write_rig.h"
 #include "frangia/service/arrange_rig.h"
+#include "frangia/service/example_rigs.h"
 #include "frangia/service/internal/implementation.h"
 #include "frangia/service/rig_history.h"
-#include "frangia/service/simulated_rig.h"
 
 namespace frangia {
 namespace {

@@ -1,7 +1,10 @@
 #pragma once
 
+#include <string>
+#include <string_view>
 #include <vector>
 
+#include <nlohmann/json.hpp>
 #include <nlohmann/json_fwd.hpp>
 
 #include "frangia/rig/rig.h"
@@ -22,5 +25,9 @@ namespace frangia {
 [[nodiscard]] nlohmann::ordered_json json_of_kept(const std::vector<KeptRig>& kept);
 [[nodiscard]] nlohmann::ordered_json json_of_check(const ScanCheck& check);
 [[nodiscard]] nlohmann::ordered_json json_of_display(const DisplayMeasurement& display);
+
+/// An object that arrived from a page as the text of a TOML file of a format, so that the one
+/// reader of such files checks it. Keys whose value is null are left out.
+[[nodiscard]] std::string toml_text(const nlohmann::json& object, std::string_view format);
 
 }  // namespace frangia

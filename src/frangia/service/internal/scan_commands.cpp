@@ -6,7 +6,7 @@
 
 #include "frangia/core/angles.h"
 #include "frangia/core/error.h"
-#include "frangia/core/read_text_file.h"
+#include "frangia/core/read_file.h"
 #include "frangia/service/internal/implementation.h"
 
 namespace frangia {

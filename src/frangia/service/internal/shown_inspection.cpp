@@ -9,9 +9,9 @@
 
 #include "frangia/core/angles.h"
 #include "frangia/core/missing.h"
-#include "frangia/inspection/tolerance_use.h"
+#include "frangia/inspection/verdict_reasons.h"
 #include "frangia/report/inspection_json.h"
-#include "frangia/service/internal/name_for_people.h"
+#include "frangia/service/internal/project_names.h"
 
 namespace frangia {
 namespace {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <string>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -13,7 +14,6 @@
 #include "frangia/service/example_rigs.h"
 #include "frangia/service/internal/rig_json.h"
 #include "frangia/service/internal/shown_inspection.h"
-#include "frangia/service/internal/station_json.h"
 #include "frangia/simulate/parts.h"
 
 namespace frangia {
@@ -291,6 +291,34 @@ std::string state_json(const ServiceView& view) {
   for (const Job& job : view.jobs)
     json["jobs"].push_back(json_of_job(job));
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+nlohmann::ordered_json json_of(const ProjectStation& station) {
+  return {{"angle_deg", station.angle_deg},
+          {"setup", station.setup},
+          {"state", name_of(station.state)},
+          {"verdict", station.verdict},
+          {"good", station.good},
+          {"contrast", station.contrast},
+          {"saturated", station.saturated},
+          {"points", station.points},
+          {"has_cloud", station.has_cloud}};
+}
+
+ProjectStation station_from(const nlohmann::json& json) {
+  ProjectStation station;
+  station.angle_deg = json.at("angle_deg").get<double>();
+  station.setup = json.value("setup", 0);  // not in files of earlier versions
+  const auto state = json.at("state").get<std::string>();
+  if (state == "done") station.state = StationState::Done;
+  if (state == "skipped") station.state = StationState::Skipped;
+  station.verdict = json.at("verdict").get<std::string>();
+  station.good = json.at("good").get<bool>();
+  station.contrast = json.at("contrast").get<double>();
+  station.saturated = json.at("saturated").get<double>();
+  station.points = json.at("points").get<std::size_t>();
+  station.has_cloud = json.at("has_cloud").get<bool>();
+  return station;
 }
 
 }  // namespace frangia

@@ -6,12 +6,12 @@
 #include <string>
 #include <vector>
 
+#include <nlohmann/json.hpp>
 #include <nlohmann/json_fwd.hpp>
 
 #include "frangia/acquisition/measure_display.h"
 #include "frangia/core/folder_lock.h"
 #include "frangia/devices/find_devices.h"
-#include "frangia/devices/test_devices.h"
 #include "frangia/inspection/inspection_plan.h"
 #include "frangia/rig/rig.h"
 #include "frangia/service/acceptance_record.h"
@@ -124,5 +124,13 @@ struct ServiceView {
 
 /// The state as docs/service-api.md describes it.
 [[nodiscard]] std::string state_json(const ServiceView& view);
+
+/// A station as stations.json and the state of the service hold it.
+[[nodiscard]] nlohmann::ordered_json json_of(const ProjectStation& station);
+
+/// The station that `json_of` wrote; one that was being captured waits again.
+///
+/// @errors   nlohmann::json::exception for missing keys and other types
+[[nodiscard]] ProjectStation station_from(const nlohmann::json& json);
 
 }  // namespace frangia

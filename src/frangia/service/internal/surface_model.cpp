@@ -12,15 +12,15 @@
 #include <fmt/format.h>
 
 #include "frangia/core/error.h"
+#include "frangia/core/open_below.h"
 #include "frangia/core/parallel.h"
-#include "frangia/core/read_json_below.h"
 #include "frangia/editor/edit_preview.h"
 #include "frangia/editor/edit_script.h"
 #include "frangia/features/feature_points.h"
 #include "frangia/features/fit_points.h"
 #include "frangia/files/read_mesh.h"
-#include "frangia/geometry/boundary_loops.h"
-#include "frangia/geometry/connected_components.h"
+#include "frangia/geometry/boundary.h"
+#include "frangia/geometry/components.h"
 #include "frangia/geometry/vertex_data.h"
 #include "frangia/service/internal/array_packer.h"
 #include "frangia/service/internal/shown_inspection.h"

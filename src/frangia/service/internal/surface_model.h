@@ -11,10 +11,10 @@
 #include "frangia/core/run.h"
 #include "frangia/editor/edit_history.h"
 #include "frangia/editor/edit_script.h"
-#include "frangia/geometry/median_sigma.h"
 #include "frangia/geometry/selection.h"
+#include "frangia/geometry/vertex_data.h"
 #include "frangia/inspection/inspect_part.h"
-#include "frangia/service/internal/surface_picture.h"
+#include "frangia/service/internal/surface_build.h"
 #include "frangia/service/internal/surface_versions.h"
 
 namespace frangia {

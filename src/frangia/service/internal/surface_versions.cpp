@@ -8,11 +8,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "frangia/core/atomic_file.h"
-#include "frangia/core/make_folder.h"
+#include "frangia/core/durable_file.h"
 #include "frangia/core/open_below.h"
-#include "frangia/core/sync_to_disk.h"
-#include "frangia/core/write_text_file.h"
 #include "frangia/editor/edit_script.h"
 
 namespace frangia {

@@ -9,7 +9,7 @@
 #include "frangia/core/angles.h"
 #include "frangia/core/random.h"
 #include "frangia/rig/board.h"
-#include "frangia/simulate/internal/surface_color.h"
+#include "frangia/simulate/internal/simulated_scene.h"
 
 namespace frangia {
 namespace {

@@ -5,7 +5,6 @@
 #include <Eigen/Core>
 
 #include "frangia/pattern/pattern.h"
-#include "frangia/simulate/internal/shot.h"
 #include "frangia/simulate/internal/simulated_scene.h"
 
 namespace frangia {

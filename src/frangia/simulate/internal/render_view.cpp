@@ -11,7 +11,7 @@
 #include "frangia/core/error.h"
 #include "frangia/core/parallel.h"
 #include "frangia/core/random.h"
-#include "frangia/simulate/internal/surface_color.h"
+#include "frangia/simulate/internal/simulated_scene.h"
 #include "frangia/simulate/internal/view_renderer.h"
 
 namespace frangia {

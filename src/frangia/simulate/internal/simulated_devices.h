@@ -3,10 +3,10 @@
 #include <memory>
 
 #include "frangia/devices/camera_device.h"
+#include "frangia/devices/device.h"
 #include "frangia/devices/device_settings.h"
 #include "frangia/devices/pattern_display.h"
 #include "frangia/devices/phase_shifter.h"
-#include "frangia/devices/switch_device.h"
 #include "frangia/devices/turntable_device.h"
 #include "frangia/simulate/internal/simulated_bench.h"
 

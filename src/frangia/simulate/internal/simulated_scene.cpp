@@ -6,11 +6,12 @@
 
 #include <fmt/format.h>
 
+#include "frangia/core/angles.h"
 #include "frangia/core/error.h"
 #include "frangia/core/parallel.h"
 #include "frangia/core/random.h"
 #include "frangia/geometry/corner_normals.h"
-#include "frangia/rig/rig_of_camera.h"
+#include "frangia/rig/rig.h"
 #include "frangia/simulate/internal/gather_light.h"
 #include "frangia/simulate/internal/light_sample.h"
 #include "frangia/simulate/internal/move_views.h"
@@ -212,6 +213,37 @@ SimulatedScene make_simulated_scene(const Mesh& part,
   scene.exposure =
       options.exposure * headroom / (1.0 + options.contrast) / (brightest > 0.0 ? brightest : 1.0);
   return scene;
+}
+
+Mesh make_sheet(const Eigen::Vector2d& half) {
+  constexpr double kThickness_mm = 3.0;
+  const auto outline = [&](double z) {
+    return Loop{{-half.x(), -half.y(), z},
+                {half.x(), -half.y(), z},
+                {half.x(), half.y(), z},
+                {-half.x(), half.y(), z}};
+  };
+  const Loop face = outline(0.0);
+  const Loop back = outline(kThickness_mm);
+  SolidBuilder solid;
+  solid.add_face(back);
+  solid.add_band(face, back);
+  solid.add_face({face.rbegin(), face.rend()});
+  return solid.build();
+}
+
+Eigen::Vector3d surface_color(const Eigen::Vector3d& position_mm, double strength) {
+  constexpr double kPeriod_mm = 40.0;
+  const Eigen::Vector3d along(0.48, 0.36, 0.8);  // unit
+  const double phase = kTwoPi * along.dot(position_mm) / kPeriod_mm;
+  Eigen::Vector3d color;
+  for (int channel = 0; channel < 3; ++channel)
+    color[channel] = 1.0 - strength * (0.5 + 0.5 * std::cos(phase + kTwoPi * channel / 3.0));
+  return color;
+}
+
+double luminance_of_color(const Eigen::Vector3d& color) {
+  return Eigen::Vector3d(0.299, 0.587, 0.114).dot(color);
 }
 
 }  // namespace frangia

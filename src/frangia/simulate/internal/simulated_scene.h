@@ -2,13 +2,17 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
+#include <Eigen/Core>
 #include <Eigen/Geometry>
 
 #include "frangia/core/image.h"
 #include "frangia/core/run.h"
+#include "frangia/geometry/mesh.h"
 #include "frangia/geometry/ray_scene.h"
 #include "frangia/rig/rig.h"
 #include "frangia/simulate/simulate_options.h"
@@ -54,5 +58,40 @@ struct SimulatedView {
 
 /// The true pose of the object in a view, with the turntable's faults.
 [[nodiscard]] Eigen::Isometry3d true_pose(const SimulatedScene& scene, const SimulatedView& view);
+
+/// Parameters of one frame: the projected light, the camera settings and the noise stream.
+struct Shot {
+  double cos_shift = 1.0;
+  double sin_shift = 0.0;
+  std::uint64_t stream = 0;
+  double light = 1.0;         ///< factor on the scene's exposure
+  double projector = 1.0;     ///< share of the projector's light that is on
+  double lamp = 0.0;          ///< ambient light of another lamp, as `SimulateOptions::ambient`
+  double gain = 1.0;          ///< factor on the scene's counts per electron
+  double black_counts = 0.0;  ///< added to all pixels
+  int clips_at_counts = 0;    ///< no pixel has more; 0: no such limit
+  /// Picture of a digital projector that replaces the pattern, linear, 0 to 1.
+  const Image<float>* picture = nullptr;
+  /// Pictures that a part of the exposure saw instead: a share of it each.
+  std::vector<std::pair<const Image<float>*, double>> before = {};
+};
+
+/// A rectangular sheet about the origin. Its face lies in z = 0 and faces -z; its body of 3 mm lies
+/// at z > 0.
+///
+/// @units    mm; `half` holds half of the sides along x and y
+[[nodiscard]] Mesh make_sheet(const Eigen::Vector2d& half);
+
+/// Reflectance of a coloured surface in red, green and blue: bands of changing hue. Each channel
+/// varies from 1 to 1 - strength as a sine along a skew direction, with a period of 40 mm and a
+/// third of a period between the channels.
+///
+/// @units    mm, frame of the part
+[[nodiscard]] Eigen::Vector3d surface_color(const Eigen::Vector3d& position_mm, double strength);
+
+/// The share of light that a grey camera sees of a color.
+///
+/// @source   ITU-R BT.601
+[[nodiscard]] double luminance_of_color(const Eigen::Vector3d& color);
 
 }  // namespace frangia

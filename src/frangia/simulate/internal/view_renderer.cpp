@@ -8,8 +8,8 @@
 
 #include "frangia/core/angles.h"
 #include "frangia/core/random.h"
+#include "frangia/simulate/internal/gather_light.h"
 #include "frangia/simulate/internal/projected_light.h"
-#include "frangia/simulate/internal/sum_gathered_light.h"
 
 namespace frangia {
 namespace {

@@ -10,7 +10,6 @@
 #include "frangia/frames/frame_stack.h"
 #include "frangia/simulate/internal/gather_light.h"
 #include "frangia/simulate/internal/light_sample.h"
-#include "frangia/simulate/internal/shot.h"
 #include "frangia/simulate/internal/simulated_scene.h"
 #include "frangia/simulate/internal/speckle.h"
 

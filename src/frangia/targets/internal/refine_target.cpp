@@ -5,8 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include "frangia/core/matrix_products.h"
-#include "frangia/core/solve_symmetric.h"
+#include "frangia/core/linear_algebra.h"
 
 namespace frangia {
 namespace {

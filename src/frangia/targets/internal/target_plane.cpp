@@ -8,8 +8,8 @@
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 
+#include "frangia/core/linear_algebra.h"
 #include "frangia/core/random.h"
-#include "frangia/core/symmetric_eigen.h"
 
 namespace frangia {
 namespace {

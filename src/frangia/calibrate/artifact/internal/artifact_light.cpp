@@ -4,7 +4,7 @@
 #include <cmath>
 #include <variant>
 
-#include "frangia/calibrate/internal/intrinsics_block.h"
+#include "frangia/calibrate/internal/rig_model.h"
 
 namespace frangia {
 namespace {

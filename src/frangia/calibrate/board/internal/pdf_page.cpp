@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "frangia/core/atomic_file.h"
+#include "frangia/core/durable_file.h"
 #include "frangia/core/error.h"
 
 namespace frangia {

@@ -1,10 +1,13 @@
 #pragma once
 
 #include <array>
+#include <span>
+#include <string>
 #include <vector>
 
 #include <opencv2/core.hpp>
 
+#include "frangia/calibrate/board/check_board_views.h"
 #include "frangia/rig/aruco_dictionary.h"
 #include "frangia/rig/board.h"
 
@@ -45,5 +48,10 @@ struct AnyMarkers {
 ///
 /// @shape    8-bit image
 [[nodiscard]] AnyMarkers read_any_markers(const cv::Mat& bytes);
+
+/// Says which ChArUco board most of the poses show in place of the expected one, and what to do;
+/// empty when fewer than two show one, or fewer than half of those without the board.
+[[nodiscard]] std::string describe_other_board(std::span<const PoseCapture> poses,
+                                               const Board& board);
 
 }  // namespace frangia

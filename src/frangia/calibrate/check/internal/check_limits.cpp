@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "frangia/core/median.h"
+#include "frangia/core/statistics.h"
 #include "frangia/range/calibration_uncertainty.h"
 
 namespace frangia {

@@ -9,10 +9,10 @@
 
 #include "frangia/calibrate/check/check_kinds.h"
 #include "frangia/calibrate/check/internal/check_limits.h"
-#include "frangia/calibrate/internal/artifact_sites.h"
+#include "frangia/calibrate/internal/artifact_model.h"
 #include "frangia/core/error.h"
-#include "frangia/core/median.h"
-#include "frangia/geometry/fit_plane.h"
+#include "frangia/core/statistics.h"
+#include "frangia/geometry/fit_primitives.h"
 
 namespace frangia {
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "frangia/calibrate/internal/artifact_sites.h"
+#include "frangia/calibrate/internal/artifact_model.h"
 #include "frangia/dataset/read_frames.h"
 
 namespace frangia {

@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "frangia/core/html_escaped.h"
+#include "frangia/core/text.h"
 
 namespace frangia {
 

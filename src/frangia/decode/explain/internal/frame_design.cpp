@@ -4,9 +4,7 @@
 #include <cstddef>
 #include <utility>
 
-#include "frangia/core/least_squares.h"
-#include "frangia/core/matrix_products.h"
-#include "frangia/core/solve_symmetric.h"
+#include "frangia/core/linear_algebra.h"
 
 namespace frangia {
 

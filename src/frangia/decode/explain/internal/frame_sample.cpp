@@ -5,8 +5,8 @@
 #include <cstddef>
 #include <functional>
 
-#include "frangia/core/median.h"
 #include "frangia/core/random.h"
+#include "frangia/core/statistics.h"
 
 namespace frangia {
 namespace {

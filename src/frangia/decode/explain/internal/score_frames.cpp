@@ -7,9 +7,7 @@
 #include <limits>
 
 #include "frangia/core/angles.h"
-#include "frangia/core/cholesky.h"
-#include "frangia/core/matrix_products.h"
-#include "frangia/core/solve_symmetric.h"
+#include "frangia/core/linear_algebra.h"
 #include "frangia/decode/explain/internal/frame_design.h"
 #include "frangia/decode/explain/internal/frame_priors.h"
 

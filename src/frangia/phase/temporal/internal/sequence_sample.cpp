@@ -9,9 +9,9 @@
 #include <utility>
 
 #include "frangia/core/angles.h"
-#include "frangia/core/median.h"
 #include "frangia/core/missing.h"
 #include "frangia/core/random.h"
+#include "frangia/core/statistics.h"
 #include "frangia/phase/internal/best_frequency.h"
 #include "frangia/phase/internal/fringe_curve.h"
 #include "frangia/phase/internal/is_split.h"
@@ -19,7 +19,7 @@
 #include "frangia/phase/temporal/internal/phase_ripple.h"
 #include "frangia/phase/temporal/unwrap_sequence.h"
 #include "frangia/phase/waveform/frame_samples.h"
-#include "frangia/rig/phase_range.h"
+#include "frangia/rig/rig.h"
 
 namespace frangia {
 namespace {

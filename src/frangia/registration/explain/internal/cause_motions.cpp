@@ -1,6 +1,6 @@
 #include "frangia/registration/explain/internal/cause_motions.h"
 
-#include "frangia/core/matrix_products.h"
+#include "frangia/core/linear_algebra.h"
 #include "frangia/registration/explain/internal/moved_rig.h"
 #include "frangia/registration/explain/internal/time_profiles.h"
 

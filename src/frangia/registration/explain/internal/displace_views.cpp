@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "frangia/core/parallel.h"
-#include "frangia/range/fringe_ray.h"
+#include "frangia/range/triangulate.h"
 
 namespace frangia {
 

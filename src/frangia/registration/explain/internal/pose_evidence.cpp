@@ -2,8 +2,7 @@
 
 #include <utility>
 
-#include "frangia/core/cholesky.h"
-#include "frangia/core/matrix_products.h"
+#include "frangia/core/linear_algebra.h"
 
 namespace frangia {
 namespace {

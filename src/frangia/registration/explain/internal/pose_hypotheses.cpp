@@ -7,9 +7,7 @@
 #include <map>
 #include <utility>
 
-#include "frangia/core/cholesky.h"
-#include "frangia/core/matrix_products.h"
-#include "frangia/core/symmetric_eigen.h"
+#include "frangia/core/linear_algebra.h"
 #include "frangia/registration/explain/internal/cause_motions.h"
 #include "frangia/registration/explain/internal/moved_rig.h"
 #include "frangia/registration/explain/internal/time_profiles.h"

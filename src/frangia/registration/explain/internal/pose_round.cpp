@@ -5,9 +5,8 @@
 #include <utility>
 
 #include "frangia/core/angles.h"
-#include "frangia/core/matrix_products.h"
-#include "frangia/core/median.h"
-#include "frangia/core/symmetric_eigen.h"
+#include "frangia/core/linear_algebra.h"
+#include "frangia/core/statistics.h"
 #include "frangia/geometry/robust_gauss_newton.h"
 #include "frangia/registration/explain/internal/cause_motions.h"
 #include "frangia/registration/explain/internal/time_profiles.h"

@@ -7,7 +7,7 @@
 
 #include <Eigen/Geometry>
 
-#include "frangia/core/matrix_products.h"
+#include "frangia/core/linear_algebra.h"
 #include "frangia/registration/internal/drift_model.h"
 #include "frangia/registration/internal/optimize_bundle.h"
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "frangia/core/least_squares.h"
+#include "frangia/core/linear_algebra.h"
 #include "frangia/core/missing.h"
 
 namespace frangia {
