@@ -201,16 +201,17 @@ void join_sides(const Mesh& mesh,
 
 /// Gives each set of corners at a vertex but the first a copy of the vertex.
 void split_vertices(Mesh& mesh, DisjointSets& corners) {
-  constexpr std::uint32_t kNone = 0xFFFFFFFF;
-  std::vector<std::uint32_t> owner(mesh.vertices_mm.size(), kNone);  // the set that keeps a vertex
-  std::vector<std::uint32_t> added(3 * mesh.triangles.size(), kNone);
+  constexpr std::uint32_t kNotYet = 0xFFFFFFFF;
+  std::vector<std::uint32_t> owner(mesh.vertices_mm.size(),
+                                   kNotYet);  // the set that keeps a vertex
+  std::vector<std::uint32_t> added(3 * mesh.triangles.size(), kNotYet);
   std::uint32_t corner = 0;
   for (Mesh::Triangle& triangle : mesh.triangles) {
     for (std::uint32_t& vertex : triangle) {
       const std::uint32_t set = corners.find(corner++);
-      if (owner[vertex] == kNone) owner[vertex] = set;
+      if (owner[vertex] == kNotYet) owner[vertex] = set;
       if (owner[vertex] == set) continue;
-      if (added[set] == kNone) added[set] = copy_vertex(mesh, vertex);
+      if (added[set] == kNotYet) added[set] = copy_vertex(mesh, vertex);
       vertex = added[set];
     }
   }

@@ -269,10 +269,11 @@ void keep_visible(const Mesh& mesh,
     for (std::size_t i = begin; i < end; ++i) {
       if (selection[i] == 0) continue;
       // The first surface on the way from the eye is the triangle itself, up to rounding.
-      constexpr double kRounding = 1e-5;
+      constexpr double kRoundingOfSight = 1e-5;
       const auto hit = scene.first_hit(plane.eye_mm(), centroid_of(mesh, i) - plane.eye_mm());
       selection[i] =
-          hit && part.triangle[hit->triangle] != i && hit->distance < 1.0 - kRounding ? 0 : 1;
+          hit && part.triangle[hit->triangle] != i && hit->distance < 1.0 - kRoundingOfSight ? 0
+                                                                                             : 1;
     }
   });
 }

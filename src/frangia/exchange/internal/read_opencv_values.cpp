@@ -124,7 +124,7 @@ std::string plain_fault(const std::string& what) {
   return fault.substr(0, fault.find(" in function"));
 }
 
-/// FileStorage reads YAML only, see read_opencv_xml.cpp.
+/// FileStorage reads YAML only, see storage_formats.cpp.
 NamedValues read_opencv_yaml(std::string text, const std::filesystem::path& file) {
   check_json_nesting(text, file);
   check_lines(text, file);

@@ -20,7 +20,7 @@ using Eigen::Vector3d;
 constexpr double kBoundaryWeight = 10.0;
 
 /// The median of the known sigmas; 0 without any.
-double median_sigma(const Mesh& mesh) {
+double median_noise_mm(const Mesh& mesh) {
   std::vector<float> known;
   for (const float sigma : noise_mm_of(mesh))
     if (std::isfinite(sigma) && sigma > 0.0F) known.push_back(sigma);
@@ -30,7 +30,7 @@ double median_sigma(const Mesh& mesh) {
 }  // namespace
 
 CollapseCost::CollapseCost(const Mesh& mesh, const HalfEdges& edges)
-    : mesh_(&mesh), median_sigma_mm_(median_sigma(mesh)), quadrics_(mesh.vertices_mm.size()) {
+    : mesh_(&mesh), median_sigma_mm_(median_noise_mm(mesh)), quadrics_(mesh.vertices_mm.size()) {
   for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
     const auto& triangle = mesh.triangles[t];
     const Vector3d cross = (position(triangle[1]) - position(triangle[0]))
