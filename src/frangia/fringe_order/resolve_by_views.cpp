@@ -10,6 +10,15 @@
 namespace frangia {
 namespace {
 
+/// Criteria for the fringe order that other views confirm.
+struct ResolveByViewsLimits {
+  int max_samples = 400;        ///< maximum number of compared points of a region
+  double tolerance = 0.06;      ///< distance that counts as agreement, per fringe spacing
+  double min_agreement = 0.15;  ///< minimum score of the best order, per compared point
+  double max_runner_up = 0.5;   ///< maximum score of the second best order, per best score
+};
+constexpr ResolveByViewsLimits kResolveLimits;
+
 /// Smaller regions are removed without a comparison.
 constexpr std::size_t kMinRegion_px = 30;
 
@@ -20,8 +29,7 @@ struct RegionCandidates {
 };
 
 /// The candidate that other views confirm and that no other one rivals, or null.
-const FringeOrderCandidate* best_candidate(const RegionCandidates& region,
-                                           const ResolveByViewsOptions& options) {
+const FringeOrderCandidate* best_candidate(const RegionCandidates& region) {
   const FringeOrderCandidate* best = nullptr;
   const FringeOrderCandidate* second = nullptr;
   for (const FringeOrderCandidate& candidate : region.candidates) {
@@ -34,9 +42,9 @@ const FringeOrderCandidate* best_candidate(const RegionCandidates& region,
   }
   if (best == nullptr) return nullptr;
   const auto points = static_cast<double>(best->points_mm.size());
-  if (best->score() < options.min_agreement * points) return nullptr;
+  if (best->score() < kResolveLimits.min_agreement * points) return nullptr;
   const bool ambiguous =
-      second != nullptr && second->score() > options.max_runner_up * best->score();
+      second != nullptr && second->score() > kResolveLimits.max_runner_up * best->score();
   return ambiguous ? nullptr : best;
 }
 
@@ -71,7 +79,6 @@ void add_to_view(const UnresolvedViewRegion& unresolved,
 std::size_t resolve_once(ViewStore& views,
                          std::vector<RegionCandidates>& regions,
                          const FringeComparison& comparison,
-                         const ResolveByViewsOptions& options,
                          const Run& run) {
   for (RegionCandidates& region : regions) {
     for (FringeOrderCandidate& candidate : region.candidates)
@@ -90,7 +97,7 @@ std::size_t resolve_once(ViewStore& views,
   }
   std::size_t resolved = 0;
   for (RegionCandidates& region : regions) {
-    const FringeOrderCandidate* best = region.resolved ? nullptr : best_candidate(region, options);
+    const FringeOrderCandidate* best = region.resolved ? nullptr : best_candidate(region);
     if (best == nullptr) continue;
     add_to_view(*region.unresolved, best->order, comparison, views);
     region.resolved = true;
@@ -104,9 +111,8 @@ std::size_t resolve_once(ViewStore& views,
 ResolveByViewsResult resolve_by_views(ViewStore& views,
                                       const std::vector<UnresolvedViewRegion>& unresolved,
                                       const FringeOptics& optics,
-                                      const ResolveByViewsOptions& options,
                                       const Run& run) {
-  const FringeComparison comparison{optics, options.tolerance, options.max_samples};
+  const FringeComparison comparison{optics, kResolveLimits.tolerance, kResolveLimits.max_samples};
   ResolveByViewsResult result;
   std::vector<RegionCandidates> regions;
   for (const UnresolvedViewRegion& one : unresolved) {
@@ -116,7 +122,7 @@ ResolveByViewsResult resolve_by_views(ViewStore& views,
     regions.push_back(
         {&one, fringe_order_candidates(pixels, views.rig_from_object(one.view), comparison)});
   }
-  while (const std::size_t resolved = resolve_once(views, regions, comparison, options, run)) {
+  while (const std::size_t resolved = resolve_once(views, regions, comparison, run)) {
     result.resolved_points += resolved;
     result.removed_points -= resolved;
   }

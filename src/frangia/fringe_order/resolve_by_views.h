@@ -16,14 +16,6 @@ struct UnresolvedViewRegion {
   UnresolvedRegion region;  ///< region in that view
 };
 
-/// Criteria for the fringe order that other views confirm.
-struct ResolveByViewsOptions {
-  int max_samples = 400;        ///< maximum number of compared points of a region
-  double tolerance = 0.06;      ///< distance that counts as agreement, per fringe spacing
-  double min_agreement = 0.15;  ///< minimum score of the best order, per compared point
-  double max_runner_up = 0.5;   ///< maximum score of the second best order, per best score
-};
-
 /// Numbers of points whose fringe order other views decided.
 struct ResolveByViewsResult {
   std::size_t resolved_points = 0;  ///< points that received a fringe order and joined their view
@@ -39,7 +31,6 @@ struct ResolveByViewsResult {
     ViewStore& views,
     const std::vector<UnresolvedViewRegion>& unresolved,
     const FringeOptics& optics,
-    const ResolveByViewsOptions& options = {},
     const Run& run = {});
 
 }  // namespace frangia

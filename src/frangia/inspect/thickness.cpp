@@ -7,6 +7,7 @@
 
 #include <Eigen/Geometry>
 
+#include "frangia/core/angles.h"
 #include "frangia/core/error.h"
 #include "frangia/core/parallel.h"
 #include "frangia/core/statistics.h"
@@ -15,6 +16,15 @@
 
 namespace frangia {
 namespace {
+
+/// What counts as the opposite wall.
+struct ThicknessLimits {
+  double max_tilt_rad = rad_from_deg(45.0);  ///< between the normals of the two walls
+  /// Largest angle between the normal of a vertex and those of its triangles: 45 degrees at the
+  /// edge of a box, 15 on a cylinder of 12 facets.
+  double max_edge_rad = rad_from_deg(30.0);
+};
+constexpr ThicknessLimits kWallLimits;
 
 using Eigen::Vector3d;
 
@@ -46,8 +56,8 @@ double value_at(const Mesh& mesh, const std::vector<float>& values, const RayHit
 /// Measures the walls of one mesh.
 class WallFinder {
  public:
-  WallFinder(const RayScene& scene, const ThicknessOptions& options)
-      : scene_(scene), options_(options), normals_(vertex_normals(scene.mesh())) {
+  explicit WallFinder(const RayScene& scene)
+      : scene_(scene), normals_(vertex_normals(scene.mesh())) {
     Eigen::AlignedBox3d box;
     for (const auto& vertex : scene.mesh().vertices_mm)
       if (vertex.allFinite()) box.extend(vertex.cast<double>());
@@ -60,14 +70,14 @@ class WallFinder {
     const Vector3d vertex = mesh.vertices_mm[i].cast<double>();
     const Vector3d inward = -normal;
     const auto hit = normal.squaredNorm() > 0.5
-                         ? scene_.first_hit(vertex + start_mm_ * inward, inward, options_.max_mm)
+                         ? scene_.first_hit(vertex + start_mm_ * inward, inward)
                          : std::optional<RayHit>{};
     if (!hit) {
       out.status[i] = ThicknessStatus::NoWall;
       return;
     }
     const double cosine = hit->normal.dot(inward);
-    if (!(cosine >= std::cos(options_.max_tilt_rad))) {
+    if (!(cosine >= std::cos(kWallLimits.max_tilt_rad))) {
       out.status[i] = ThicknessStatus::Oblique;
       return;
     }
@@ -82,7 +92,7 @@ class WallFinder {
 
   /// Leaves out the vertices whose triangles face too differently.
   void find_sharp_edges(std::vector<ThicknessStatus>& status) const {
-    const auto sharp = sharp_edge_flags(scene_.mesh(), normals_, options_.max_edge_rad);
+    const auto sharp = sharp_edge_flags(scene_.mesh(), normals_, kWallLimits.max_edge_rad);
     for (std::size_t i = 0; i < status.size(); ++i) {
       if (status[i] == ThicknessStatus::Measured && sharp[i] != 0)
         status[i] = ThicknessStatus::SharpEdge;
@@ -103,7 +113,6 @@ class WallFinder {
   }
 
   const RayScene& scene_;
-  const ThicknessOptions& options_;
   std::vector<Eigen::Vector3f> normals_;
   double start_mm_ = 0.0;
 };
@@ -122,18 +131,7 @@ double weighted_quantile(const std::vector<std::pair<float, double>>& values,
 
 }  // namespace
 
-void ThicknessOptions::check() const {
-  if (!(max_mm > 0.0)) throw Error(ErrorKind::Input, "ThicknessOptions: max_mm must be above 0");
-  if (!(max_tilt_rad > 0.0 && max_tilt_rad < kPi / 2.0))
-    throw Error(ErrorKind::Input,
-                "ThicknessOptions: max_tilt_rad must be between 0 and 90 degrees");
-  if (!(max_edge_rad > 0.0 && max_edge_rad < kPi / 2.0))
-    throw Error(ErrorKind::Input,
-                "ThicknessOptions: max_edge_rad must be between 0 and 90 degrees");
-}
-
-Thickness thickness_of(const RayScene& scene, const ThicknessOptions& options, const Run& run) {
-  options.check();
+Thickness thickness_of(const RayScene& scene, const Run& run) {
   const Mesh& mesh = scene.mesh();
   if (mesh.triangles.empty())
     throw Error(ErrorKind::Input, "the mesh has no triangles: it has no walls");
@@ -143,7 +141,7 @@ Thickness thickness_of(const RayScene& scene, const ThicknessOptions& options, c
   if (!mesh.sigma_mm.empty()) out.u_mm.assign(count, kMissing);
   for (const VertexUse use : vertex_uses(mesh))
     out.status.push_back(thickness_status_of(use));
-  const WallFinder finder(scene, options);
+  const WallFinder finder(scene);
   finder.find_sharp_edges(out.status);
   constexpr std::size_t kChunk = 4096;
   interruptible_chunks(count, kChunk, run, [&](std::size_t begin, std::size_t end) {

@@ -3,13 +3,11 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <string_view>
 #include <vector>
 
 #include <Eigen/Core>
 
-#include "frangia/core/angles.h"
 #include "frangia/core/enum_names.h"
 #include "frangia/core/missing.h"
 #include "frangia/core/run.h"
@@ -23,7 +21,7 @@ enum class ThicknessStatus : std::uint8_t {
   Measured,     ///< it has a thickness
   Synthesized,  ///< one of the two walls was not measured
   MeshEdge,     ///< on the boundary of the mesh, where the measurement ends
-  NoWall,       ///< no wall faces it: the mesh is open there, or thicker than the limit
+  NoWall,       ///< no wall faces it: the mesh is open there
   Oblique,      ///< the wall that faces it is inclined too much
   SharpEdge,    ///< its triangles face too differently for one normal
   Unused        ///< no triangle uses it
@@ -40,18 +38,6 @@ enum class ThicknessStatus : std::uint8_t {
                                         {ThicknessStatus::Unused, "unused"}}};
 }
 inline constexpr std::size_t kThicknessStatuses = 7;  ///< number of values of `ThicknessStatus`
-
-/// What counts as the opposite wall.
-struct ThicknessOptions {
-  double max_mm = std::numeric_limits<double>::infinity();  ///< a thicker wall is none
-  double max_tilt_rad = rad_from_deg(45.0);  ///< between the normals of the two walls
-  /// Largest angle between the normal of a vertex and those of its triangles: 45 degrees at the
-  /// edge of a box, 15 on a cylinder of 12 facets.
-  double max_edge_rad = rad_from_deg(30.0);
-
-  /// @errors   Error(Input) that names the value which is out of its range
-  void check() const;
-};
 
 /// The thickness of the wall at each vertex.
 struct Thickness {
@@ -70,10 +56,8 @@ struct Thickness {
 /// `scene` is that of `mesh`. The result has the same bytes for any number of threads.
 /// @units    mm
 /// @missing  NaN for the vertices that `ThicknessStatus` leaves out
-/// @errors   Error(Input) for a mesh without triangles, or as the options' check; Error(Cancelled)
-[[nodiscard]] Thickness thickness_of(const RayScene& scene,
-                                     const ThicknessOptions& options = {},
-                                     const Run& run = {});
+/// @errors   Error(Input) for a mesh without triangles; Error(Cancelled)
+[[nodiscard]] Thickness thickness_of(const RayScene& scene, const Run& run = {});
 
 /// The thickness over a mesh, weighted by area.
 struct ThicknessSummary {

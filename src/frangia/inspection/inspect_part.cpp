@@ -119,7 +119,7 @@ SurfaceInspection judged_surface(const Inspection& part,
 MeasuredWalls measure_walls(const Mesh& mesh, const Run& run) {
   run.stage("thickness");
   MeasuredWalls walls;
-  walls.thickness = thickness_of(RayScene(mesh, run), {}, run);
+  walls.thickness = thickness_of(RayScene(mesh, run), run);
   walls.summary = summarize(mesh, walls.thickness);
   return walls;
 }

@@ -164,7 +164,7 @@ EarlyIndirectLight register_setup(MeasuredSetup& setup,
   if (measured.points == 0) return indirect_light;
   clip_to_volume(measured, scan.rig, options, run);
   if (can.removes_turntable_top)
-    turntable_top_height_mm = remove_turntable_top(measured, scan.rig, options.turntable_top, run);
+    turntable_top_height_mm = remove_turntable_top(measured, scan.rig, run);
   if (can.registers_views) {
     if (can.corrects_before_registration)
       indirect_light = correct_before_registration(measured, lit, options.fusion, run);
@@ -338,8 +338,7 @@ Reconstruction reconstruct(const Scan& scan, const ReconstructOptions& given, co
   EarlyIndirectLight indirect_light{.found = false};
   std::size_t unresolved = 0;
   for (MeasuredSetup& setup : setups) {
-    unresolved += resolve_fringe_orders(
-        setup.measured, scan.rig, rays, options.resolve_by_views, correction, run);
+    unresolved += resolve_fringe_orders(setup.measured, scan.rig, rays, correction, run);
     const EarlyIndirectLight early =
         register_setup(setup, lit, can, options, targets, out.turntable_top_height_mm, run);
     indirect_light.found = indirect_light.found || early.found;

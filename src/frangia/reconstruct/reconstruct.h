@@ -33,9 +33,8 @@ namespace frangia {
 
 /// Options of all stages from frames to mesh.
 struct ReconstructOptions {
-  DecodeOptions decode;                    ///< frames to absolute phase
-  MixedPixelOptions mixed_pixels;          ///< removal of pixels that see two surfaces
-  ResolveByViewsOptions resolve_by_views;  ///< fringe orders that other views confirm
+  DecodeOptions decode;            ///< frames to absolute phase
+  MixedPixelOptions mixed_pixels;  ///< removal of pixels that see two surfaces
   /// Recheck of fringe orders after registration.
   FringeOrderCorrectionOptions fringe_order_correction;
   bool register_views = true;    ///< refine the turntable's axis and angles by the overlap of views
@@ -43,9 +42,8 @@ struct ReconstructOptions {
   bool refine_rig = false;       ///< refines the rig itself by the surfaces of the views first
   /// Refines it, too, where the views decide that nothing else explains what they disagree about.
   bool explain_rig = true;
-  RefineRigOptions refinement;        ///< prior of the rig's drift
-  bool keep_turntable_top = false;    ///< otherwise it is found and removed
-  TurntableTopOptions turntable_top;  ///< criteria of the turntable top that is removed
+  RefineRigOptions refinement;      ///< prior of the rig's drift
+  bool keep_turntable_top = false;  ///< otherwise it is found and removed
   double clip_below_mm =
       -std::numeric_limits<double>::infinity();  ///< removes points below this height, object frame
   double clip_radius_mm =

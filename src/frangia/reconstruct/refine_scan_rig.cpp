@@ -51,11 +51,11 @@ std::vector<MeasuredSurface> measure_direction(const Scan& scan,
   correction.mixed_pixels = options.mixed_pixels;
   for (MeasuredSetup& setup : split_setups(std::move(measured))) {
     MeasuredViews& own = setup.measured;
-    resolve_fringe_orders(own, scan.rig, rays, options.resolve_by_views, correction, run);
+    resolve_fringe_orders(own, scan.rig, rays, correction, run);
     if (own.points == 0) continue;
     clip_to_volume(own, scan.rig, options, run);
     if (scan.rig.turntable && !options.keep_turntable_top) {
-      static_cast<void>(remove_turntable_top(own, scan.rig, options.turntable_top, run));
+      static_cast<void>(remove_turntable_top(own, scan.rig, run));
     }
     MeasuredSurface& surface = surfaces.emplace_back();
     surface.pattern = own.coarsest;

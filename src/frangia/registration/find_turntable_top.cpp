@@ -9,6 +9,7 @@
 
 #include <Eigen/Geometry>
 
+#include "frangia/core/angles.h"
 #include "frangia/core/error.h"
 #include "frangia/core/statistics.h"
 #include "frangia/geometry/fit_primitives.h"
@@ -18,6 +19,27 @@
 
 namespace frangia {
 namespace {
+
+/// Criteria of a turntable top. Relative lengths are shares of the working distance, the median
+/// distance of the measured points from the camera.
+struct TurntableTopLimits {
+  double max_tilt_rad = rad_from_deg(3.0);  ///< of the top against the axis
+  double min_share = 0.03;                  ///< of all points that lie on the top, or on its rim
+  double max_below = 0.02;        ///< points below the top and within its edge, as a share of those
+                                  ///< on it
+  double min_visible_edge = 0.6;  ///< share of the directions from the axis in which the edge is
+                                  ///< measured
+  double max_edge_variation = 0.05;    ///< of the edge's radius, as a share of it
+  double relative_max_height = 0.006;  ///< of a top near the origin, above or below it: 3 mm at
+                                       ///< 500 mm
+  double min_width_ratio = 1.5;  ///< a top that is not near the origin must be this many times as
+                                 ///< wide as everything above it; a narrower disc is a base
+  double relative_band = 0.004;  ///< thickness of the layer that is searched for a plane: a tilt of
+                                 ///< the axis of 1 degree over 60 mm at 500 mm, twice
+  double relative_clearance = 0.001;  ///< points nearer to the top than this are mixed with it
+  double min_gap = 0.2;  ///< between a rim and everything else, as a share of the rim's radius
+};
+constexpr TurntableTopLimits kTopLimits;
 
 /// Points of all views.
 ///
@@ -101,8 +123,7 @@ double visible_directions(const std::vector<Eigen::Vector3d>& points) {
 }
 
 /// The widest points that face outward.
-std::vector<Eigen::Vector3d> widest_ring(const TableCloud& cloud,
-                                         const TurntableTopOptions& options) {
+std::vector<Eigen::Vector3d> widest_ring(const TableCloud& cloud) {
   std::vector<Eigen::Vector3d> outward;
   std::vector<double> radii;
   for (std::size_t i = 0; i < cloud.points.size(); ++i) {
@@ -112,12 +133,12 @@ std::vector<Eigen::Vector3d> widest_ring(const TableCloud& cloud,
   }
   if (outward.empty()) return {};
   // A rim holds at least `min_share` of the points: half of that from the widest lies on it.
-  const double widest_mm = quantile(radii, 1.0 - 0.5 * options.min_share);
+  const double widest_mm = quantile(radii, 1.0 - 0.5 * kTopLimits.min_share);
   std::vector<Eigen::Vector3d> ring;
   std::copy_if(
       outward.begin(), outward.end(), std::back_inserter(ring), [&](const Eigen::Vector3d& point) {
         return std::abs(point.head<2>().norm() - widest_mm) <
-               options.max_edge_variation * widest_mm;
+               kTopLimits.max_edge_variation * widest_mm;
       });
   return ring;
 }
@@ -126,11 +147,10 @@ std::vector<Eigen::Vector3d> widest_ring(const TableCloud& cloud,
 /// the origin of the object frame.
 ///
 /// @missing  none when no cylinder meets all criteria
-std::optional<TurntableRim> find_turntable_rim(const TableCloud& cloud,
-                                               const TurntableTopOptions& options) {
+std::optional<TurntableRim> find_turntable_rim(const TableCloud& cloud) {
   constexpr std::size_t kFewest = 50;  // points
-  const std::vector<Eigen::Vector3d> ring = widest_ring(cloud, options);
-  const double enough = options.min_share * static_cast<double>(cloud.points.size());
+  const std::vector<Eigen::Vector3d> ring = widest_ring(cloud);
+  const double enough = kTopLimits.min_share * static_cast<double>(cloud.points.size());
   if (ring.size() < kFewest || static_cast<double>(ring.size()) < enough) return std::nullopt;
   std::vector<double> radii;
   std::vector<double> heights;
@@ -140,30 +160,30 @@ std::optional<TurntableRim> find_turntable_rim(const TableCloud& cloud,
   }
   const TurntableRim rim{median(std::move(radii)), quantile(std::move(heights), 0.99)};
   const double margin_mm =
-      std::max(options.relative_clearance * cloud.working_distance_mm, 6.0 * cloud.sigma_mm);
+      std::max(kTopLimits.relative_clearance * cloud.working_distance_mm, 6.0 * cloud.sigma_mm);
   std::size_t above = 0;
   std::size_t beside = 0;  // below the upper edge, or nearer to the rim than the gap
   for (const Eigen::Vector3d& point : cloud.points) {
     const double radius_mm = point.head<2>().norm();
     const bool low = point.z() < rim.top_mm + margin_mm;
     const bool at_rim =
-        std::abs(radius_mm - rim.radius_mm) < options.max_edge_variation * rim.radius_mm;
+        std::abs(radius_mm - rim.radius_mm) < kTopLimits.max_edge_variation * rim.radius_mm;
     if (low && at_rim) continue;
-    const bool near = radius_mm > (1.0 - options.min_gap) * rim.radius_mm &&
-                      point.z() < rim.top_mm + options.min_gap * rim.radius_mm;
+    const bool near = radius_mm > (1.0 - kTopLimits.min_gap) * rim.radius_mm &&
+                      point.z() < rim.top_mm + kTopLimits.min_gap * rim.radius_mm;
     // A part that stands on the top begins at the height of the upper edge.
     beside += near || point.z() < rim.top_mm - margin_mm ? 1U : 0U;
     above += low ? 0U : 1U;
   }
-  const double max_beside = options.max_below * static_cast<double>(ring.size());
-  const double max_height_mm = options.relative_max_height * cloud.working_distance_mm;
+  const double max_beside = kTopLimits.max_below * static_cast<double>(ring.size());
+  const double max_height_mm = kTopLimits.relative_max_height * cloud.working_distance_mm;
   const bool apart = static_cast<double>(beside) <= max_beside;
   const bool below_part = above >= kFewest;
-  const bool round = visible_directions(ring) >= options.min_visible_edge;
+  const bool round = visible_directions(ring) >= kTopLimits.min_visible_edge;
   const bool expected =
       std::abs(rim.top_mm) < max_height_mm ||
-      (rim.top_mm < 0.0 &&
-       rim.radius_mm > options.min_width_ratio * reach_above(cloud.points, rim.top_mm + margin_mm));
+      (rim.top_mm < 0.0 && rim.radius_mm > kTopLimits.min_width_ratio *
+                                               reach_above(cloud.points, rim.top_mm + margin_mm));
   return apart && below_part && round && expected ? std::optional(rim) : std::nullopt;
 }
 
@@ -228,19 +248,19 @@ Disc disc_of(const std::vector<Eigen::Vector3d>& points) {
 }
 
 /// The turntable top as a disc of horizontal points.
-std::optional<TurntableTop> find_disc(const TableCloud& cloud, const TurntableTopOptions& options) {
+std::optional<TurntableTop> find_disc(const TableCloud& cloud) {
   constexpr std::size_t kFewest = 50;  // points
   // A normal is less certain than the plane of many points: its limit is wider.
   constexpr double kNormalNoise_rad = rad_from_deg(7.0);
-  const double min_cosine = std::cos(options.max_tilt_rad + kNormalNoise_rad);
+  const double min_cosine = std::cos(kTopLimits.max_tilt_rad + kNormalNoise_rad);
   std::vector<Eigen::Vector3d> horizontal;
   for (std::size_t i = 0; i < cloud.points.size(); ++i) {
     if (cloud.normals[i].z() > min_cosine) horizontal.push_back(cloud.points[i]);
   }
   const auto enough = std::max<std::size_t>(
       kFewest,
-      static_cast<std::size_t>(options.min_share * static_cast<double>(cloud.points.size())));
-  const double band_mm = options.relative_band * cloud.working_distance_mm;
+      static_cast<std::size_t>(kTopLimits.min_share * static_cast<double>(cloud.points.size())));
+  const double band_mm = kTopLimits.relative_band * cloud.working_distance_mm;
   const auto height = lowest_layer(horizontal, enough, band_mm);
   if (!height) return std::nullopt;
   Plane plane(Eigen::Vector3d::UnitZ(), -*height);
@@ -251,7 +271,7 @@ std::optional<TurntableTop> find_disc(const TableCloud& cloud, const TurntableTo
     plane = fit(on_it);
   }
   const Disc disc = disc_of(on_it);
-  const double clearance_mm = options.relative_clearance * cloud.working_distance_mm;
+  const double clearance_mm = kTopLimits.relative_clearance * cloud.working_distance_mm;
   const double margin_mm = std::max(2.0 * clearance_mm, 6.0 * cloud.sigma_mm);
   const auto below =
       std::count_if(cloud.points.begin(), cloud.points.end(), [&](const Eigen::Vector3d& p) {
@@ -259,42 +279,29 @@ std::optional<TurntableTop> find_disc(const TableCloud& cloud, const TurntableTo
       });
   const TurntableTop top{plane, clearance_mm, false};
   const bool nothing_below =
-      static_cast<double>(below) <= options.max_below * static_cast<double>(on_it.size());
-  const bool level = plane.normal().z() > std::cos(options.max_tilt_rad);
-  const bool round = disc.visible_edge >= options.min_visible_edge &&
-                     disc.edge_variation < options.max_edge_variation;
+      static_cast<double>(below) <= kTopLimits.max_below * static_cast<double>(on_it.size());
+  const bool level = plane.normal().z() > std::cos(kTopLimits.max_tilt_rad);
+  const bool round = disc.visible_edge >= kTopLimits.min_visible_edge &&
+                     disc.edge_variation < kTopLimits.max_edge_variation;
   const bool expected =
-      std::abs(top.height_mm()) < options.relative_max_height * cloud.working_distance_mm ||
+      std::abs(top.height_mm()) < kTopLimits.relative_max_height * cloud.working_distance_mm ||
       disc.radius_mm >
-          options.min_width_ratio * reach_above(cloud.points, top.height_mm() + margin_mm);
+          kTopLimits.min_width_ratio * reach_above(cloud.points, top.height_mm() + margin_mm);
   return nothing_below && level && round && expected ? std::optional(top) : std::nullopt;
 }
 
 }  // namespace
 
-void TurntableTopOptions::check() const {
-  require(max_tilt_rad > 0.0, "TurntableTopOptions: max_tilt_rad must be above 0");
-  require(min_share > 0.0 && min_share < 1.0,
-          "TurntableTopOptions: min_share must be above 0 and below 1");
-  require(relative_band > 0.0, "TurntableTopOptions: relative_band must be above 0");
-  require(relative_clearance >= 0.0,
-          "TurntableTopOptions: relative_clearance must not be negative");
-  require(min_gap > max_edge_variation,
-          "TurntableTopOptions: min_gap must exceed max_edge_variation");
-}
-
 std::optional<TurntableTop> find_turntable_top(const ViewStore& views,
                                                const CameraModel& camera,
-                                               const TurntableTopOptions& options,
                                                const Run& run) {
-  options.check();
   const TableCloud cloud = gather_table_cloud(views, camera, run);
   if (cloud.points.empty()) return std::nullopt;
-  if (const auto disc = find_disc(cloud, options)) return disc;
-  const auto rim = find_turntable_rim(cloud, options);
+  if (const auto disc = find_disc(cloud)) return disc;
+  const auto rim = find_turntable_rim(cloud);
   if (!rim) return std::nullopt;
   return TurntableTop{Plane(Eigen::Vector3d::UnitZ(), -rim->top_mm),
-                      options.relative_clearance * cloud.working_distance_mm,
+                      kTopLimits.relative_clearance * cloud.working_distance_mm,
                       true};
 }
 

@@ -5,36 +5,12 @@
 
 #include <Eigen/Geometry>
 
-#include "frangia/core/angles.h"
 #include "frangia/core/run.h"
 #include "frangia/rig/camera_model.h"
 #include "frangia/views/clip_views.h"
 #include "frangia/views/view_store.h"
 
 namespace frangia {
-
-/// Criteria of a turntable top. Relative lengths are shares of the working distance, the median
-/// distance of the measured points from the camera.
-struct TurntableTopOptions {
-  double max_tilt_rad = rad_from_deg(3.0);  ///< of the top against the axis
-  double min_share = 0.03;                  ///< of all points that lie on the top, or on its rim
-  double max_below = 0.02;        ///< points below the top and within its edge, as a share of those
-                                  ///< on it
-  double min_visible_edge = 0.6;  ///< share of the directions from the axis in which the edge is
-                                  ///< measured
-  double max_edge_variation = 0.05;    ///< of the edge's radius, as a share of it
-  double relative_max_height = 0.006;  ///< of a top near the origin, above or below it: 3 mm at
-                                       ///< 500 mm
-  double min_width_ratio = 1.5;  ///< a top that is not near the origin must be this many times as
-                                 ///< wide as everything above it; a narrower disc is a base
-  double relative_band = 0.004;  ///< thickness of the layer that is searched for a plane: a tilt of
-                                 ///< the axis of 1 degree over 60 mm at 500 mm, twice
-  double relative_clearance = 0.001;  ///< points nearer to the top than this are mixed with it
-  double min_gap = 0.2;  ///< between a rim and everything else, as a share of the rim's radius
-
-  /// @errors   Error(Input) that names the value which is out of its range
-  void check() const;
-};
 
 /// The top of the turntable in the views.
 ///
@@ -64,18 +40,16 @@ struct TurntableTop {
 /// mistaken for a top: the caller reports what it removes.
 ///
 /// @missing  none when no disc or rim meets all criteria
-/// @errors   Error(Input) as `TurntableTopOptions::check`
-[[nodiscard]] std::optional<TurntableTop> find_turntable_top(
-    const ViewStore& views,
-    const CameraModel& camera,
-    const TurntableTopOptions& options = {},
-    const Run& run = {});
+/// @errors   Error(Cancelled)
+[[nodiscard]] std::optional<TurntableTop> find_turntable_top(const ViewStore& views,
+                                                             const CameraModel& camera,
+                                                             const Run& run = {});
 
 /// Clips the top of the turntable from the views, if there is one: it stands still on the table
 /// when the part moves, and is no surface of the part.
 ///
 /// @return   the number of points removed
-/// @errors   as `find_turntable_top`
+/// @errors   Error(Cancelled)
 std::size_t clip_turntable_top(ViewStore& views, const CameraModel& camera, const Run& run = {});
 
 }  // namespace frangia

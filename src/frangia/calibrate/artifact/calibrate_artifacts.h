@@ -19,7 +19,6 @@ namespace frangia {
 struct CalibrateArtifactsOptions {
   RigSolveOptions camera;      ///< of the camera before a screen
   ArtifactSolveOptions solve;  ///< of projector and turntable
-  FindBallsOptions balls;      ///< search for balls
   int plate_sites = 64;        ///< on plates, along the longer side of the image
 };
 

@@ -12,6 +12,14 @@
 namespace frangia {
 namespace {
 
+/// Limits of `find_balls`.
+struct FindBallsLimits {
+  double tolerance = 0.02;      ///< distance from the sphere, as a share of its radius
+  std::size_t min_points = 60;  ///< on one ball
+  int tries = 4000;             ///< random sets of four points
+};
+constexpr FindBallsLimits kFindBallsLimits;
+
 /// Largest relative error of a radius; a rig of unknown scale measures another one.
 constexpr double kRadiusError = 0.25;
 
@@ -45,14 +53,13 @@ std::vector<std::size_t> on_sphere(std::span<const Eigen::Vector3d> points,
 std::optional<FoundBall> best_ball(std::span<const Eigen::Vector3d> points,
                                    const std::vector<std::size_t>& open,
                                    double radius_mm,
-                                   std::uint64_t seed,
-                                   const FindBallsOptions& options) {
-  if (open.size() < options.min_points) return std::nullopt;
+                                   std::uint64_t seed) {
+  if (open.size() < kFindBallsLimits.min_points) return std::nullopt;
   const auto pick = [&](std::uint64_t stream, std::size_t count) {
     return static_cast<std::size_t>(uniform_from(stream) * static_cast<double>(count));
   };
   FoundBall best;
-  for (int attempt = 0; attempt < options.tries; ++attempt) {
+  for (int attempt = 0; attempt < kFindBallsLimits.tries; ++attempt) {
     const std::uint64_t stream = hash(seed, static_cast<std::uint64_t>(attempt));
     const Eigen::Vector3d& first = points[open[pick(hash(stream, 0), open.size())]];
     std::array<Eigen::Vector3d, 4> set{first};
@@ -70,18 +77,19 @@ std::optional<FoundBall> best_ball(std::span<const Eigen::Vector3d> points,
         sphere->center_mm.norm() < first.norm())
       continue;
     std::vector<std::size_t> found =
-        on_sphere(points, open, *sphere, options.tolerance * sphere->radius_mm);
+        on_sphere(points, open, *sphere, kFindBallsLimits.tolerance * sphere->radius_mm);
     if (found.size() > best.points.size()) best = {*sphere, std::move(found)};
   }
   constexpr int kRefinements = 4;
-  for (int i = 0; i < kRefinements && best.points.size() >= options.min_points; ++i) {
+  for (int i = 0; i < kRefinements && best.points.size() >= kFindBallsLimits.min_points; ++i) {
     std::vector<Eigen::Vector3d> chosen;
     for (const std::size_t index : best.points)
       chosen.push_back(points[index]);
     best.sphere = fit_sphere(chosen);
-    best.points = on_sphere(points, open, best.sphere, options.tolerance * best.sphere.radius_mm);
+    best.points =
+        on_sphere(points, open, best.sphere, kFindBallsLimits.tolerance * best.sphere.radius_mm);
   }
-  if (best.points.size() < options.min_points ||
+  if (best.points.size() < kFindBallsLimits.min_points ||
       std::abs(best.sphere.radius_mm / radius_mm - 1.0) > kRadiusError)
     return std::nullopt;
   return best;
@@ -91,14 +99,13 @@ std::optional<FoundBall> best_ball(std::span<const Eigen::Vector3d> points,
 
 std::vector<FoundBall> find_balls(std::span<const Eigen::Vector3d> points,
                                   double radius_mm,
-                                  std::size_t count,
-                                  const FindBallsOptions& options) {
+                                  std::size_t count) {
   std::vector<std::size_t> open;
   for (std::size_t i = 0; i < points.size(); ++i)
     if (points[i].allFinite()) open.push_back(i);
   std::vector<FoundBall> balls;
   while (balls.size() < count) {
-    auto ball = best_ball(points, open, radius_mm, balls.size(), options);
+    auto ball = best_ball(points, open, radius_mm, balls.size());
     if (!ball) break;
     constexpr double kBeside = 1.2;  // radii, within which nothing else is a ball
     std::erase_if(open, [&](std::size_t i) {

@@ -10,13 +10,6 @@
 
 namespace frangia {
 
-/// Limits of `find_balls`.
-struct FindBallsOptions {
-  double tolerance = 0.02;      ///< distance from the sphere, as a share of its radius
-  std::size_t min_points = 60;  ///< on one ball
-  int tries = 4000;             ///< random sets of four points
-};
-
 /// A ball and the points that lie on it.
 struct FoundBall {
   Sphere sphere;                    ///< fitted to them; mm
@@ -30,7 +23,6 @@ struct FoundBall {
 /// @source   RANSAC on four neighboring points, then `fit_sphere`
 [[nodiscard]] std::vector<FoundBall> find_balls(std::span<const Eigen::Vector3d> points,
                                                 double radius_mm,
-                                                std::size_t count,
-                                                const FindBallsOptions& options = {});
+                                                std::size_t count);
 
 }  // namespace frangia

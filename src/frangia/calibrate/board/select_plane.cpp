@@ -11,6 +11,14 @@
 namespace frangia {
 namespace {
 
+/// Limits of `select_plane`.
+struct SelectPlaneLimits {
+  int tries = 300;           ///< random sets of five sites
+  double tolerance = 0.003;  ///< of the light, as a share of its range over all sites
+  std::uint64_t seed = 1;    ///< of the random sets
+};
+constexpr SelectPlaneLimits kSelectPlaneLimits;
+
 constexpr Eigen::Index kPlaneTerms = 5;
 using PlaneTerms = Eigen::Matrix<double, kPlaneTerms, 1>;
 
@@ -41,8 +49,7 @@ PlaneTerms fit_terms(std::span<const Eigen::Vector2d> rays,
 }  // namespace
 
 std::vector<bool> select_plane(std::span<const Eigen::Vector2d> rays,
-                               std::span<const double> light,
-                               const SelectPlaneOptions& options) {
+                               std::span<const double> light) {
   require(rays.size() == light.size(), "each site needs a ray and a light");
   std::vector<std::size_t> measured;
   double least = std::numeric_limits<double>::infinity();
@@ -55,7 +62,7 @@ std::vector<bool> select_plane(std::span<const Eigen::Vector2d> rays,
   }
   std::vector<bool> flags(light.size(), false);
   if (measured.size() < 4 * static_cast<std::size_t>(kPlaneTerms)) return flags;
-  const double gate = options.tolerance * (most - least);
+  const double gate = kSelectPlaneLimits.tolerance * (most - least);
   const auto near = [&](const PlaneTerms& fit) {
     std::vector<std::size_t> found;
     for (const std::size_t i : measured)
@@ -63,11 +70,11 @@ std::vector<bool> select_plane(std::span<const Eigen::Vector2d> rays,
     return found;
   };
   std::vector<std::size_t> best;
-  for (int attempt = 0; attempt < options.tries; ++attempt) {
+  for (int attempt = 0; attempt < kSelectPlaneLimits.tries; ++attempt) {
     std::vector<std::size_t> some;
     for (std::uint64_t k = 0; k < kPlaneTerms; ++k) {
       const double share =
-          uniform_from(hash(hash(options.seed, static_cast<std::uint64_t>(attempt)), k));
+          uniform_from(hash(hash(kSelectPlaneLimits.seed, static_cast<std::uint64_t>(attempt)), k));
       some.push_back(
           measured[static_cast<std::size_t>(share * static_cast<double>(measured.size()))]);
     }

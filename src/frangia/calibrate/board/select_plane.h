@@ -8,13 +8,6 @@
 
 namespace frangia {
 
-/// Limits of `select_plane`.
-struct SelectPlaneOptions {
-  int tries = 300;           ///< random sets of five sites
-  double tolerance = 0.003;  ///< of the light, as a share of its range over all sites
-  std::uint64_t seed = 1;    ///< of the random sets
-};
-
 /// Finds the largest set of sites that lie on one plane, without a calibrated projector: on a
 /// plane the projector coordinate of a fringe is a quotient of two linear functions of the ray.
 ///
@@ -23,7 +16,6 @@ struct SelectPlaneOptions {
 /// @missing  a NaN light is on no plane; all flags are false where no five sites agree
 /// @source   RANSAC, Fischler & Bolles 1981
 [[nodiscard]] std::vector<bool> select_plane(std::span<const Eigen::Vector2d> rays,
-                                             std::span<const double> light,
-                                             const SelectPlaneOptions& options = {});
+                                             std::span<const double> light);
 
 }  // namespace frangia

@@ -18,20 +18,18 @@ namespace frangia {
 namespace {
 
 /// Largest start of the fringes at the borders of the stripes that a sound code may show.
-double max_start_of(const Pattern& fringes, const GrayCodeCheckOptions& options) {
-  return fringes.shifts_rad.size() <= 3 ? options.max_start_three_rad : options.max_start_rad;
+double max_start_of(const Pattern& fringes) {
+  return fringes.shifts_rad.size() <= 3 ? kGrayCodeLimits.max_start_three_rad
+                                        : kGrayCodeLimits.max_start_rad;
 }
 
 /// Whether code and fringes pass the check with another declaration: they agree, and the fringes
 /// begin at the borders of the stripes as it says.
-bool passes(const GrayCodeSample& sample,
-            const GrayTrial& trial,
-            const Pattern& fringes,
-            const GrayCodeCheckOptions& options) {
+bool passes(const GrayCodeSample& sample, const GrayTrial& trial, const Pattern& fringes) {
   const GrayCodeSample::Start start = sample.start_offset(trial);
   return !start.scattered &&
-         std::abs(wrap_rad(start.offset_rad - trial.start_rad)) <= max_start_of(fringes, options) &&
-         sample.score(trial) >= options.min_agreement;
+         std::abs(wrap_rad(start.offset_rad - trial.start_rad)) <= max_start_of(fringes) &&
+         sample.score(trial) >= kGrayCodeLimits.min_agreement;
 }
 
 /// Frames that show no stripes, or those of the frame before, where the others and the fringes say
@@ -70,13 +68,12 @@ std::vector<GrayTrial> missing_trials(const GrayCodeSample& sample,
 /// the stripes where they should.
 std::vector<GrayTrial> scale_trials(const GrayCodeSample& sample,
                                     const Pattern& code,
-                                    const Pattern& fringes,
-                                    const GrayCodeCheckOptions& options) {
+                                    const Pattern& fringes) {
   std::vector<GrayTrial> out;
   for (const double factor : {2.0, 0.5, 4.0, 0.25}) {
     GrayTrial trial = declared_trial(code, fringes);
     trial.code.stripe_px *= factor;
-    if (!passes(sample, trial, fringes, options)) continue;
+    if (!passes(sample, trial, fringes)) continue;
     trial.fault.kind = SequenceFaultKind::Period;
     trial.fault.what =
         fmt::format("stripes of {:g} px, not {:g} px", trial.code.stripe_px, code.stripe_px);
@@ -88,7 +85,7 @@ std::vector<GrayTrial> scale_trials(const GrayCodeSample& sample,
   other.period_px = sample.shown_period_px(other);
   if (!(other.period_px > 0.0) ||
       std::abs(other.period_px - fringes.period_px) <= 1e-3 * fringes.period_px ||
-      !passes(sample, other, fringes, options))
+      !passes(sample, other, fringes))
     return out;
   other.fault.patterns = {fringes.name};
   other.fault.kind = SequenceFaultKind::Period;
@@ -103,11 +100,10 @@ std::vector<GrayTrial> scale_trials(const GrayCodeSample& sample,
 std::vector<GrayTrial> start_trials(const GrayCodeSample& sample,
                                     const Pattern& code,
                                     const Pattern& fringes,
-                                    double start_rad,
-                                    const GrayCodeCheckOptions& options) {
+                                    double start_rad) {
   GrayTrial trial = declared_trial(code, fringes);
   trial.start_rad = start_rad;
-  if (!passes(sample, trial, fringes, options)) return {};
+  if (!passes(sample, trial, fringes)) return {};
   const double declared_deg = deg_from_rad(fringes.shifts_rad.front());
   const double start_deg = std::round(declared_deg + deg_from_rad(start_rad));
   trial.fault = {SequenceFaultKind::Start,
@@ -142,9 +138,7 @@ std::vector<SequenceFault> best_of(const GrayCodeSample& sample,
 
 }  // namespace
 
-SequenceCheck check_gray_code(const FrameStack& gray,
-                              const WrappedPhase& fringes,
-                              const GrayCodeCheckOptions& options) {
+SequenceCheck check_gray_code(const FrameStack& gray, const WrappedPhase& fringes) {
   const Pattern& code = gray.pattern;
   constexpr int kMaxFrames = 64;  // bits of CodedPixel::bright
   require(static_cast<int>(gray.frames.size()) == code.frame_count() &&
@@ -152,29 +146,29 @@ SequenceCheck check_gray_code(const FrameStack& gray,
           "check_gray_code: the number of frames differs from the pattern");
   SequenceCheck out;
   out.patterns = {code.name, fringes.pattern.name};
-  const GrayCodeSample sample(gray, fringes, options);
-  if (sample.pixels.size() < options.min_pixels) return out;
+  const GrayCodeSample sample(gray, fringes);
+  if (sample.pixels.size() < kGrayCodeLimits.min_pixels) return out;
   const Pattern& shown = fringes.pattern;
   const GrayTrial as_declared = declared_trial(code, shown);
   out.decided = true;
   out.agreement = sample.score(as_declared);
-  const bool agrees = out.agreement >= options.min_agreement;
+  const bool agrees = out.agreement >= kGrayCodeLimits.min_agreement;
   const GrayCodeSample::Start start = sample.start_offset(as_declared);
   const bool begins_elsewhere =
-      agrees && !start.scattered && std::abs(start.offset_rad) > max_start_of(shown, options);
+      agrees && !start.scattered && std::abs(start.offset_rad) > max_start_of(shown);
   std::vector<GrayTrial> trials = missing_trials(sample, code, shown);
   const bool misses = !trials.empty();
   const auto add = [&](std::vector<GrayTrial> more) {
     std::move(more.begin(), more.end(), std::back_inserter(trials));
   };
-  if (begins_elsewhere) add(start_trials(sample, code, shown, start.offset_rad, options));
-  if (!agrees || start.scattered) add(scale_trials(sample, code, shown, options));
+  if (begins_elsewhere) add(start_trials(sample, code, shown, start.offset_rad));
+  if (!agrees || start.scattered) add(scale_trials(sample, code, shown));
   if (agrees && trials.empty() && !begins_elsewhere) return out;
   if (!agrees) add(gray_trials(code, shown));
   out.consistent = false;
-  const double gain = agrees ? 0.0 : options.min_gain;
-  const double least = std::max(options.min_agreement, out.agreement + gain);
-  out.fits = best_of(sample, std::move(trials), least, options.tie);
+  const double gain = agrees ? 0.0 : kGrayCodeLimits.min_gain;
+  const double least = std::max(kGrayCodeLimits.min_agreement, out.agreement + gain);
+  out.fits = best_of(sample, std::move(trials), least, kGrayCodeLimits.tie);
   // A frame that is missing is no other fault of a code that agrees without it.
   if (agrees && misses && out.fits.empty()) out.consistent = true;
   return out;

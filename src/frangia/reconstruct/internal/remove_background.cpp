@@ -56,11 +56,8 @@ void clip_on_registered_turntable(MeasuredSetup& setup,
   tie_cameras(setup.measured, rig);
 }
 
-double remove_turntable_top(MeasuredViews& measured,
-                            const Rig& rig,
-                            const TurntableTopOptions& options,
-                            const Run& run) {
-  const auto top = find_turntable_top(measured.reference(), rig.reference().model, options, run);
+double remove_turntable_top(MeasuredViews& measured, const Rig& rig, const Run& run) {
+  const auto top = find_turntable_top(measured.reference(), rig.reference().model, run);
   if (!top) return kMissing;
   const std::size_t removed = clip_cameras(measured, rig, top->clip(), run);
   const double height_mm = top->height_mm();

@@ -28,7 +28,6 @@ void clip_on_registered_turntable(MeasuredSetup& setup,
 /// @missing  NaN when no turntable top is found
 [[nodiscard]] double remove_turntable_top(MeasuredViews& measured,
                                           const Rig& rig,
-                                          const TurntableTopOptions& options,
                                           const Run& run = {});
 
 }  // namespace frangia

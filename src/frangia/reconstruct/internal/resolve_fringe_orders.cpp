@@ -9,12 +9,10 @@ namespace frangia {
 std::size_t resolve_fringe_orders(MeasuredViews& measured,
                                   const Rig& rig,
                                   const Image<Eigen::Vector2f>& rays,
-                                  const ResolveByViewsOptions& resolve_options,
                                   const FringeOrderCorrectionOptions& correction_options,
                                   const Run& run) {
   const FringeOptics optics{measured.coarsest, rig, rays};
-  const auto resolved =
-      resolve_by_views(measured.reference(), measured.unresolved, optics, resolve_options, run);
+  const auto resolved = resolve_by_views(measured.reference(), measured.unresolved, optics, run);
   if (resolved.removed_points > 0) {
     run.warn(
         fmt::format("points removed because neither the laser sheet nor another view determines "

@@ -22,7 +22,6 @@ namespace frangia {
 std::size_t resolve_fringe_orders(MeasuredViews& measured,
                                   const Rig& rig,
                                   const Image<Eigen::Vector2f>& rays,
-                                  const ResolveByViewsOptions& resolve_options,
                                   const FringeOrderCorrectionOptions& correction_options,
                                   const Run& run = {});
 

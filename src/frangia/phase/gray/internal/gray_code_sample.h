@@ -14,6 +14,28 @@
 
 namespace frangia {
 
+/// Limits and sampling of `check_gray_code`.
+struct GrayCodeCheckLimits {
+  int lines = 64;  ///< sampled rows, or columns for horizontal stripes
+  /// Distance of a bright or dark pixel from the mean of the fringes, over their modulation; pixels
+  /// nearer to it are on the border of two stripes.
+  double min_level = 0.3;
+  std::size_t min_pixels = 300;  ///< fewer decide nothing
+  std::size_t min_borders = 12;  ///< borders of a frame's stripes; fewer say nothing about it
+  double margin_rad = 0.5;       ///< added to half a stripe when stripes are compared with fringes
+  /// Shares of pixels that agree with the fringes, and of borders that lie between neighbouring
+  /// stripes, below which the code does not fit. Sound codes have more than 0.95 of both, except
+  /// for borders at depth edges.
+  double min_agreement = 0.75;
+  double min_gain = 0.2;  ///< by which another declaration must raise the smaller share
+  double tie = 0.03;      ///< shares that differ by less are equal
+  /// Start of the fringes at the borders of the stripes that a sound code may show: blur and
+  /// harmonics move borders and phases. Half a projector pixel is 0.2 for fringes of 16 px.
+  double max_start_rad = 0.25;
+  double max_start_three_rad = 0.45;  ///< the same for three frames, which harmonics affect more
+};
+inline constexpr GrayCodeCheckLimits kGrayCodeLimits;
+
 inline constexpr int kBorderGap = 3;  ///< px between the two sides of a border
 
 /// A border is a depth edge where the step of the phase across it differs by this much from the
@@ -33,14 +55,12 @@ struct CodedPixel {
 /// Sampled pixels of a Gray code and its fringes, and how well trials agree with them.
 class GrayCodeSample {
  public:
-  GrayCodeSample(const FrameStack& gray,
-                 const WrappedPhase& fringes,
-                 const GrayCodeCheckOptions& options)
-      : gray_(gray), fringes_(fringes), options_(options) {
+  GrayCodeSample(const FrameStack& gray, const WrappedPhase& fringes)
+      : gray_(gray), fringes_(fringes) {
     const bool columns = gray.pattern.direction == FringeDirection::Horizontal;
     const int across = columns ? fringes.status.width() : fringes.status.height();
     const int along = columns ? fringes.status.height() : fringes.status.width();
-    const int stride = std::max(1, across / options.lines);
+    const int stride = std::max(1, across / kGrayCodeLimits.lines);
     for (int line = stride / 2; line < across; line += stride) {
       for (int place = 0; place < along; ++place) {
         CodedPixel pixel{.line = line, .place = place};
@@ -99,7 +119,7 @@ class GrayCodeSample {
       if (step < 0 && step_along_phase(opposite, i) > 0) falling += 1.0;
     }
     return std::max(wrong / static_cast<double>(std::max<std::size_t>(1, pixels.size())),
-                    falling / std::max(borders, static_cast<double>(options_.min_borders)));
+                    falling / std::max(borders, static_cast<double>(kGrayCodeLimits.min_borders)));
   }
 
   /// The phases of the fringes at the borders of neighbouring stripes.
@@ -142,7 +162,7 @@ class GrayCodeSample {
     }
     constexpr double kMinConcentration = 0.7;
     const auto count = static_cast<double>(at.columns.size());
-    if (at.columns.size() < options_.min_pixels) return {};
+    if (at.columns.size() < kGrayCodeLimits.min_pixels) return {};
     if (std::hypot(cosine, sine) < kMinConcentration * count) return {kMissing, true};
     return {std::atan2(sine, cosine), false};
   }
@@ -150,7 +170,7 @@ class GrayCodeSample {
   /// if none fits. It is rounded as far as the borders allow.
   [[nodiscard]] double shown_period_px(const GrayTrial& trial) const {
     const Borders at = borders(trial);
-    if (at.columns.size() < options_.min_pixels) return 0.0;
+    if (at.columns.size() < kGrayCodeLimits.min_pixels) return 0.0;
     const auto [low, high] = std::minmax_element(at.columns.begin(), at.columns.end());
     const double field = *high - *low;
     if (!(field > 0.0)) return 0.0;
@@ -179,7 +199,8 @@ class GrayCodeSample {
     if (fringes_.status(x, y) != PixelStatus::Measured) return false;
     pixel.phase_rad = fringes_.phase_rad(x, y);
     const double mean = fringes_.mean_counts(x, y);
-    const double level = options_.min_level * static_cast<double>(fringes_.modulation_counts(x, y));
+    const double level =
+        kGrayCodeLimits.min_level * static_cast<double>(fringes_.modulation_counts(x, y));
     for (std::size_t k = 0; k < gray_.frames.size(); ++k) {
       const double above = counts_at(gray_.frames[k], x, y) - mean;
       if (std::abs(above) < level) return false;
@@ -214,7 +235,7 @@ class GrayCodeSample {
                                          const CodedPixel& pixel,
                                          std::uint32_t stripe) const {
     return distance_rad(trial, pixel, stripe) <=
-           kPi * trial.code.stripe_px / trial.period_px + options_.margin_rad;
+           kPi * trial.code.stripe_px / trial.period_px + kGrayCodeLimits.margin_rad;
   }
   /// 1 where the number of the stripe rises by one with the phase from pixel `i - 1` to `i`, -1
   /// where it falls, 0 elsewhere.
@@ -268,7 +289,7 @@ class GrayCodeSample {
       constexpr double kSure = 3.0;  // standard deviations of a count
       const double wrong = std::max(0.0, bad[frame] - by_chance - kSure * std::sqrt(by_chance));
       const double borders = good[frame] + wrong;
-      if (borders < static_cast<double>(options_.min_borders)) continue;
+      if (borders < static_cast<double>(kGrayCodeLimits.min_borders)) continue;
       least = std::min(least, good[frame] / borders);
     }
     return least;
@@ -290,13 +311,12 @@ class GrayCodeSample {
       ++borders;
       rising += ((change > 0.0) != trial.reversed) == (step > 0) ? 1 : 0;
     }
-    if (borders < options_.min_borders) return 1.0;
+    if (borders < kGrayCodeLimits.min_borders) return 1.0;
     return static_cast<double>(rising) / static_cast<double>(borders);
   }
 
   const FrameStack& gray_;
   const WrappedPhase& fringes_;
-  const GrayCodeCheckOptions& options_;
 };
 
 }  // namespace frangia
