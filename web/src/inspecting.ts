@@ -1,7 +1,7 @@
 import type { Store } from './store';
 import type { Exporting } from './exporting';
 import { formatOf, MESH_FORMATS, REFERENCE_FORMATS } from './file_formats';
-import { t } from './messages';
+import { currentLanguage, t } from './messages';
 import { requireSendable } from './session';
 import type { CharacteristicKind, Plan, PlannedCharacteristic, PlannedFeature } from './inspection_types';
 import type { FoundFeature, Inspection, Triple } from './types';
@@ -219,7 +219,7 @@ export class Inspecting {
   /** Writes a report, or the plan, and downloads it when it is there. */
   async write(format: 'html' | 'pdf' | 'csv' | 'qif' | 'toml'): Promise<void> {
     try {
-      const { job } = await this.app.session.command<{ job: number }>('report', { format });
+      const { job } = await this.app.session.command<{ job: number }>('report', { format, language: currentLanguage() });
       const name = format === 'toml' ? 'inspection.toml' : `${this.app.project.name} report.${format}`;
       this.report = { job, name };
       this.follow();

@@ -129,6 +129,14 @@ ReportFields report_of(TomlReader reader, const std::filesystem::path& plan) {
   text("paper", fields.paper);
   if (fields.paper != "A4" && fields.paper != "Letter")
     reader.fail("paper", fmt::format("is \"{}\"; it must be A4 or Letter", fields.paper));
+  text("language", fields.language);
+  if (std::find(kReportLanguages.begin(), kReportLanguages.end(), fields.language) ==
+      kReportLanguages.end()) {
+    reader.fail(
+        "language",
+        fmt::format(
+            "is \"{}\"; it must be one of {}", fields.language, fmt::join(kReportLanguages, ", ")));
+  }
   if (reader.has("logo")) fields.logo = plan.parent_path() / reader.text("logo");
   reader.refuse_unused_keys();
   return fields;

@@ -56,16 +56,20 @@ struct PlannedSection {
   bool blade = false;                                  ///< measure it as the profile of a blade
 };
 
+/// The languages of a report: English, German, Italian.
+inline constexpr std::array<std::string_view, 3> kReportLanguages{"en", "de", "it"};
+
 /// What stands at the head of a report: `[report]`. Empty texts are left out.
 struct ReportFields {
-  std::string drawing;         ///< number and revision
-  std::string order;           ///< number
-  std::string serial;          ///< of the part
-  std::string customer;        ///< name
-  std::string inspector;       ///< name of the operator
-  std::string date;            ///< of the inspection; empty: when the report is written
-  std::string paper = "A4";    ///< A4 or Letter
-  std::filesystem::path logo;  ///< PNG or JPEG, relative to the file of the plan; may be empty
+  std::string drawing;          ///< number and revision
+  std::string order;            ///< number
+  std::string serial;           ///< of the part
+  std::string customer;         ///< name
+  std::string inspector;        ///< name of the operator
+  std::string date;             ///< of the inspection; empty: when the report is written
+  std::string paper = "A4";     ///< A4 or Letter
+  std::string language = "en";  ///< one of `kReportLanguages`
+  std::filesystem::path logo;   ///< PNG or JPEG, relative to the file of the plan; may be empty
 };
 
 /// How the parts of one kind are inspected: inspection.toml.

@@ -107,6 +107,7 @@ void add_report(TomlLines& lines, const ReportFields& fields, const std::filesys
   inner.text("operator", fields.inspector);
   inner.text("date", fields.date);
   if (fields.paper != ReportFields{}.paper) inner.text("paper", fields.paper);
+  if (fields.language != ReportFields{}.language) inner.text("language", fields.language);
   inner.text("logo", relative_to(fields.logo, folder));
   const std::string text = inner.take();
   if (!text.empty()) lines.head("[report]\n" + text.substr(0, text.size() - 1));

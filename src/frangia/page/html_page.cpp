@@ -73,18 +73,24 @@ std::string css_string(std::string_view text) {
   return quoted + "\"";
 }
 
+std::string translated(const HtmlPaper& paper, std::string_view english) {
+  return paper.words ? paper.words(english) : std::string(english);
+}
+
 std::string sheet_style(const HtmlPaper& paper) {
   constexpr const char* kMargin = "font:8pt \"DejaVu Sans\",sans-serif;color:#5a6470;";
   return fmt::format(
       "@page{{size:{0};margin:18mm 14mm 16mm;"
       "@top-left{{content:{1};{3}}}"
       "@bottom-left{{content:{2};{3}}}"
-      "@bottom-right{{content:\"page \" counter(page) \" of \" counter(pages);{3}}}}}\n"
+      "@bottom-right{{content:{4} counter(page) {5} counter(pages);{3}}}}}\n"
       "@page:first{{margin-top:12mm;@top-left{{content:none}}}}\n",
       paper.size,
       css_string(paper.head),
       css_string(paper.foot),
-      kMargin);
+      kMargin,
+      css_string(translated(paper, "page") + " "),
+      css_string(" " + translated(paper, "of") + " "));
 }
 
 /// A cell with the class of its decision, so that it is colored.
@@ -101,16 +107,20 @@ HtmlPage::HtmlPage(std::string_view title, HtmlPaper paper, bool show_title)
   if (show_title) body_ = fmt::format("<h1>{}</h1>\n", title_);
 }
 
+std::string HtmlPage::word(std::string_view english) const {
+  return html_escaped(translated(paper_, english));
+}
+
 void HtmlPage::heading(std::string_view text) {
-  body_ += fmt::format("<h2>{}</h2>\n", html_escaped(text));
+  body_ += fmt::format("<h2>{}</h2>\n", word(text));
 }
 
 void HtmlPage::paragraph(std::string_view text) {
-  body_ += fmt::format("<p>{}</p>\n", html_escaped(text));
+  body_ += fmt::format("<p>{}</p>\n", word(text));
 }
 
 void HtmlPage::verdict(std::string_view kind, std::string_view text) {
-  body_ += fmt::format("<p class=\"verdict {}\">{}</p>\n", kind, html_escaped(text));
+  body_ += fmt::format("<p class=\"verdict {}\">{}</p>\n", kind, word(text));
 }
 
 void HtmlPage::table(const std::vector<std::string>& columns,
@@ -124,7 +134,7 @@ void HtmlPage::table(const std::vector<std::string>& columns,
       "<table class=\"{}{}\">{}", named ? "list" : "facts", classes, named ? "<thead><tr>" : "");
   if (named) {
     for (const std::string& column : columns)
-      body_ += fmt::format("<th>{}</th>", html_escaped(column));
+      body_ += fmt::format("<th>{}</th>", word(column));
     body_ += "</tr></thead>";
   }
   body_ += "<tbody>\n";
@@ -144,13 +154,12 @@ void HtmlPage::begin_figures() {
 void HtmlPage::picture(const Image<Rgb>& picture, std::string_view caption) {
   body_ +=
       fmt::format("<figure><img alt=\"{0}\" src=\"{1}\"><figcaption>{0}</figcaption></figure>\n",
-                  html_escaped(caption),
+                  word(caption),
                   data_uri("image/png", encode_picture(picture)));
 }
 
 void HtmlPage::drawing(const std::string& svg, std::string_view caption) {
-  body_ +=
-      fmt::format("<figure>{}<figcaption>{}</figcaption></figure>\n", svg, html_escaped(caption));
+  body_ += fmt::format("<figure>{}<figcaption>{}</figcaption></figure>\n", svg, word(caption));
 }
 
 void HtmlPage::end_figures() {
@@ -167,8 +176,9 @@ void HtmlPage::new_sheet() {
 
 std::string HtmlPage::text() const {
   return fmt::format(
-      "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>{}</title>"
+      "<!DOCTYPE html>\n<html lang=\"{}\"><head><meta charset=\"utf-8\"><title>{}</title>"
       "<style>{}{}</style></head><body>\n{}</body></html>\n",
+      paper_.language,
       title_,
       kPageStyle,
       sheet_style(paper_),

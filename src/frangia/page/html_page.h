@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -9,15 +10,22 @@
 
 namespace frangia {
 
+/// What translates the texts of a page into the language of its reader.
+using PageWords = std::function<std::string(std::string_view)>;
+
 /// Size of the paper that a page is printed on, and what stands on each sheet.
 struct HtmlPaper {
   std::string size = "A4";  ///< A4 or Letter
   std::string head;         ///< at the top of every sheet but the first
   std::string foot;         ///< at the bottom of every sheet, beside its number
+  std::string language = "en";
+  PageWords words;  ///< for texts in English; none: they stay
 };
 
 /// A page of HTML without references to other files, scripts or layout grids, which a browser shows
 /// and WeasyPrint prints. Texts are escaped.
+/// Headings, paragraphs, captions and names of columns are translated by the words of the paper;
+/// cells may hold names, and stay.
 class HtmlPage {
  public:
   /// A page with a title; `show_title`: as its first heading, too.
@@ -40,6 +48,9 @@ class HtmlPage {
   void end_figures();                      ///< see `begin_figures`
   void html(const std::string& fragment);  ///< HTML, taken over as it is
   void new_sheet();                        ///< what follows begins a sheet
+
+  /// A text in the language of the page, for `html`; escaped.
+  [[nodiscard]] std::string word(std::string_view english) const;
 
   /// The finished page.
   [[nodiscard]] std::string text() const;

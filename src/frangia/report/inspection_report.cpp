@@ -15,24 +15,32 @@ Conformity verdict_of(const InspectionReport& report) {
   return verdict_of(report.surface ? &*report.surface : nullptr, report.characteristics);
 }
 
-std::vector<std::string> reasons_of(const InspectionReport& report) {
+std::vector<std::string> reasons_of(const InspectionReport& report, const ReportWords& words) {
   std::vector<std::string> reasons;
   for (const VerdictReason& reason :
-       verdict_reasons(report.surface ? &*report.surface : nullptr, report.characteristics))
-    reasons.push_back(reason.text());
+       verdict_reasons(report.surface ? &*report.surface : nullptr, report.characteristics)) {
+    std::string text;
+    for (const VerdictClause& clause : reason.clauses)
+      text += (text.empty() ? "" : "; ") + words(clause.text);
+    reasons.push_back(words(reason.about) + ": " + text);
+  }
   return reasons;
 }
 
 std::string html_of(const InspectionReport& report) {
-  const std::string title =
-      report.part.empty() ? "Inspection report" : "Inspection report: " + report.part;
+  const ReportWords words(report.fields.language);
+  const std::string name = words("Inspection report");
+  const std::string title = report.part.empty() ? name : name + ": " + report.part;
   std::string head = title;
   if (!report.fields.serial.empty()) head += ", " + report.fields.serial;
-  HtmlPage page(title, {report.fields.paper, head, report.version + ", " + report.created}, false);
-  report::add_cover(page, report);
-  report::add_findings(page, report);
+  HtmlPage page(
+      title,
+      {report.fields.paper, head, report.version + ", " + report.created, words.language(), words},
+      false);
+  report::add_cover(page, report, words);
+  report::add_findings(page, report, words);
   page.new_sheet();
-  report::add_annex(page, report);
+  report::add_annex(page, report, words);
   return page.text();
 }
 

@@ -15,6 +15,7 @@
 #include "frangia/inspection/measured_characteristics.h"
 #include "frangia/report/labelled_picture.h"
 #include "frangia/report/report_pictures.h"
+#include "frangia/report/report_words.h"
 #include "frangia/report/section_drawing.h"
 
 namespace frangia {
@@ -40,6 +41,8 @@ struct InspectionReport {
   /// The face of the CAD reference of each feature; empty without such a reference.
   std::vector<std::optional<NominalFace>> nominals;
   std::vector<SectionResult> sections;  ///< that a plan asked for
+  /// Of each section the sizes that it shows; or empty.
+  std::vector<std::vector<SectionDimension>> dimensions;
   /// Largest or typical standard uncertainty of each known source, mm.
   std::vector<std::pair<std::string, double>> uncertainty_mm;
   bool systematic_known = false;      ///< the mesh states a systematic part of sigma
@@ -52,11 +55,13 @@ struct InspectionReport {
 [[nodiscard]] Conformity verdict_of(const InspectionReport& report);
 
 /// Why the verdict is what it is, the most important sentence first.
-[[nodiscard]] std::vector<std::string> reasons_of(const InspectionReport& report);
+[[nodiscard]] std::vector<std::string> reasons_of(const InspectionReport& report,
+                                                  const ReportWords& words = ReportWords());
 
-/// Returns the report as one page of HTML without references to other files: first a sheet with the
-/// verdict, the first picture and the worst rows of the table; then the rest of the table,
-/// pictures, sections and features; calibration, uncertainty and checksums as an annex.
+/// Returns the report in the language of its fields as one page of HTML without references to other
+/// files: first a sheet with the verdict, the first picture and the worst rows of the table; then
+/// the rest of the table, pictures, sections and features; calibration, uncertainty and checksums
+/// as an annex.
 [[nodiscard]] std::string html_of(const InspectionReport& report);
 
 /// Returns the characteristics as CSV with the header

@@ -73,7 +73,10 @@ std::string shortened(const std::string& text, std::size_t most) {
   return bytes == text.size() ? text : text.substr(0, bytes) + "…";
 }
 
-std::string drawn_label(const PictureLabel& label, const LabelBox& box, double width_px) {
+std::string drawn_label(const PictureLabel& label,
+                        const LabelBox& box,
+                        double width_px,
+                        const ReportWords& words) {
   constexpr std::size_t kTextCharacters = 17;
   constexpr std::size_t kDetailCharacters = 21;
   const double height = LabelLayout{}.height_px;
@@ -101,9 +104,9 @@ std::string drawn_label(const PictureLabel& label, const LabelBox& box, double w
       height,
       left + 6.0,
       box.top_px + 16.5,
-      html_escaped(shortened(label.text, kTextCharacters)),
+      html_escaped(shortened(words(label.text), kTextCharacters)),
       box.top_px + 32.0,
-      html_escaped(shortened(label.detail, kDetailCharacters)));
+      html_escaped(shortened(words(label.detail), kDetailCharacters)));
 }
 
 std::string hex_color(ColorMap map, double share) {
@@ -112,7 +115,7 @@ std::string hex_color(ColorMap map, double share) {
   return fmt::format("#{:02x}{:02x}{:02x}", part(0), part(1), part(2));
 }
 
-std::string drawn_scale(const PictureScale& scale) {
+std::string drawn_scale(const PictureScale& scale, const ReportWords& words) {
   constexpr double kWide = 1060.0;
   constexpr double kFrom = 330.0;
   constexpr double kLong = 560.0;
@@ -125,7 +128,7 @@ std::string drawn_scale(const PictureScale& scale) {
       kWide,
       kSheetWidth_mm,
       kFrom - 18.0,
-      html_escaped(scale.quantity));
+      html_escaped(words(scale.quantity)));
   for (int i = 0; i < kSteps; ++i) {
     svg += fmt::format("<rect x=\"{:.2f}\" y=\"2\" width=\"{:.2f}\" height=\"14\" fill=\"{}\"/>",
                        kFrom + kLong * i / kSteps,
@@ -165,7 +168,7 @@ std::string drawn_scale(const PictureScale& scale) {
 
 }  // namespace
 
-std::string labelled_picture(const ReportPicture& picture) {
+std::string labelled_picture(const ReportPicture& picture, const ReportWords& words) {
   const double wide = picture.picture.width();
   const double high = picture.picture.height();
   const double total = wide + 2.0 * kLabelColumn_px;
@@ -176,16 +179,16 @@ std::string labelled_picture(const ReportPicture& picture) {
       "style=\"width:{0}mm;height:{1:.2f}mm\" font-family=\"sans-serif\" fill=\"none\">\n",
       kSheetWidth_mm,
       height_mm,
-      html_escaped(picture.caption),
+      html_escaped(words(picture.caption)),
       data_uri("image/png", encode_picture(picture.picture)),
       total,
       high);
   for (const LabelBox& box : place_labels(picture.labels, wide, high))
-    html += drawn_label(picture.labels[box.label], box, wide);
+    html += drawn_label(picture.labels[box.label], box, wide, words);
   html += "</svg></div>";
-  if (picture.scale) html += drawn_scale(*picture.scale);
-  return html +
-         fmt::format("<figcaption>{}</figcaption></figure>\n", html_escaped(picture.caption));
+  if (picture.scale) html += drawn_scale(*picture.scale, words);
+  return html + fmt::format("<figcaption>{}</figcaption></figure>\n",
+                            html_escaped(words(picture.caption)));
 }
 
 namespace {

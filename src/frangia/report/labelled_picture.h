@@ -12,6 +12,7 @@
 #include "frangia/frames/png.h"
 #include "frangia/inspect/render_mesh.h"
 #include "frangia/inspection/inspect_part.h"
+#include "frangia/report/report_words.h"
 #include "frangia/uncertainty/conformity.h"
 
 namespace frangia {
@@ -88,6 +89,7 @@ inline constexpr int kReportPictureHeight_px = 440;  ///< see `kReportPictureWid
 inline constexpr double kLabelColumn_px = 170.0;
 
 /// A picture with its labels, leader lines and scale, as HTML.
-[[nodiscard]] std::string labelled_picture(const ReportPicture& picture);
+[[nodiscard]] std::string labelled_picture(const ReportPicture& picture,
+                                           const ReportWords& words = ReportWords());
 
 }  // namespace frangia

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "frangia/core/text.h"
 #include "frangia/report/internal/report_sheets.h"
 
 namespace frangia::report {
@@ -16,22 +17,21 @@ Rows rows_of(const std::vector<std::pair<std::string, std::string>>& pairs) {
   return rows;
 }
 
-void add_deviation(HtmlPage& page, const InspectionReport& report) {
+void add_deviation(HtmlPage& page, const InspectionReport& report, const ReportWords& words) {
   if (!report.deviation || !report.surface) return;
   const DeviationSummary& d = *report.deviation;
   const SurfaceVerdict& v = *report.surface;
   page.heading("Deviations from the reference");
-  const auto extreme = [](double value, double u95, const Eigen::Vector3d& at) {
-    if (!std::isfinite(value)) return std::string("none");
-    return fmt::format("{:+.4f}{} at {}",
-                       value,
-                       std::isfinite(u95) ? fmt::format(" (U95 {:.4f})", u95) : "",
-                       place_text(at));
+  const auto extreme = [&](double value, double u95, const Eigen::Vector3d& at) {
+    if (!std::isfinite(value)) return words("none");
+    return words(fmt::format("{:+.4f}{} at {}",
+                             value,
+                             std::isfinite(u95) ? fmt::format(" (U95 {:.4f})", u95) : "",
+                             place_text(at)));
   };
   const auto share = [&](PatchDecision decision) { return share_text(v.share_of(decision)); };
   Rows rows{
-      {"tolerance, mm",
-       fmt::format("{:+.4g} to {:+.4g}", v.rule.limits.lower, v.rule.limits.upper)},
+      {"tolerance, mm", fmt::format("{:+.4g} … {:+.4g}", v.rule.limits.lower, v.rule.limits.upper)},
       {"nominal area, less what is excluded and strips along edges, mm²",
        number_text(v.area_mm2, 1)},
       {"strips along edges, which are not judged: width, mm, and share of the nominal area",
@@ -44,7 +44,8 @@ void add_deviation(HtmlPage& page, const InspectionReport& report) {
       {"coverage: decided share, and least share of a part that is in",
        share_text(v.coverage) + ", " + share_text(v.rule.min_coverage)},
       {"widest gap, and widest gap of a part that is in, mm",
-       fmt::format("{:.3g} at {}, {:.3g}", v.gap_mm, place_text(v.gap_at_mm), v.rule.max_gap_mm)},
+       words(fmt::format(
+           "{:.3g} at {}, {:.3g}", v.gap_mm, place_text(v.gap_at_mm), v.rule.max_gap_mm))},
       {"filter: mean over round patches of, mm", fmt::format("{:.3g}", v.rule.min_feature_mm)},
       {"smallest patch, mm", extreme(v.lowest.deviation_mm, v.lowest.u95_mm, v.lowest.at_mm)},
       {"largest patch, mm", extreme(v.highest.deviation_mm, v.highest.u95_mm, v.highest.at_mm)},
@@ -59,11 +60,11 @@ void add_deviation(HtmlPage& page, const InspectionReport& report) {
        share_text(v.rule.max_uncertainty_share) + ", " + share_text(v.rule.well_measured_share())},
       {"least half-width of a tolerance that the measurement is good enough for, mm",
        std::isfinite(v.decidable_mm) ? number_text(v.decidable_mm, 4)
-                                     : "none: too little was measured"}};
+                                     : words("none: too little was measured")}};
   for (const ExcludedBox& box : v.rule.excluded)
     rows.push_back({"excluded by the plan: " + box.name,
-                    place_text(box.min_mm) + " to " + place_text(box.max_mm)});
-  page.table({"", ""}, rows);
+                    place_text(box.min_mm) + " … " + place_text(box.max_mm)});
+  page.table({"", ""}, with_words(rows, words));
   page.paragraph(
       "Averaging over a patch shrinks noise alone; the systematic part, the calibration, the "
       "alignment "
@@ -84,10 +85,10 @@ void add_deviation(HtmlPage& page, const InspectionReport& report) {
     if (i == 0 || d.count.at(i) > 0)
       vertices.push_back({kReasons.at(i), fmt::format("{}", d.count.at(i))});
   }
-  page.table({"vertices", "number"}, vertices);
+  page.table({"vertices", "number"}, with_words(vertices, words));
 }
 
-void add_uncertainty(HtmlPage& page, const InspectionReport& report) {
+void add_uncertainty(HtmlPage& page, const InspectionReport& report, const ReportWords& words) {
   page.heading("Uncertainty");
   Rows rows;
   for (const auto& [name, value] : report.uncertainty_mm)
@@ -96,7 +97,7 @@ void add_uncertainty(HtmlPage& page, const InspectionReport& report) {
     page.paragraph("The mesh holds no sigma, so no uncertainty is known; the limits alone decide.");
     return;
   }
-  page.table({"term", "standard uncertainty, mm"}, rows);
+  page.table({"term", "standard uncertainty, mm"}, with_words(rows, words));
   if (report.correlation_known) {
     page.paragraph(
         "The covariance of the rig's parameters is propagated to the features: each independent "
@@ -117,22 +118,22 @@ void add_uncertainty(HtmlPage& page, const InspectionReport& report) {
 
 }  // namespace
 
-void add_annex(HtmlPage& page, const InspectionReport& report) {
-  page.html("<h1>Annex</h1>\n");
-  add_deviation(page, report);
-  add_uncertainty(page, report);
+void add_annex(HtmlPage& page, const InspectionReport& report, const ReportWords& words) {
+  page.html(fmt::format("<h1>{}</h1>\n", page.word("Annex")));
+  add_deviation(page, report, words);
+  add_uncertainty(page, report, words);
   if (!report.alignment.empty()) {
     page.heading("Alignment");
-    page.table({"", ""}, rows_of(report.alignment));
+    page.table({"", ""}, with_words(rows_of(report.alignment), words));
   }
   page.heading("Conditions");
   Rows conditions{{"mesh", report.mesh}, {"created", report.created}, {"software", report.version}};
   for (const auto& [name, text] : report.conditions)
     conditions.push_back({name, text});
-  page.table({"", ""}, conditions);
+  page.table({"", ""}, with_words(conditions, words));
   if (!report.warnings.empty()) page.heading("Warnings");
   for (const std::string& warning : report.warnings)
-    page.paragraph(warning);
+    page.html(fmt::format("<p>{}</p>\n", html_escaped(warning)));
 }
 
 }  // namespace frangia::report

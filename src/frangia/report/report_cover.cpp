@@ -11,6 +11,11 @@
 namespace frangia::report {
 namespace {
 
+constexpr const char* kDecisionRule =
+    "Decision rule: ISO 14253-1:2017, guard band 1.645 u, probability of error 5 %. A value is in "
+    "when it lies inside of its limits by the guard band, and out when it lies beyond one by as "
+    "much. The bar spans the tolerance; the dot is the value, the line its U95.";
+
 /// Lines that a text takes in a column of so many characters.
 std::size_t lines_of(const std::string& text, std::size_t characters) {
   return 1 + (text.empty() ? 0 : (text.size() - 1) / characters);
@@ -19,7 +24,8 @@ std::size_t lines_of(const std::string& text, std::size_t characters) {
 /// How many rows of results the first sheet has room for, beside the head, the verdict and the
 /// picture.
 std::size_t rows_on_cover(const InspectionReport& report,
-                          const std::vector<MeasuredCharacteristic>& rows) {
+                          const std::vector<MeasuredCharacteristic>& rows,
+                          const ReportWords& words) {
   constexpr double kLine_mm = 4.7;
   constexpr double kWarning_mm = 10.0;
   constexpr double kPicture_mm = 92.0;
@@ -27,13 +33,13 @@ std::size_t rows_on_cover(const InspectionReport& report,
   double room_mm = report.fields.paper == "Letter" ? 71.0 : 90.0;
   if (report.pictures.empty()) room_mm += kPicture_mm;
   room_mm -= kWarning_mm * static_cast<double>(std::min(report.warnings.size(), kWarnings));
-  for (const std::string& reason : reasons_of(report))
+  for (const std::string& reason : reasons_of(report, words))
     room_mm -= kLine_mm * static_cast<double>(lines_of(reason, 102) - 1);
   std::size_t count = 0;
   for (const MeasuredCharacteristic& row : rows) {
-    room_mm -= 1.7 + kLine_mm * static_cast<double>(lines_of(row.name, 24));
+    room_mm -= 1.7 + kLine_mm * static_cast<double>(lines_of(words.name(row.name), 24));
     if (!row.reason.empty())
-      room_mm -= 1.7 + kLine_mm * static_cast<double>(lines_of(row.reason, 110));
+      room_mm -= 1.7 + kLine_mm * static_cast<double>(lines_of(words.sentence(row.reason), 110));
     if (room_mm < 0.0) break;
     ++count;
   }
@@ -63,17 +69,18 @@ std::string lamps_of(Conformity verdict) {
          lamp(84, Conformity::In, "#35c46a") + "</svg>";
 }
 
-void add_head(HtmlPage& page, const InspectionReport& report) {
+void add_head(HtmlPage& page, const InspectionReport& report, const ReportWords& words) {
   const ReportFields& fields = report.fields;
   std::string mark;
   if (report.logo) {
     mark = fmt::format("<img alt=\"logo\" src=\"{}\">",
                        data_uri(report.logo->media_type, report.logo->bytes));
   }
-  page.html(fmt::format(
-      "<table class=\"brand\"><tr><td>{}<h1>Inspection report</h1></td><td>{}</td></tr></table>\n",
-      mark,
-      html_escaped(fields.date.empty() ? report.created : fields.date)));
+  page.html(
+      fmt::format("<table class=\"brand\"><tr><td>{}<h1>{}</h1></td><td>{}</td></tr></table>\n",
+                  mark,
+                  page.word("Inspection report"),
+                  html_escaped(fields.date.empty() ? report.created : fields.date)));
   std::vector<std::pair<const char*, const std::string*>> facts;
   const auto add = [&](const char* name, const std::string& text) {
     if (!text.empty()) facts.emplace_back(name, &text);
@@ -90,7 +97,7 @@ void add_head(HtmlPage& page, const InspectionReport& report) {
     html += "<tr>";
     for (std::size_t k = i; k < i + 2; ++k) {
       html += k < facts.size() ? fmt::format("<td class=\"name\">{}</td><td class=\"fact\">{}</td>",
-                                             facts[k].first,
+                                             words(facts[k].first),
                                              html_escaped(*facts[k].second))
                                : std::string("<td class=\"name\"></td><td class=\"fact\"></td>");
     }
@@ -99,7 +106,7 @@ void add_head(HtmlPage& page, const InspectionReport& report) {
   page.html(html + "</table>\n");
 }
 
-void add_verdict(HtmlPage& page, const InspectionReport& report) {
+void add_verdict(HtmlPage& page, const InspectionReport& report, const ReportWords& words) {
   if (!has_verdict(report)) return;
   const Conformity verdict = verdict_of(report);
   const bool unknown = (report.surface && !report.surface->uncertainty_known) ||
@@ -114,14 +121,14 @@ void add_verdict(HtmlPage& page, const InspectionReport& report) {
                      : verdict == Conformity::In && !unknown ? "good"
                                                              : "open";
   std::string reasons;
-  for (const std::string& reason : reasons_of(report))
+  for (const std::string& reason : reasons_of(report, words))
     reasons += fmt::format("<div>{}</div>", html_escaped(reason));
   page.html(
       fmt::format("<table class=\"signal verdict {}\"><tr><td class=\"lamps\">{}</td><td><div "
                   "class=\"word\">{}</div>{}</td></tr></table>\n",
                   kind,
                   lamps_of(verdict),
-                  text,
+                  page.word(text),
                   reasons));
 }
 
@@ -133,40 +140,36 @@ std::vector<MeasuredCharacteristic> rows_of_results(const InspectionReport& repo
 }
 
 /// The table of results, where the first sheet holds a part of it.
-void add_all_results(HtmlPage& page, const InspectionReport& report) {
+void add_all_results(HtmlPage& page, const InspectionReport& report, const ReportWords& words) {
   const auto rows = rows_of_results(report);
-  if (rows.size() <= rows_on_cover(report, rows)) return;
+  if (rows.size() <= rows_on_cover(report, rows, words)) return;
   page.heading("Results, the worst first");
-  page.html(result_table(rows, rows.size()));
+  page.html(result_table(rows, rows.size(), words));
 }
 
 }  // namespace
 
-void add_cover(HtmlPage& page, const InspectionReport& report) {
+void add_cover(HtmlPage& page, const InspectionReport& report, const ReportWords& words) {
   constexpr std::size_t kWarnings = 3;
-  add_head(page, report);
-  add_verdict(page, report);
+  add_head(page, report, words);
+  add_verdict(page, report, words);
   for (std::size_t i = 0; i < std::min(kWarnings, report.warnings.size()); ++i)
-    page.verdict("open", report.warnings[i]);
-  if (report.warnings.size() > kWarnings)
-    page.paragraph(
-        fmt::format("{} more warnings: see the annex.", report.warnings.size() - kWarnings));
-  if (!report.pictures.empty()) page.html(labelled_picture(report.pictures.front()));
+    page.html(fmt::format("<p class=\"verdict open\">{}</p>\n", html_escaped(report.warnings[i])));
+  if (report.warnings.size() > kWarnings) {
+    const std::size_t more = report.warnings.size() - kWarnings;
+    page.paragraph(fmt::format("{} more warning{}: see the annex.", more, more == 1 ? "" : "s"));
+  }
+  if (!report.pictures.empty()) page.html(labelled_picture(report.pictures.front(), words));
   const auto rows = rows_of_results(report);
-  const std::size_t shown = rows_on_cover(report, rows);
-  if (shown > 0) page.html(result_table(rows, shown));
+  const std::size_t shown = rows_on_cover(report, rows, words);
+  if (shown > 0) page.html(result_table(rows, shown, words));
   if (rows.size() > shown)
     page.paragraph(fmt::format("The {} worst of {} rows; all of them follow.", shown, rows.size()));
   if (has_verdict(report)) {
-    page.html(
-        "<p class=\"small\">Decision rule: ISO 14253-1:2017, guard band 1.645 u, probability of "
-        "error 5 %. A "
-        "value is in when it lies inside of its limits by the guard band, and out when it lies "
-        "beyond one by as "
-        "much. The bar spans the tolerance; the dot is the value, the line its U95.</p>\n");
+    page.html(fmt::format("<p class=\"small\">{}</p>\n", page.word(kDecisionRule)));
   }
   page.new_sheet();
-  add_all_results(page, report);
+  add_all_results(page, report, words);
 }
 
 }  // namespace frangia::report

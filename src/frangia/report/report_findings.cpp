@@ -18,11 +18,11 @@ std::string point_text(const Eigen::Vector3d& point, int decimals) {
                      coordinate_text(point.z(), decimals));
 }
 
-void add_pictures(HtmlPage& page, const InspectionReport& report) {
+void add_pictures(HtmlPage& page, const InspectionReport& report, const ReportWords& words) {
   if (report.pictures.size() < 2) return;
   page.heading("Pictures");
   for (std::size_t i = 1; i < report.pictures.size(); ++i)
-    page.html(labelled_picture(report.pictures[i]));
+    page.html(labelled_picture(report.pictures[i], words));
 }
 
 std::string decision_text(const SurfacePlace& place) {
@@ -39,7 +39,7 @@ std::string decision_text(const SurfacePlace& place) {
   }
 }
 
-void add_places(HtmlPage& page, const InspectionReport& report) {
+void add_places(HtmlPage& page, const InspectionReport& report, const ReportWords& words) {
   constexpr std::size_t kMostPlaces = 12;
   if (!report.surface || report.surface->places.empty()) return;
   page.heading("Places that are out or undecided");
@@ -47,7 +47,7 @@ void add_places(HtmlPage& page, const InspectionReport& report) {
   for (const SurfacePlace& place : report.surface->places) {
     if (rows.size() == kMostPlaces) break;
     rows.push_back(
-        {decision_text(place),
+        {words(decision_text(place)),
          place_text(place.at_mm),
          std::isfinite(place.deviation_mm) ? fmt::format("{:+.4f}", place.deviation_mm) : "",
          number_text(place.u95_mm, 4),
@@ -59,21 +59,21 @@ void add_places(HtmlPage& page, const InspectionReport& report) {
         "These {} places matter most; the JSON beside this report lists more.", rows.size()));
 }
 
-void add_walls(HtmlPage& page, const InspectionReport& report) {
+void add_walls(HtmlPage& page, const InspectionReport& report, const ReportWords& words) {
   if (!report.thickness) return;
   const ThicknessSummary& t = *report.thickness;
   page.heading("Thickness of the walls");
   const Eigen::Vector3d& at = t.min_at_mm;
-  page.table({"quantity", "value"},
-             {{"measured area, mm²", number_text(t.area_mm2, 1)},
-              {"smallest, mm", number_text(t.min_mm, 4)},
-              {"its standard uncertainty, mm", number_text(t.min_u_mm, 4)},
-              {"its place, mm", fmt::format("{:.2f} {:.2f} {:.2f}", at.x(), at.y(), at.z())},
-              {"5 % of the area is below, mm", number_text(t.p5_mm, 4)},
-              {"median, mm", number_text(t.median_mm, 4)},
-              {"mean, mm", number_text(t.mean_mm, 4)},
-              {"5 % of the area is above, mm", number_text(t.p95_mm, 4)},
-              {"largest, mm", number_text(t.max_mm, 4)}});
+  Rows rows{{"measured area, mm²", number_text(t.area_mm2, 1)},
+            {"smallest, mm", number_text(t.min_mm, 4)},
+            {"its standard uncertainty, mm", number_text(t.min_u_mm, 4)},
+            {"its place, mm", fmt::format("{:.2f} {:.2f} {:.2f}", at.x(), at.y(), at.z())},
+            {"5 % of the area is below, mm", number_text(t.p5_mm, 4)},
+            {"median, mm", number_text(t.median_mm, 4)},
+            {"mean, mm", number_text(t.mean_mm, 4)},
+            {"5 % of the area is above, mm", number_text(t.p95_mm, 4)},
+            {"largest, mm", number_text(t.max_mm, 4)}};
+  page.table({"quantity", "value"}, with_words(rows, words));
   constexpr std::array<const char*, kThicknessStatuses> kWallReasons{
       "measured",
       "left out: a wall is synthesized",
@@ -87,10 +87,10 @@ void add_walls(HtmlPage& page, const InspectionReport& report) {
     if (i == 0 || t.count.at(i) > 0)
       vertices.push_back({kWallReasons.at(i), fmt::format("{}", t.count.at(i))});
   }
-  page.table({"vertices", "number"}, vertices);
+  page.table({"vertices", "number"}, with_words(vertices, words));
 }
 
-void add_found_features(HtmlPage& page, const InspectionReport& report) {
+void add_found_features(HtmlPage& page, const InspectionReport& report, const ReportWords& words) {
   if (report.features.empty()) return;
   page.heading("Features that were found");
   Rows rows;
@@ -102,8 +102,8 @@ void add_found_features(HtmlPage& page, const InspectionReport& report) {
     const Eigen::Vector3d& c = shape.center_mm;
     const Eigen::Vector3d& a = shape.axis;
     const std::string name = i < report.feature_names.size() ? report.feature_names[i] : "";
-    rows.push_back({(name.empty() ? "" : name + ": ") + std::string(name_of(shape.kind)) +
-                        (feature.hole && round ? ", hole" : ""),
+    rows.push_back({words((name.empty() ? "" : name + ": ") + std::string(name_of(shape.kind)) +
+                          (feature.hole && round ? ", hole" : "")),
                     round ? number_text(2.0 * shape.radius_mm, 4) : "",
                     number_text(feature.uncertainty.u95_mm, 4),
                     fitted ? number_text(feature.fit.form_mm, 4) : "",
@@ -127,7 +127,9 @@ void add_found_features(HtmlPage& page, const InspectionReport& report) {
   page.table(names, rows);
 }
 
-void add_blades(HtmlPage& page, const std::vector<SectionResult>& sections) {
+void add_blades(HtmlPage& page,
+                const std::vector<SectionResult>& sections,
+                const ReportWords& words) {
   Rows rows;
   const BladeSection* first = nullptr;
   const BladeSection* first_nominal = nullptr;
@@ -150,7 +152,8 @@ void add_blades(HtmlPage& page, const std::vector<SectionResult>& sections) {
     }
     if (section.nominal_blade) {
       if (first_nominal == nullptr) first_nominal = &*section.nominal_blade;
-      rows.push_back(row(section.name + ", nominal", *section.nominal_blade, *first_nominal));
+      rows.push_back(
+          row(words.name(section.name + ", nominal"), *section.nominal_blade, *first_nominal));
     }
   }
   if (rows.empty()) return;
@@ -166,13 +169,16 @@ void add_blades(HtmlPage& page, const std::vector<SectionResult>& sections) {
              rows);
 }
 
-void add_sections(HtmlPage& page, const InspectionReport& report) {
+void add_sections(HtmlPage& page, const InspectionReport& report, const ReportWords& words) {
   if (report.sections.empty()) return;
   page.heading("Sections");
-  page.html(
-      "<p class=\"lead\">Black: reference. Blue: measured. Red: deviations along the normal, "
-      "enlarged as stated.</p>\n");
-  for (const SectionResult& section : report.sections) {
+  page.html(fmt::format("<p class=\"lead\">{}</p>\n",
+                        page.word("Black: reference. Blue: measured. Red: deviations along the "
+                                  "normal, enlarged as stated.")));
+  for (std::size_t i = 0; i < report.sections.size(); ++i) {
+    const SectionResult& section = report.sections[i];
+    const auto dimensions =
+        i < report.dimensions.size() ? report.dimensions[i] : std::vector<SectionDimension>{};
     const Eigen::Vector3d& p = section.plane.point_mm;
     const Eigen::Vector3d& n = section.plane.normal;
     const std::string place =
@@ -189,10 +195,10 @@ void add_sections(HtmlPage& page, const InspectionReport& report) {
       continue;
     }
     page.begin_figures();
-    page.drawing(svg_of(section), place);
+    page.drawing(svg_of(section, dimensions, words), place);
     const ToleranceLimits limits =
         report.surface ? report.surface->rule.limits : ToleranceLimits{-0.1, 0.1};
-    const std::string plot = profile_plot(section, limits);
+    const std::string plot = profile_plot(section, limits, words);
     if (!plot.empty()) page.drawing(plot, section.name + ": deviation along the longest curve");
     page.end_figures();
   }
@@ -200,13 +206,13 @@ void add_sections(HtmlPage& page, const InspectionReport& report) {
 
 }  // namespace
 
-void add_findings(HtmlPage& page, const InspectionReport& report) {
-  add_pictures(page, report);
-  add_places(page, report);
-  add_walls(page, report);
-  add_blades(page, report.sections);
-  add_sections(page, report);
-  add_found_features(page, report);
+void add_findings(HtmlPage& page, const InspectionReport& report, const ReportWords& words) {
+  add_pictures(page, report, words);
+  add_places(page, report, words);
+  add_walls(page, report, words);
+  add_blades(page, report.sections, words);
+  add_sections(page, report, words);
+  add_found_features(page, report, words);
 }
 
 }  // namespace frangia::report

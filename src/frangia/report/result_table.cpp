@@ -1,7 +1,9 @@
 #include "frangia/report/result_table.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -89,33 +91,43 @@ std::string tolerance_bar(const MeasuredCharacteristic& row) {
   return svg + "</svg>";
 }
 
-std::string result_table(const std::vector<MeasuredCharacteristic>& rows, std::size_t count) {
-  std::string html =
-      "<table class=\"results\"><thead><tr><th>characteristic</th><th class=\"unit\">unit</th><th "
-      "class=\"value\">nominal</th><th class=\"limits\">tolerance</th><th "
-      "class=\"value\">measured</th><th class=\"value\">deviation</th><th "
-      "class=\"value\">U95</th><th class=\"bar\">tolerance used</th><th "
-      "class=\"decision\">verdict</th></tr></thead><tbody>\n";
+std::string result_table(const std::vector<MeasuredCharacteristic>& rows,
+                         std::size_t count,
+                         const ReportWords& words) {
+  constexpr std::array<std::pair<const char*, const char*>, 9> kColumns{{{"", "characteristic"},
+                                                                         {"unit", "unit"},
+                                                                         {"value", "nominal"},
+                                                                         {"limits", "tolerance"},
+                                                                         {"value", "measured"},
+                                                                         {"value", "deviation"},
+                                                                         {"value", "U95"},
+                                                                         {"bar", "tolerance used"},
+                                                                         {"decision", "verdict"}}};
+  std::string html = "<table class=\"results\"><thead><tr>";
+  for (const auto& [kind, name] : kColumns)
+    html += fmt::format("<th class=\"{}\">{}</th>", kind, html_escaped(words(name)));
+  html += "</tr></thead><tbody>\n";
   for (std::size_t i = 0; i < std::min(count, rows.size()); ++i) {
     const MeasuredCharacteristic& row = rows[i];
     const double deviation = row.nominal ? row.value - *row.nominal : static_cast<double>(kMissing);
+    const char* const verdict = row.limits ? name_of(row.conformity) : "";
     html += fmt::format(
         "<tr><td>{}</td><td>{}</td><td>{}</td><td class=\"limits\">{}</td><td>{}</td><td>{}</td>"
         "<td>{}</td>"
         "<td class=\"bar\">{}</td><td class=\"{}\">{}</td></tr>\n",
-        html_escaped(row.name),
+        html_escaped(words.name(row.name)),
         row.unit == "degrees" ? "°" : row.unit,
         row.nominal ? decimal_text(*row.nominal) : "",
         tolerance_text(row),
-        std::isfinite(row.value) ? decimal_text(row.value) : "not found",
+        std::isfinite(row.value) ? decimal_text(row.value) : words("not found"),
         signed_decimal(deviation),
         decimal_text(row.u95),
         tolerance_bar(row),
-        row.limits ? name_of(row.conformity) : "",
-        row.limits ? name_of(row.conformity) : "");
+        verdict,
+        words(verdict));
     if (!row.reason.empty()) {
       html += fmt::format("<tr><td class=\"why\" colspan=\"9\">{}</td></tr>\n",
-                          html_escaped(row.reason));
+                          html_escaped(words.sentence(row.reason)));
     }
   }
   return html + "</tbody></table>\n";

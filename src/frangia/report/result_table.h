@@ -6,6 +6,7 @@
 
 #include "frangia/inspect/surface_verdict.h"
 #include "frangia/inspection/measured_characteristics.h"
+#include "frangia/report/report_words.h"
 
 namespace frangia {
 
@@ -19,6 +20,7 @@ namespace frangia {
 /// The first `count` rows as a table: nominal, tolerance, measured, deviation, U95, tolerance used
 /// and verdict.
 [[nodiscard]] std::string result_table(const std::vector<MeasuredCharacteristic>& rows,
-                                       std::size_t count);
+                                       std::size_t count,
+                                       const ReportWords& words = ReportWords());
 
 }  // namespace frangia

@@ -15,6 +15,8 @@ namespace {
 
 using Eigen::Vector2d;
 
+constexpr int kWidth_px = 540;  // of a drawing
+
 /// The path of a curve; y grows downwards in SVG.
 std::string path_of(const SectionCurve& curve) {
   std::string path;
@@ -71,6 +73,71 @@ double round_length(double width) {
   return length;
 }
 
+/// A place for a text beside the line of a dimension that overlaps no other; the last that was
+/// tried, where all do.
+Eigen::AlignedBox2d text_box(const SectionDimension& dimension,
+                             const Eigen::AlignedBox2d& page,
+                             double text,
+                             const std::vector<Eigen::AlignedBox2d>& others) {
+  const Vector2d half(0.29 * text * static_cast<double>(dimension.text.size()), 0.7 * text);
+  const Vector2d along = dimension.to_mm - dimension.from_mm;
+  Eigen::AlignedBox2d box;
+  for (const double share : {0.72, 0.28, 0.5, 1.1, -0.1, 0.9, 0.1}) {
+    const Vector2d middle = dimension.from_mm + share * along;
+    box = {middle - half, middle + half};
+    const bool is_free = std::none_of(
+        others.begin(), others.end(), [&](const auto& other) { return box.intersects(other); });
+    if (is_free && page.contains(box)) return box;
+  }
+  return box;
+}
+
+std::string drawn_dimensions(const std::vector<SectionDimension>& dimensions,
+                             const Eigen::AlignedBox2d& page,
+                             double text,
+                             double line) {
+  std::string lines;
+  std::string texts;
+  std::vector<Eigen::AlignedBox2d> boxes;
+  for (const SectionDimension& dimension : dimensions) {
+    const char* const color = !dimension.conformity                      ? "#1c2126"
+                              : *dimension.conformity == Conformity::Out ? "#b00020"
+                              : *dimension.conformity == Conformity::In  ? "#0a6b2d"
+                                                                         : "#8a5a00";
+    const Vector2d along = (dimension.to_mm - dimension.from_mm).normalized();
+    const Vector2d stroke = 0.5 * text * Vector2d(along.x() - along.y(), along.x() + along.y());
+    for (const auto& [from, to] :
+         {std::pair(dimension.from_mm, dimension.to_mm),
+          std::pair(Vector2d(dimension.from_mm - stroke), Vector2d(dimension.from_mm + stroke)),
+          std::pair(Vector2d(dimension.to_mm - stroke), Vector2d(dimension.to_mm + stroke))}) {
+      lines += fmt::format(
+          "<path d=\"M{:.4f} {:.4f}L{:.4f} {:.4f}\" stroke=\"{}\" stroke-width=\"{:.5f}\"/>\n",
+          from.x(),
+          -from.y(),
+          to.x(),
+          -to.y(),
+          color,
+          line);
+    }
+    const Eigen::AlignedBox2d box = text_box(dimension, page, text, boxes);
+    boxes.push_back(box);
+    texts += fmt::format(
+        "<rect x=\"{:.4f}\" y=\"{:.4f}\" width=\"{:.4f}\" height=\"{:.4f}\" fill=\"#fff\"/>"
+        "<text x=\"{:.4f}\" y=\"{:.4f}\" font-size=\"{:.4f}\" fill=\"{}\" "
+        "text-anchor=\"middle\" font-family=\"sans-serif\">{}</text>\n",
+        box.min().x(),
+        -box.max().y(),
+        box.sizes().x(),
+        box.sizes().y(),
+        box.center().x(),
+        -box.center().y() + 0.36 * text,
+        text,
+        color,
+        dimension.text);
+  }
+  return lines + texts;
+}
+
 void add_dxf_curves(std::string& dxf,
                     const std::vector<SectionCurve>& curves,
                     std::string_view layer) {
@@ -88,7 +155,9 @@ void add_dxf_curves(std::string& dxf,
 
 }  // namespace
 
-std::string svg_of(const SectionResult& section, int width_px) {
+std::string svg_of(const SectionResult& section,
+                   const std::vector<SectionDimension>& dimensions,
+                   const ReportWords& words) {
   const Eigen::AlignedBox2d box = box_of(section);
   require(!box.isEmpty(), "the section has no curve to draw; move its plane into the part");
   const double size = std::max(box.sizes().maxCoeff(), 1e-6);
@@ -101,7 +170,7 @@ std::string svg_of(const SectionResult& section, int width_px) {
   std::string svg = fmt::format(
       "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{}\" viewBox=\"{:.4f} {:.4f} {:.4f} "
       "{:.4f}\" style=\"background:#fff;border:1px solid #ccd\" fill=\"none\">\n",
-      width_px,
+      kWidth_px,
       low.x(),
       -high.y(),
       high.x() - low.x(),
@@ -120,24 +189,28 @@ std::string svg_of(const SectionResult& section, int width_px) {
                        1.5 * line);
   const double bar = round_length(high.x() - low.x());
   const double text = 0.032 * size;
+  svg += drawn_dimensions(dimensions, {low, high}, text, line);
   const double y = -low.y() - 0.4 * margin;
   svg += fmt::format(
       "<path d=\"M{0:.4f} {1:.4f}h{2:.4f}\" stroke=\"#111\" stroke-width=\"{3:.5f}\"/>\n"
       "<text x=\"{0:.4f}\" y=\"{4:.4f}\" font-size=\"{5:.4f}\" fill=\"#111\" "
-      "font-family=\"sans-serif\">{2:g} mm{6}</text>\n</svg>\n",
+      "font-family=\"sans-serif\">{6}</text>\n</svg>\n",
       low.x() + 0.4 * margin,
       y,
       bar,
       3.0 * line,
       y - 0.5 * text,
       text,
-      enlarged > 0.0 ? fmt::format("; deviations enlarged {:.0f} times", enlarged) : "");
+      words(fmt::format(
+          "{:g} mm{}",
+          bar,
+          enlarged > 0.0 ? fmt::format("; deviations enlarged {:.0f} times", enlarged) : "")));
   return svg;
 }
 
 std::string profile_plot(const SectionResult& section,
                          const ToleranceLimits& limits,
-                         int width_px) {
+                         const ReportWords& words) {
   if (section.measured.empty() || section.measured.front().values.empty()) return {};
   const SectionCurve& curve = section.measured.front();
   const double length = std::max(length_mm(curve), 1e-9);
@@ -165,7 +238,7 @@ std::string profile_plot(const SectionResult& section,
       "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{}\" viewBox=\"0 0 {} {}\" "
       "style=\"background:#fff;border:1px solid #ccd\" font-family=\"sans-serif\" "
       "font-size=\"12\">\n",
-      width_px,
+      kWidth_px,
       kWide,
       kHigh);
   for (const double value : {limits.lower, 0.0, limits.upper}) {
@@ -189,10 +262,11 @@ std::string profile_plot(const SectionResult& section,
                        at);
   }
   svg += fmt::format(
-      "<text x=\"{:.0f}\" y=\"{:.0f}\">deviation, mm, over the length of the curve, mm</text>\n"
+      "<text x=\"{:.0f}\" y=\"{:.0f}\">{}</text>\n"
       "<path d=\"{}\" fill=\"none\" stroke=\"#1f5fbf\" stroke-width=\"1.3\"/>\n</svg>\n",
       kLeft,
       kHigh - 3.0,
+      words("deviation, mm, over the length of the curve, mm"),
       path);
   return svg;
 }

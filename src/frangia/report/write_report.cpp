@@ -72,6 +72,7 @@ std::vector<std::pair<std::string, double>> uncertainty_terms_of(const Inspectio
 }
 
 NamedTexts conditions_of(const InspectionPlan& plan, const ReportSources& sources) {
+  const ReportWords words(plan.report.language);
   NamedTexts conditions;
   if (!sources.mesh.empty())
     conditions.emplace_back("SHA-256 of the mesh", sha256_of_file(sources.mesh));
@@ -87,24 +88,24 @@ NamedTexts conditions_of(const InspectionPlan& plan, const ReportSources& source
   }
   if (plan.temperature_u_k > 0.0) {
     conditions.emplace_back("thermal expansion",
-                            fmt::format("{:g} 1e-6/K, temperature uncertain by {:g} K",
-                                        plan.expansion_ppm_per_k,
-                                        plan.temperature_u_k));
+                            words(fmt::format("{:g} 1e-6/K, temperature uncertain by {:g} K",
+                                              plan.expansion_ppm_per_k,
+                                              plan.temperature_u_k)));
   }
   if (sources.scan == nullptr) {
     conditions.emplace_back("rig and calibration",
-                            "not stated: the scan of the mesh was not named");
+                            words("not stated: the scan of the mesh was not named"));
     return conditions;
   }
   const Scan& scan = *sources.scan;
   conditions.emplace_back("scan", scan.folder.filename().string());
   const auto& calibration = scan.rig.calibration;
-  conditions.emplace_back("calibrated", calibration ? calibration->date : "date not known");
+  conditions.emplace_back("calibrated", calibration ? calibration->date : words("date not known"));
   if (calibration) {
     conditions.emplace_back(
         "uncertainty of a point by the calibration",
-        fmt::format(
-            "{:.4f} mm at {:.0f} mm", calibration->point_sigma_mm, calibration->distance_mm));
+        words(fmt::format(
+            "{:.4f} mm at {:.0f} mm", calibration->point_sigma_mm, calibration->distance_mm)));
   }
   for (const char* name : {"scan.toml", "rig.toml"}) {
     const auto path = scan.folder / name;
@@ -114,7 +115,7 @@ NamedTexts conditions_of(const InspectionPlan& plan, const ReportSources& source
   return conditions;
 }
 
-NamedTexts alignment_rows(const Inspection& part) {
+NamedTexts alignment_rows(const Inspection& part, const ReportWords& words) {
   if (!part.alignment) return {};
   const AlignmentPose& pose = part.alignment->pose;
   NamedTexts rows{{"overlap", fmt::format("{:.2f} %", 100.0 * pose.overlap)},
@@ -133,7 +134,7 @@ NamedTexts alignment_rows(const Inspection& part) {
     rows.emplace_back(fmt::format("pair of points {}, mm apart", i + 1),
                       fmt::format("{:.4f}", part.points_mm[i]));
   for (const std::string& direction : part.alignment->free_directions)
-    rows.emplace_back("not determined by the shape", direction);
+    rows.emplace_back("not determined by the shape", words(direction));
   return rows;
 }
 
@@ -184,7 +185,7 @@ InspectionReport report_of(const Inspection& part,
   report.created = created_now();
   report.version = sources.version;
   report.conditions = conditions_of(plan, sources);
-  report.alignment = alignment_rows(part);
+  report.alignment = alignment_rows(part, ReportWords(plan.report.language));
   if (part.surface) {
     report.deviation = part.surface->summary;
     report.surface = part.surface->verdict;
@@ -197,6 +198,9 @@ InspectionReport report_of(const Inspection& part,
     report.feature_names.push_back(names_in_plan(part, feature.fit.shape));
   report.nominals = part.nominals;
   report.sections = part.sections;
+  for (const SectionResult& section : part.sections)
+    report.dimensions.push_back(
+        section_dimensions(section.plane, part.named_features, part.characteristics));
   report.uncertainty_mm = uncertainty_terms_of(part);
   report.systematic_known = !part.mesh.sigma_systematic_mm.empty();
   report.correlation_known = part.knows_calibration;
@@ -219,10 +223,12 @@ std::vector<std::string> write_report(const std::filesystem::path& page,
     std::filesystem::path path = page;
     return path.replace_extension(ending);
   };
-  for (const SectionResult& section : part.sections) {
+  for (std::size_t i = 0; i < part.sections.size(); ++i) {
+    const SectionResult& section = part.sections[i];
     if (section.measured.empty()) continue;
     const std::string stem = page.stem().string() + "-" + file_name_part(section.name);
-    write(page.parent_path() / (stem + ".svg"), svg_of(section));
+    write(page.parent_path() / (stem + ".svg"),
+          svg_of(section, report.dimensions[i], ReportWords(plan.report.language)));
     write(page.parent_path() / (stem + ".dxf"), dxf_of(section));
   }
   if (!part.characteristics.empty()) write(beside(".csv"), csv_of(part.characteristics));

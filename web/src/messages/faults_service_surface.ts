@@ -54,6 +54,7 @@ export const FAULTS_SERVICE_SURFACE = {
     'möglich sind html, pdf, csv, qif oder toml',
     'deve essere html, pdf, csv, qif o toml',
   ],
+  'fault.reportLanguage': ['language: is en, de or it', 'möglich sind en, de oder it', 'deve essere en, de o it'],
   'fault.inspectionReportInspect': [
     'there is no inspection to report; inspect the surface first',
     'es gibt keine Prüfung für einen Bericht; erst die Oberfläche prüfen',

@@ -25,12 +25,19 @@ using Rows = std::vector<std::vector<std::string>>;  ///< of a table
   return fmt::format("{:.{}f}", std::abs(value) < 0.5 * step ? 0.0 : value, decimals);
 }
 
+/// The rows with the words of their first cells in the language of the report.
+[[nodiscard]] inline Rows with_words(Rows rows, const ReportWords& words) {
+  for (std::vector<std::string>& row : rows)
+    row.front() = words(row.front());
+  return rows;
+}
+
 /// The first sheet: head, verdict, the first picture and the worst rows of results; then all rows,
 /// where the first sheet has no room for them.
-void add_cover(HtmlPage& page, const InspectionReport& report);
+void add_cover(HtmlPage& page, const InspectionReport& report, const ReportWords& words);
 /// The other pictures, the places that are out or undecided, walls, sections and features.
-void add_findings(HtmlPage& page, const InspectionReport& report);
+void add_findings(HtmlPage& page, const InspectionReport& report, const ReportWords& words);
 /// The decision in detail, the uncertainty, the alignment and the conditions.
-void add_annex(HtmlPage& page, const InspectionReport& report);
+void add_annex(HtmlPage& page, const InspectionReport& report, const ReportWords& words);
 
 }  // namespace frangia::report

@@ -188,15 +188,19 @@ nlohmann::ordered_json Service::Implementation::start_report(CommandArguments& a
   static constexpr std::array<std::string_view, 5> kFormats{"html", "pdf", "csv", "qif", "toml"};
   const ProjectFolder project = folder();
   const std::string format = arguments.text_or("format", "html");
+  const std::string language = arguments.text_or("language", "en");
   arguments.check_all_read();
   require(std::find(kFormats.begin(), kFormats.end(), format) != kFormats.end(),
           "format: is html, pdf, csv, qif or toml");
+  require(std::find(kReportLanguages.begin(), kReportLanguages.end(), language) !=
+              kReportLanguages.end(),
+          "language: is en, de or it");
   const SurfacePtr shown = surface();
   require(format == "toml" || (shown && shown->inspection),
           "there is no inspection to report; inspect the surface first");
   require(format != "pdf" || options_.print_page,
           "this program makes no PDF files; write the report as HTML and print it");
-  return started("report", [this, project, format](const Run& run) {
+  return started("report", [this, project, format, language](const Run& run) {
     const SurfaceModel& model =
         model_of(project, "there is no surface yet; reconstruct it first", run);
     const OpenProject now = opened();
@@ -226,6 +230,8 @@ nlohmann::ordered_json Service::Implementation::start_report(CommandArguments& a
         plan.part = now.plan->part;
         plan.report = now.plan->report;
       }
+      // A plan that states another language than English was written for its readers.
+      if (plan.report.language == ReportFields{}.language) plan.report.language = language;
       const ReportSources sources{.reference = plan.reference,
                                   .reference_name = inspection->asked.reference,
                                   .scan = inspection->asked.scan.get(),

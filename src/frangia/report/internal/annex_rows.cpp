@@ -1,0 +1,228 @@
+#include "frangia/report/internal/report_rows.h"
+
+namespace frangia::report {
+namespace {
+
+constexpr ReportRow kAnnexRows[] = {
+    // the annex: deviations
+    {"Annex", "Anhang", "Allegato"},
+    {"Deviations from the reference",
+     "Abweichungen von der Referenz",
+     "Scostamenti dal riferimento"},
+    {"none", "keine", "nessuno"},
+    {"tolerance, mm", "Toleranz, mm", "tolleranza, mm"},
+    {"nominal area, less what is excluded and strips along edges, mm²",
+     "Sollfläche ohne Ausgenommenes und Streifen entlang der Kanten, mm²",
+     "area nominale, senza parti escluse e strisce lungo gli spigoli, mm²"},
+    {"strips along edges, which are not judged: width, mm, and share of the nominal area",
+     "Streifen entlang der Kanten, die nicht beurteilt werden: Breite, mm, und Anteil der "
+     "Sollfläche",
+     "strisce lungo gli spigoli, non giudicate: larghezza, mm, e parte dell'area nominale"},
+    {"proven in", "nachweislich innerhalb", "di provata conformità"},
+    {"proven out", "nachweislich außerhalb", "di provata non conformità"},
+    {"within the guard band of a limit",
+     "im Sicherheitsabstand einer Grenze",
+     "nella banda di guardia di un limite"},
+    {"coverage: decided share, and least share of a part that is in",
+     "Abdeckung: entschiedener Anteil, und kleinster Anteil eines Teils, das innerhalb ist",
+     "copertura: parte decisa, e parte minima di un pezzo conforme"},
+    {"widest gap, and widest gap of a part that is in, mm",
+     "größte Lücke, und größte Lücke eines Teils, das innerhalb ist, mm",
+     "lacuna più larga, e quella massima di un pezzo conforme, mm"},
+    {"{0} at ({1}) mm, {2}", "{0} bei ({1}) mm, {2}", "{0} a ({1}) mm, {2}"},
+    {"{0} (U95 {1}) at ({2}) mm", "{0} (U95 {1}) bei ({2}) mm", "{0} (U95 {1}) a ({2}) mm"},
+    {"{0} at ({1}) mm", "{0} bei ({1}) mm", "{0} a ({1}) mm"},
+    {"filter: mean over round patches of, mm",
+     "Filter: Mittel über runde Flecken von, mm",
+     "filtro: media su zone rotonde di, mm"},
+    {"smallest patch, mm", "kleinster Fleck, mm", "zona minima, mm"},
+    {"largest patch, mm", "größter Fleck, mm", "zona massima, mm"},
+    {"smallest vertex, unfiltered, mm",
+     "kleinster Eckpunkt, ungefiltert, mm",
+     "vertice minimo, senza filtro, mm"},
+    {"largest vertex, unfiltered, mm",
+     "größter Eckpunkt, ungefiltert, mm",
+     "vertice massimo, senza filtro, mm"},
+    {"mean and RMS of the vertices, mm",
+     "Mittel und RMS der Eckpunkte, mm",
+     "media e RMS dei vertici, mm"},
+    {"median standard uncertainty of a vertex and of a patch, mm",
+     "Median der Standardunsicherheit eines Eckpunkts und eines Flecks, mm",
+     "mediana dell'incertezza tipo di un vertice e di una zona, mm"},
+    {"patches, and effective number of independent ones",
+     "Flecken, und wirksame Zahl der unabhängigen",
+     "zone, e numero effettivo di quelle indipendenti"},
+    {"largest U95 that proves \"in\", and that is measured well, of the half-width",
+     "größtes U95, das „innerhalb“ beweist, und das als gut gemessen gilt, von der halben Toleranz",
+     "U95 massimo che prova la conformità, e che conta come ben misurato, della semitolleranza"},
+    {"least half-width of a tolerance that the measurement is good enough for, mm",
+     "kleinste halbe Toleranz, für die die Messung genügt, mm",
+     "semitolleranza minima per cui la misura basta, mm"},
+    {"none: too little was measured",
+     "keine: Zu wenig wurde gemessen",
+     "nessuna: si è misurato troppo poco"},
+    {"excluded by the plan: {A}", "vom Plan ausgenommen: {A}", "escluso dal piano: {A}"},
+    {"Averaging over a patch shrinks noise alone; the systematic part, the calibration, the "
+     "alignment and the temperature keep their size. A patch is out when it lies beyond a limit by "
+     "the guard band of that many independent patches (Bonferroni).",
+     "Das Mitteln über einen Fleck verkleinert nur das Rauschen; systematischer Anteil, "
+     "Kalibrierung, Ausrichtung und Temperatur behalten ihre Größe. Ein Fleck ist außerhalb, wenn "
+     "er eine Grenze um den Sicherheitsabstand so vieler unabhängiger Flecken überschreitet "
+     "(Bonferroni).",
+     "La media su una zona riduce solo il rumore; parte sistematica, calibrazione, allineamento e "
+     "temperatura restano come sono. Una zona non è conforme se supera un limite della banda di "
+     "guardia di altrettante zone indipendenti (Bonferroni)."},
+    {"compared", "verglichen", "confrontati"},
+    {"left out: synthesized", "ausgelassen: synthetisch", "omessi: sintetici"},
+    {"left out: at the edge of the reference",
+     "ausgelassen: am Rand der Referenz",
+     "omessi: al bordo del riferimento"},
+    {"left out: at a sharp edge, which is rounded by the distance of the points",
+     "ausgelassen: an einer scharfen Kante, die der Punktabstand verrundet",
+     "omessi: a uno spigolo vivo, che la distanza dei punti arrotonda"},
+    {"left out: the nearest surface faces the other way",
+     "ausgelassen: Die nächste Fläche zeigt in die andere Richtung",
+     "omessi: la superficie più vicina guarda dall'altra parte"},
+    {"left out: too far from the reference",
+     "ausgelassen: zu weit von der Referenz",
+     "omessi: troppo lontano dal riferimento"},
+    // the annex: uncertainty
+    {"Uncertainty", "Unsicherheit", "Incertezza"},
+    {"term", "Anteil", "termine"},
+    {"standard uncertainty, mm", "Standardunsicherheit, mm", "incertezza tipo, mm"},
+    {"The mesh holds no sigma, so no uncertainty is known; the limits alone decide.",
+     "Das Netz enthält kein Sigma, die Unsicherheit ist also unbekannt; allein die Grenzen "
+     "entscheiden.",
+     "La mesh non contiene sigma, quindi l'incertezza non è nota; decidono solo i limiti."},
+    {"The covariance of the rig's parameters is propagated to the features: each independent "
+     "change moves all points of the part together, so that sizes, distances and angles hold the "
+     "correlation of their errors.",
+     "Die Kovarianz der Parameter des Aufbaus ist auf die Elemente fortgepflanzt: Jede unabhängige "
+     "Änderung bewegt alle Punkte des Teils gemeinsam, sodass Maße, Abstände und Winkel die "
+     "Korrelation ihrer Fehler enthalten.",
+     "La covarianza dei parametri dell'apparato è propagata agli elementi: ogni variazione "
+     "indipendente muove insieme tutti i punti del pezzo, così che misure, distanze e angoli "
+     "contengono la correlazione dei loro errori."},
+    {"The systematic part of sigma is propagated as one error that is alike in all points of a "
+     "feature. Correlation between features is not included: that needs the scan, with a rig whose "
+     "calibration has a covariance.",
+     "Der systematische Anteil von Sigma ist als ein Fehler fortgepflanzt, der in allen Punkten "
+     "eines Elements gleich ist. Korrelation zwischen Elementen ist nicht enthalten: Dazu braucht "
+     "es den Scan mit einem Aufbau, dessen Kalibrierung eine Kovarianz hat.",
+     "La parte sistematica di sigma è propagata come un errore uguale in tutti i punti di un "
+     "elemento. La correlazione fra elementi non è inclusa: serve la scansione, con un apparato la "
+     "cui calibrazione abbia una covarianza."},
+    {"The mesh states no systematic part of sigma: the calibration of the rig and the correlation "
+     "of its errors are not included.",
+     "Das Netz nennt keinen systematischen Anteil von Sigma: Die Kalibrierung des Aufbaus und die "
+     "Korrelation ihrer Fehler sind nicht enthalten.",
+     "La mesh non indica una parte sistematica di sigma: la calibrazione dell'apparato e la "
+     "correlazione dei suoi errori non sono incluse."},
+    {"noise of a vertex, median ({0})",
+     "Rauschen eines Eckpunkts, Median ({0})",
+     "rumore di un vertice, mediana ({0})"},
+    {"systematic part of a vertex, median ({0})",
+     "systematischer Anteil eines Eckpunkts, Median ({0})",
+     "parte sistematica di un vertice, mediana ({0})"},
+    {"pose on the reference, largest",
+     "Lage auf der Referenz, größte",
+     "posa sul riferimento, massima"},
+    {"temperature, largest", "Temperatur, größte", "temperatura, massima"},
+    {"deviation, combined, median",
+     "Abweichung, zusammengesetzt, Median",
+     "scostamento, composta, mediana"},
+    {"camera noise", "Kamerarauschen", "rumore della camera"},
+    {"lateral localization", "seitliche Lage", "posizione laterale"},
+    {"speckle", "Speckle", "speckle"},
+    {"registration", "Registrierung", "registrazione"},
+    {"harmonics", "Oberwellen", "armoniche"},
+    {"step errors", "Schrittfehler", "errori di passo"},
+    {"flicker", "Flackern", "sfarfallio"},
+    {"quantization", "Quantisierung", "quantizzazione"},
+    {"indirect light", "indirektes Licht", "luce indiretta"},
+    {"calibration", "Kalibrierung", "calibrazione"},
+    {"turntable", "Drehtisch", "tavola rotante"},
+    {"resolution", "Auflösung", "risoluzione"},
+    // the annex: conditions and alignment
+    {"Alignment", "Ausrichtung", "Allineamento"},
+    {"overlap", "Überlappung", "sovrapposizione"},
+    {"RMS, mm", "RMS, mm", "RMS, mm"},
+    {"iterations", "Iterationen", "iterazioni"},
+    {"reference from mesh", "Referenz aus Netz", "riferimento da mesh"},
+    {"pair of points {0}, mm apart",
+     "Punktpaar {0}, Abstand in mm",
+     "coppia di punti {0}, distanza in mm"},
+    {"not determined by the shape", "durch die Form nicht bestimmt", "non determinato dalla forma"},
+    {"translation along {0}", "Verschiebung entlang {0}", "traslazione lungo {0}"},
+    {"rotation about {0} through {1} mm",
+     "Drehung um {0} durch {1} mm",
+     "rotazione attorno a {0} per {1} mm"},
+    {"screw motion about {0} through {1} mm",
+     "Schraubung um {0} durch {1} mm",
+     "moto elicoidale attorno a {0} per {1} mm"},
+    {"Conditions", "Bedingungen", "Condizioni"},
+    {"created", "erstellt", "creato"},
+    {"software", "Software", "software"},
+    {"SHA-256 of the mesh", "SHA-256 des Netzes", "SHA-256 della mesh"},
+    {"reference", "Referenz", "riferimento"},
+    {"SHA-256 of the reference", "SHA-256 der Referenz", "SHA-256 del riferimento"},
+    {"plan", "Plan", "piano"},
+    {"SHA-256 of the plan", "SHA-256 des Plans", "SHA-256 del piano"},
+    {"SHA-256 of {A}", "SHA-256 von {A}", "SHA-256 di {A}"},
+    {"thermal expansion", "Wärmeausdehnung", "dilatazione termica"},
+    {"{0} 1e-6/K, temperature uncertain by {1} K",
+     "{0} 1e-6/K, Temperatur auf {1} K unsicher",
+     "{0} 1e-6/K, temperatura incerta di {1} K"},
+    {"rig and calibration", "Aufbau und Kalibrierung", "apparato e calibrazione"},
+    {"not stated: the scan of the mesh was not named",
+     "nicht angegeben: Der Scan des Netzes wurde nicht genannt",
+     "non indicati: la scansione della mesh non è stata indicata"},
+    {"scan", "Scan", "scansione"},
+    {"calibrated", "kalibriert", "calibrato"},
+    {"date not known", "Datum unbekannt", "data non nota"},
+    {"uncertainty of a point by the calibration",
+     "Unsicherheit eines Punkts durch die Kalibrierung",
+     "incertezza di un punto per la calibrazione"},
+    {"{0} mm at {1} mm", "{0} mm bei {1} mm", "{0} mm a {1} mm"},
+    {"Warnings", "Warnungen", "Avvisi"},
+    // lists of terms
+    {"camera noise, {0}", "Kamerarauschen, {0}", "rumore della camera, {0}"},
+    {"lateral localization, {0}", "seitliche Lage, {0}", "posizione laterale, {0}"},
+    {"speckle, {0}", "Speckle, {0}", "speckle, {0}"},
+    {"registration, {0}", "Registrierung, {0}", "registrazione, {0}"},
+    {"harmonics, {0}", "Oberwellen, {0}", "armoniche, {0}"},
+    {"step errors, {0}", "Schrittfehler, {0}", "errori di passo, {0}"},
+    {"flicker, {0}", "Flackern, {0}", "sfarfallio, {0}"},
+    {"quantization, {0}", "Quantisierung, {0}", "quantizzazione, {0}"},
+    {"indirect light, {0}", "indirektes Licht, {0}", "luce indiretta, {0}"},
+    {"calibration, {0}", "Kalibrierung, {0}", "calibrazione, {0}"},
+    {"turntable, {0}", "Drehtisch, {0}", "tavola rotante, {0}"},
+    {"resolution, {0}", "Auflösung, {0}", "risoluzione, {0}"},
+    // names of characteristics and features that the program makes, after all others
+    {"{A} diameter", "{A}, Durchmesser", "{A}, diametro"},
+    {"{A} flatness", "{A}, Ebenheit", "{A}, planarità"},
+    {"{A} roundness", "{A}, Rundheit", "{A}, rotondità"},
+    {"{A} cylindricity", "{A}, Zylindrizität", "{A}, cilindricità"},
+    {"{A}: cylinder, hole", "{A}: Zylinder, Bohrung", "{A}: cilindro, foro"},
+    {"{A}: plane", "{A}: Ebene", "{A}: piano"},
+    {"{A}: cylinder", "{A}: Zylinder", "{A}: cilindro"},
+    {"{A}: sphere", "{A}: Kugel", "{A}: sfera"},
+    {"{A}: cone", "{A}: Kegel", "{A}: cono"},
+    {"{A}: torus", "{A}: Torus", "{A}: toro"},
+    {"{A}: sphere, hole", "{A}: Kugel, hohl", "{A}: sfera, cava"},
+    {"{A}: cone, hole", "{A}: Kegel, Bohrung", "{A}: cono, foro"},
+    {"{A}: torus, hole", "{A}: Torus, hohl", "{A}: toro, cavo"},
+    {"{A}: line", "{A}: Gerade", "{A}: retta"},
+    {"{A}: circle", "{A}: Kreis", "{A}: cerchio"},
+    {"{0}, {1} more", "{0}, {1} weitere", "{0}, altri {1}"},
+    {"{0}, out", "{0}, außerhalb", "{0}, non conforme"},
+    {"{0}, undecided", "{0}, unentschieden", "{0}, indeciso"},
+};
+
+}  // namespace
+
+std::span<const ReportRow> annex_rows() {
+  return kAnnexRows;
+}
+
+}  // namespace frangia::report

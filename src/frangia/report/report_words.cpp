@@ -1,0 +1,120 @@
+#include "frangia/report/report_words.h"
+
+#include <algorithm>
+#include <array>
+#include <optional>
+
+#include "frangia/core/error.h"
+#include "frangia/inspection/inspection_plan.h"
+#include "frangia/report/internal/report_rows.h"
+
+namespace frangia {
+namespace {
+
+/// A place for a value in a text.
+struct Place {
+  std::size_t index = 0;
+  bool is_name = false;
+};
+
+/// The place that a text begins with, such as {0} or {A}.
+std::optional<Place> place_at(std::string_view text) {
+  if (text.size() < 3 || text[0] != '{' || text[2] != '}') return std::nullopt;
+  const bool is_name = text[1] >= 'A';
+  return Place{static_cast<std::size_t>(text[1] - (is_name ? 'A' : '0')), is_name};
+}
+
+using Values = std::array<std::string_view, 20>;  // names behind the others
+
+std::size_t slot_of(const Place& place) {
+  return place.index + (place.is_name ? 10U : 0U);
+}
+
+/// Whether the text has the form of the row; then its values. A value is as short as possible.
+bool matches(std::string_view form, std::string_view text, Values& values) {
+  while (!form.empty()) {
+    const auto place = place_at(form);
+    if (!place) {
+      if (text.empty() || text.front() != form.front()) return false;
+      form.remove_prefix(1);
+      text.remove_prefix(1);
+      continue;
+    }
+    form.remove_prefix(3);
+    if (form.empty()) {
+      values.at(slot_of(*place)) = text;
+      return !text.empty();
+    }
+    const std::string_view literal = form.substr(0, form.find('{'));
+    for (std::size_t at = text.find(literal, 1); at != std::string_view::npos;
+         at = text.find(literal, at + 1)) {
+      if (!matches(form, text.substr(at), values)) continue;
+      values.at(slot_of(*place)) = text.substr(0, at);
+      return true;
+    }
+    return false;
+  }
+  return text.empty();
+}
+
+}  // namespace
+
+ReportWords::ReportWords(std::string_view language) : language_(language) {
+  const auto found = std::find(kReportLanguages.begin(), kReportLanguages.end(), language);
+  require(found != kReportLanguages.end(), "a report is in en, de or it");
+  column_ = static_cast<std::size_t>(found - kReportLanguages.begin());
+}
+
+std::string ReportWords::translated(std::string_view english, bool whole) const {
+  if (column_ == 0 || english.empty()) return std::string(english);
+  for (const auto rows : {report::sheet_rows(), report::annex_rows()}) {
+    for (const report::ReportRow& row : rows) {
+      Values values;
+      if (!whole && english == row[0]) continue;
+      if (matches(row[0], english, values)) return filled(row.at(column_), values);
+    }
+  }
+  return std::string(english);
+}
+
+std::string ReportWords::filled(std::string_view form,
+                                std::span<const std::string_view> values) const {
+  std::string text;
+  while (!form.empty()) {
+    const auto place = place_at(form);
+    if (place) {
+      const std::string_view value = values[slot_of(*place)];
+      text += place->is_name ? std::string(value) : (*this)(value);
+    } else {
+      text += form.front();
+    }
+    form.remove_prefix(place ? 3 : 1);
+  }
+  return text;
+}
+
+std::string ReportWords::operator()(std::string_view english) const {
+  return translated(english, true);
+}
+
+std::string ReportWords::name(std::string_view english) const {
+  return translated(english, false);
+}
+
+std::string ReportWords::sentence(std::string_view english) const {
+  std::string whole = (*this)(english);
+  if (column_ == 0 || whole != english) return whole;
+  // A clause may hold a semicolon: the longest beginning that has a row is one.
+  std::size_t first = std::string_view::npos;
+  for (std::size_t end = english.rfind("; "); end != std::string_view::npos && end > 0;
+       end = english.rfind("; ", end - 1)) {
+    const std::string_view clause = english.substr(0, end);
+    std::string text = (*this)(clause);
+    if (text != clause) return text + "; " + sentence(english.substr(end + 2));
+    first = end;
+  }
+  if (first == std::string_view::npos) return whole;
+  return std::string(english.substr(0, first)) + "; " + sentence(english.substr(first + 2));
+}
+
+}  // namespace frangia
