@@ -24,12 +24,12 @@ namespace {
 using Eigen::Vector3d;
 using Eigen::Vector3f;
 using inspect::EdgeStrips;
+using inspect::kSameFace;
+using inspect::kSameSide;
 using inspect::PatchFilter;
 using inspect::PatchGrid;
 using inspect::PatchMean;
 
-constexpr float kSameFace = 0.3F;        // cosine: surfaces that differ by less are one face
-constexpr float kSameSide = -0.2F;       // cosine: as the limit of DeviationStatus::OtherSide
 constexpr double kMeasuredShare = 0.25;  // of a patch; vertices at sharp edges are left out
 constexpr std::size_t kMostPatches = 400'000;
 /// Of the reference's size: a mesh that was decimated has triangles larger than its features, and

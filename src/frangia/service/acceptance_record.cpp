@@ -19,7 +19,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr const char* kPlan = "acceptance.toml";
 constexpr const char* kResult = "acceptance.json";
-constexpr std::size_t kMostPlanBytes = 20'000;
+constexpr std::size_t kMostAcceptanceBytes = 20'000;
 constexpr std::size_t kMostWarnings = 20;
 
 Json json_of_measured(const ArrangementResult& result, const std::vector<std::string>& warnings) {
@@ -105,7 +105,7 @@ void write_acceptance(const ProjectFolder& project, const std::string& text) {
     std::filesystem::remove(project.in_derived(kPlan));
     return;
   }
-  require(text.size() <= kMostPlanBytes, "the plan of a test has at most 20 kB; shorten its texts");
+  require(text.size() <= kMostAcceptanceBytes, "the plan of a test has at most 20 kB; shorten its texts");
   static_cast<void>(parse_acceptance_plan(text, "the test"));
   make_folder(project.derived);
   write_text_file(project.in_derived(kPlan), text, Durability::Synced);
@@ -134,7 +134,7 @@ void measure_arrangement(const ProjectFolder& project,
 void copy_acceptance(const ProjectFolder& before, const ProjectFolder& next) {
   std::error_code ignored;
   if (!std::filesystem::exists(before.in_derived(kPlan), ignored)) return;
-  write_acceptance(next, read_below(before.derived, kPlan, kMostPlanBytes));
+  write_acceptance(next, read_below(before.derived, kPlan, kMostAcceptanceBytes));
 }
 
 std::optional<AcceptanceRecord> read_acceptance(const ProjectLibrary& library,
@@ -144,7 +144,7 @@ std::optional<AcceptanceRecord> read_acceptance(const ProjectLibrary& library,
     std::error_code ignored;
     if (!std::filesystem::exists(project.in_derived(kPlan), ignored)) return std::nullopt;
     record.plan =
-        parse_acceptance_plan(read_below(project.derived, kPlan, kMostPlanBytes), "the test");
+        parse_acceptance_plan(read_below(project.derived, kPlan, kMostAcceptanceBytes), "the test");
   } catch (const Error&) {
     return std::nullopt;  // damaged: it is stated again
   }

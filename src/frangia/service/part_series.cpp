@@ -22,7 +22,7 @@ using Json = nlohmann::ordered_json;
 constexpr const char* kSeries = "series.json";
 constexpr const char* kResults = "results.json";
 constexpr std::size_t kMostRows = 1000;
-constexpr std::size_t kMostName = 200;
+constexpr std::size_t kMostPartName = 200;
 
 Json limit_or_null(double limit) {
   return std::isfinite(limit) ? Json(limit) : Json();
@@ -84,7 +84,7 @@ std::vector<std::string> names_before(const ProjectFolder& project) {
     std::vector<std::string> names;
     const auto json = nlohmann::json::parse(project.read_json(kSeries));
     for (const auto& name : json.at("parts"))
-      if (name.get<std::string>().size() <= kMostName) names.push_back(name.get<std::string>());
+      if (name.get<std::string>().size() <= kMostPartName) names.push_back(name.get<std::string>());
     return names;
   } catch (const std::exception&) {
     return {};  // it is the first part

@@ -13,7 +13,7 @@ namespace {
 constexpr const char* kDictionary = "DICT_5X5_250";
 /// Markers of a board that name it. Single squares of other things are read as markers now and
 /// then, with any id.
-constexpr std::size_t kFewestMarkers = 8;
+constexpr std::size_t kFewestMarkersOfBoard = 8;
 constexpr double kOfOneBoard = 0.9;  ///< share of all markers that must be of the board
 
 bool has(const Board& board, const FoundMarker& marker) {
@@ -49,7 +49,7 @@ std::optional<Board> recognize_printed_board(const Image<float>& counts) {
         std::count_if(markers.begin(), markers.end(), [&](const FoundMarker& marker) {
           return has(board, marker);
         }));
-    if (own < kFewestMarkers ||
+    if (own < kFewestMarkersOfBoard ||
         static_cast<double>(own) < kOfOneBoard * static_cast<double>(markers.size()))
       continue;
     // The ids alone could be those of a part of a larger board with other rows.

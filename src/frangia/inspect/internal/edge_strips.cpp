@@ -18,7 +18,6 @@ using Eigen::Vector3f;
 constexpr double kFlat = 0.9998;           // cosine of 1 degree: no bend
 constexpr double kLeastTurn = 0.5;         // rad over the width, half of what makes an edge
 constexpr float kTurned = 0.5F;            // cosine of 60 degrees
-constexpr float kSameSide = -0.2F;         // cosine: as the limit of DeviationStatus::OtherSide
 constexpr double kStepsOfWidth = 3.0;      // points along an edge, in a width
 constexpr double kMostPoints = 1'000'000;  // of finely tessellated or damaged surfaces
 

@@ -9,6 +9,10 @@
 
 namespace frangia::inspect {
 
+/// Cosine between two normals above which surfaces look to the same side, as the limit of
+/// `DeviationStatus::OtherSide`.
+inline constexpr float kSameSide = -0.2F;
+
 /// The strips along the edges of a nominal surface.
 ///
 /// An edge is where the surface turns by more than 30 degrees between two triangles, or by more

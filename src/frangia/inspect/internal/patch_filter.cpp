@@ -19,7 +19,6 @@ namespace {
 using Eigen::Vector3d;
 using Eigen::Vector3f;
 
-constexpr float kSameFace = 0.3F;  // cosine: surfaces that differ by less are one face
 constexpr float kAlong = 0.866F;   // cosine of 30 degrees, as of DeviationStatus::SharpEdge
 constexpr float kSquare = 0.999F;  // cosine: a point below its foot, as of ReferenceEdge
 

@@ -13,6 +13,9 @@
 
 namespace frangia::inspect {
 
+/// Cosine between the normals of one face, at least.
+inline constexpr float kSameFace = 0.3F;
+
 /// What was measured in a patch, mm.
 struct PatchMean {
   double deviation_mm = 0.0;

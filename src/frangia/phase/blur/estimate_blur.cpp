@@ -25,7 +25,7 @@ struct Weakening {
 };
 
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
-constexpr std::size_t kBlocks = 8;  // columns of the image whose slopes give the uncertainty
+constexpr std::size_t kSlopeBlocks = 8;  // columns of the image whose slopes give the uncertainty
 
 /// Change of a wrapped phase over one pixel, NaN where its neighbours disagree.
 double slope_of(float before, float here, float after) {
@@ -55,7 +55,7 @@ std::vector<Weakening> weakenings(const WrappedPhase& coarse, const WrappedPhase
       out.push_back(
           {square * (1.0 - ratio * ratio),
            std::log(weaker / whole),
-           static_cast<std::size_t>(x) * kBlocks / static_cast<std::size_t>(phase.width())});
+           static_cast<std::size_t>(x) * kSlopeBlocks / static_cast<std::size_t>(phase.width())});
     }
   }
   return out;
@@ -109,7 +109,7 @@ Line line_through(std::vector<Weakening> samples) {
 /// whose samples have more in common than noise.
 double jackknifed(const std::vector<Weakening>& samples) {
   std::vector<double> slopes;
-  for (std::size_t left_out = 0; left_out < kBlocks; ++left_out) {
+  for (std::size_t left_out = 0; left_out < kSlopeBlocks; ++left_out) {
     std::vector<Weakening> rest;
     std::copy_if(samples.begin(), samples.end(), std::back_inserter(rest), [&](const auto& sample) {
       return sample.block != left_out;

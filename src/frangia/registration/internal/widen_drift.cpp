@@ -15,7 +15,7 @@ namespace {
 constexpr std::array<double, 3> kWidenings{3.0, 10.0, 30.0};
 constexpr double kAllWider = 3.0;
 /// Natural logarithm of the odds that one of the groups is not, before the surfaces are seen.
-constexpr double kStatementsHold = -6.9;
+constexpr double kDriftNotAsStated = -6.9;
 
 /// Natural logarithm of the evidence of a prior of w, over that of no change at all.
 double log_evidence(const DriftEvidence& about_zero, const Eigen::MatrixXd& factor) {
@@ -36,7 +36,7 @@ Eigen::VectorXd widening_by_evidence(const DriftHypotheses& hypotheses,
   const Eigen::VectorXd none = Eigen::VectorXd::Ones(hypotheses.parameters);
   std::vector<Eigen::VectorXd> widenings{none, kAllWider * none};
   const double rare =
-      kStatementsHold -
+      kDriftNotAsStated -
       std::log(static_cast<double>(1 + hypotheses.groups.size() * kWidenings.size()));
   std::vector<double> log_odds{
       log_evidence(about_zero, hypotheses.factor(none)),
