@@ -306,7 +306,7 @@ std::optional<TurntableTop> find_turntable_top(const ViewStore& views,
 }
 
 std::size_t clip_turntable_top(ViewStore& views, const CameraModel& camera, const Run& run) {
-  const auto top = find_turntable_top(views, camera, {}, run);
+  const auto top = find_turntable_top(views, camera, run);
   return top ? clip_views_to_nothing(views, camera, top->clip(), run) : 0;
 }
 

@@ -110,7 +110,7 @@ std::string result_table(const std::vector<MeasuredCharacteristic>& rows,
   for (std::size_t i = 0; i < std::min(count, rows.size()); ++i) {
     const MeasuredCharacteristic& row = rows[i];
     const double deviation = row.nominal ? row.value - *row.nominal : static_cast<double>(kMissing);
-    const char* const verdict = row.limits ? name_of(row.conformity) : "";
+    const std::string verdict(row.limits ? name_of(row.conformity) : "");
     html += fmt::format(
         "<tr><td>{}</td><td>{}</td><td>{}</td><td class=\"limits\">{}</td><td>{}</td><td>{}</td>"
         "<td>{}</td>"
