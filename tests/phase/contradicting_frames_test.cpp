@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <cstdio>
 #include <string>
 #include <variant>
 #include <vector>
@@ -98,8 +99,36 @@ TEST(CountUnexplained, DiscardsThePixelsThatAreCovered) {
   EXPECT_EQ(map.status(80, 80), PixelStatus::Unmodulated);
   EXPECT_EQ(map.status(20, 20), PixelStatus::Measured);
   EXPECT_EQ(map.systematic_rad(20, 20), 0.0F);
-  EXPECT_NE(describe_contradicting("fringe", share), "");
-  EXPECT_EQ(describe_contradicting("fringe", 0.001), "");
+  const std::string place = place_of_unexplained(fringes.unexplained_rad, 0.1F);
+  EXPECT_NE(describe_contradicting("fringe", share, place), "");
+  EXPECT_EQ(describe_contradicting("fringe", 0.001, place), "");
+}
+
+TEST(PlaceOfUnexplained, IsThatOfMostPixelsThatAreCovered) {
+  EXPECT_EQ(place_of_unexplained(CoveredFringes(4, {}).unexplained_rad, 0.1F), "");
+  int left = 0;
+  int right = 0;
+  int top = 0;
+  int bottom = 0;
+  const std::string place = place_of_unexplained(CoveredFringes(4, {2}).unexplained_rad, 0.1F);
+  ASSERT_EQ(std::sscanf(
+                place.c_str(), "columns %d to %d and rows %d to %d", &left, &right, &top, &bottom),
+            4)
+      << place;
+  EXPECT_NEAR(left, CoveredFringes::kFrom, 3);
+  EXPECT_NEAR(right, CoveredFringes::kTo - 1, 3);
+  EXPECT_NEAR(top, CoveredFringes::kFrom, 3);
+  EXPECT_NEAR(bottom, CoveredFringes::kTo - 1, 3);
+}
+
+TEST(UnexplainedPhase, HasNoGapsWhereTwoFramesAreCovered) {
+  // At some phases the faults of two frames cancel, in stripes along the fringes.
+  const CoveredFringes fringes(4, {2, 3});
+  int large = 0;
+  for (int y = CoveredFringes::kFrom; y < CoveredFringes::kTo; ++y)
+    for (int x = CoveredFringes::kFrom; x < CoveredFringes::kTo; ++x)
+      large += fringes.unexplained_rad(x, y) > 0.1F ? 1 : 0;
+  EXPECT_GE(large, 1580) << "of 1600";
 }
 
 TEST(CountUnexplained, CountsTheErrorOfAFaintShadow) {

@@ -12,6 +12,7 @@
 #include "frangia/phase/algorithm/estimate_step.h"
 #include "frangia/phase/waveform/pooled_gain_error.h"
 #include "frangia/phase/wrap/estimate_noise.h"
+#include "frangia/phase/wrap/noise_of_view.h"
 
 namespace frangia {
 namespace {
@@ -64,18 +65,18 @@ ScanSurvey survey_scan(const Scan& scan, const Run& run) {
   if (scan.views.size() < 2 || part.patterns.empty()) return out;
   const bool shifter = part.patterns.front().fringes_per_degree > 0.0;
   const std::size_t views = std::min(scan.views.size(), shifter ? kViewsForGain : kViewsForNoise);
-  NoiseSamples noise;
+  std::vector<NoiseSamples> noise(views);
   std::map<std::string, std::vector<StepEstimate>> steps;
   for (std::size_t i = 0; i < views; ++i) {
     run.check();
     for (const FrameStack& stack : read_frames(part, i * scan.views.size() / views)) {
-      noise.add(stack);
+      noise[i].add(stack);
       if (!shifter || stack.exposure > 0) continue;
       const StepEstimate step = estimate_step(stack);
       if (step.found) steps[stack.pattern.name].push_back(step);
     }
   }
-  if (!scan.rig.reference().noise) out.noise = noise.model();
+  if (!scan.rig.reference().noise) out.noise = common_noise(noise);
   for (const auto& [pattern, found] : steps) {
     const double gain_error = pooled_gain_error(found);
     out.gain_error[pattern] = gain_error;

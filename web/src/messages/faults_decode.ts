@@ -9,6 +9,46 @@ export const FAULTS_DECODE = {
   ],
   'fault.frameBlack': ['frame {0} is black', 'Bild {0} ist schwarz', 'il fotogramma {0} è nero'],
   'fault.frameWhite': ['frame {0} is white', 'Bild {0} ist weiß', 'il fotogramma {0} è bianco'],
+  'fault.frameShowsInPart': [
+    'frame {0} shows no fringes in {1} % of the lit part of the image',
+    'Bild {0} zeigt in {1} % des beleuchteten Teils keine Streifen',
+    'il fotogramma {0} non mostra frange nel {1} % della parte illuminata',
+  ],
+  'fault.frameShowsElse': [
+    'frame {0} shows something else than the other frames and the other patterns',
+    'Bild {0} zeigt etwas anderes als die übrigen Bilder und die anderen Muster',
+    'il fotogramma {0} mostra altro rispetto agli altri fotogrammi e agli altri pattern',
+  ],
+  'fault.framesContradictPatterns': [
+    'pattern "{0}": the frames contradict each other and the other patterns, and no known cause explains it',
+    'Muster „{0}“: die Bilder widersprechen einander und den anderen Mustern, und keine bekannte Ursache erklärt es',
+    'pattern «{0}»: i fotogrammi contraddicono se stessi e gli altri pattern, e nessuna causa nota lo spiega',
+  ],
+  'fault.partCovered': [
+    '{0} % of the lit part of the image is covered or lost in {1}',
+    '{0} % des beleuchteten Teils sind verdeckt oder verloren in {1}',
+    'il {0} % della parte illuminata è coperto o perso in {1}',
+  ],
+  'fault.frameDisplaced': [
+    'frame {0} is displaced by {1} px against the others, as where the camera or all that is seen shook',
+    'Bild {0} ist um {1} px gegen die anderen verschoben, wie wenn die Kamera oder alles Sichtbare wackelte',
+    'il fotogramma {0} è spostato di {1} px rispetto agli altri, come se la camera o tutto ciò che vede avesse vibrato',
+  ],
+  'fault.keepLightFree': [
+    'keep everything out of the light while the frames are captured',
+    'beim Aufnehmen der Bilder alles aus dem Licht halten',
+    'tenere tutto fuori dalla luce durante la ripresa',
+  ],
+  'fault.holdCameraStill': [
+    'hold camera and part still while the frames are captured',
+    'Kamera und Teil beim Aufnehmen der Bilder stillhalten',
+    'tenere fermi camera e pezzo durante la ripresa',
+  ],
+  'fault.pixelsContradictLeft': [
+    '{0}; the pixels where the frames contradict each other are left out; {1}',
+    '{0}; die Pixel, an denen sich die Bilder widersprechen, bleiben weg; {1}',
+    '{0}; i pixel in cui i fotogrammi si contraddicono sono esclusi; {1}',
+  ],
   'fault.correctOrderFrames': [
     'correct the order of the frames',
     'die Reihenfolge der Bilder berichtigen',

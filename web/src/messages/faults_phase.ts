@@ -238,10 +238,15 @@ export const FAULTS_PHASE = {
     'ein Kontrast von {0} ist mehr als der jedes Sinus: Projektor oder Kamera sind nicht linear, oder die Kamera schneidet dunkle Pixel bei 0 ab; die Kennlinie messen und den Schwarzwert der Kamera anheben',
     'un contrasto di {0} è più di quello di qualsiasi seno: il proiettore o la camera non è lineare, o la camera taglia a 0 i pixel scuri; misurare la curva di risposta e alzare il livello del nero',
   ],
+  'fault.placeInImage': [
+    'columns {0} to {1} and rows {2} to {3}',
+    'den Spalten {0} bis {1} und Zeilen {2} bis {3}',
+    'colonne da {0} a {1} e righe da {2} a {3}',
+  ],
   'fault.framesContradictThere': [
-    'pattern "{0}": at {1} % of the measured pixels the frames contradict each other, and these pixels are left out: check that nothing covered the part or shook while they were captured',
-    'Muster „{0}“: an {1} % der gemessenen Pixel widersprechen sich die Bilder, und diese Pixel bleiben weg: prüfen, ob bei der Aufnahme etwas das Teil verdeckte oder wackelte',
-    'motivo «{0}»: nel {1} % dei pixel misurati i fotogrammi si contraddicono, e questi pixel sono esclusi: controllare che durante la ripresa nulla abbia coperto il pezzo o vibrato',
+    'pattern "{0}": at {1} % of the measured pixels, most of them in {2}, the frames contradict each other, and these pixels are left out: check that nothing covered the part or shook while they were captured',
+    'Muster „{0}“: an {1} % der gemessenen Pixel, die meisten in {2}, widersprechen sich die Bilder, und diese Pixel bleiben weg: prüfen, ob bei der Aufnahme etwas das Teil verdeckte oder wackelte',
+    'motivo «{0}»: nel {1} % dei pixel misurati, per lo più in {2}, i fotogrammi si contraddicono, e questi pixel sono esclusi: controllare che durante la ripresa nulla abbia coperto il pezzo o vibrato',
   ],
   'fault.lightFlickeredRms': [
     'the light flickered by {0} % rms between the frames, which is compensated',

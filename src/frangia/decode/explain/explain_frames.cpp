@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "frangia/core/angles.h"
+#include "frangia/decode/explain/internal/covered_part.h"
 #include "frangia/decode/explain/internal/frame_design.h"
 #include "frangia/decode/explain/internal/frame_priors.h"
 #include "frangia/decode/explain/internal/frame_sample.h"
@@ -81,9 +82,13 @@ bool cover_fringe(const FrameSample& sample, const FrameHypothesis& declared) {
 /// Share of the samples that count, by the hypothesis that leaves least.
 double share_of(const std::vector<Candidate>& candidates, const FrameSample& sample) {
   const FrameScore* least = nullptr;
+  double highest = 0.0;
   for (const Candidate& one : candidates) {
     if (one.score.residuals.empty()) continue;
-    if (least == nullptr || one.score.log_density > least->log_density) least = &one.score;
+    const double density = one.score.log_density - one.score.reference_gains.sum();
+    if (least != nullptr && density <= highest) continue;
+    least = &one.score;
+    highest = density;
   }
   const auto pixels = static_cast<double>(sample.counts.rows());
   if (least == nullptr) {  // no residuals: blocks are the witnesses
@@ -117,7 +122,7 @@ std::string text_of(const FrameHypothesis& hypothesis, const FrameSample& sample
   for (std::size_t frame = 0; frame < hypothesis.free.size(); ++frame) {
     const std::string clause = fmt::format("frame {} shows no fringes", frame);
     const auto at = text.find(clause);
-    if (!hypothesis.free[frame] || at == std::string::npos) continue;
+    if (!hypothesis.free[frame] || hypothesis.in_part || at == std::string::npos) continue;
     const Eigen::ArrayXd counts = sample.counts.col(static_cast<Eigen::Index>(frame));
     if ((counts / sample.scale_counts).mean() < kBlack)
       text.replace(at, clause.size(), fmt::format("frame {} is black", frame));
@@ -133,6 +138,10 @@ std::string remedy_of(const FrameHypothesis& hypothesis) {
       return {};
     case FrameCause::Exchanged:
       return "correct the order of the frames";
+    case FrameCause::Covered:
+      return "keep everything out of the light while the frames are captured";
+    case FrameCause::Displaced:
+      return "hold camera and part still while the frames are captured";
     case FrameCause::Moved:
       return "hold the part still while it is captured, and capture the frames again";
     case FrameCause::Steps:
@@ -154,11 +163,13 @@ bool FrameExplanation::has_fault() const {
          best.cause != FrameCause::Unexplained;
 }
 
-FrameExplanation explain_frames(const FrameStack& stack, const NoiseModel& noise) {
+FrameExplanation explain_frames(const FrameStack& stack,
+                                const NoiseModel& noise,
+                                std::span<const FrameStack* const> references) {
   FrameExplanation out{.pattern = stack.pattern.name};
   const std::size_t frames = stack.pattern.shifts_rad.size();
   if (frames < kMinFrames || frames > kMaxFrames || frames != stack.frames.size()) return out;
-  const FrameSample sample = sample_blocks(stack, noise);
+  const FrameSample sample = sample_blocks(stack, noise, references);
   if (sample.counts.rows() < kMinPixels) return out;
   const FrameHypothesis declared = frame_hypotheses(stack.pattern).front();
   std::vector<Candidate> candidates{{declared, score_frames(sample, declared)}};
@@ -176,7 +187,12 @@ FrameExplanation explain_frames(const FrameStack& stack, const NoiseModel& noise
     for (FrameHypothesis& one : likely_hypotheses(sample, stack.pattern)) {
       if (!covers && one.cause != FrameCause::Exchanged) continue;
       FrameScore score = score_frames(sample, one);
+      one.displacement_px = score.largest_displacement_px;
       candidates.push_back({std::move(one), std::move(score)});
+    }
+    if (covers) {
+      if (auto part = find_covered_part(sample, stack.pattern))
+        candidates.push_back({std::move(part->hypothesis), std::move(part->score)});
     }
   }
 

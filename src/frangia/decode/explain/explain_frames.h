@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -40,10 +41,14 @@ struct FrameExplanation {
 /// pixels. Camera noise, gains of the frames of 3 %, and harmonics that are coherent with the phase
 /// are part of every hypothesis. The samples count by their design effect, and what a hypothesis
 /// leaves beyond the noise counts as few witnesses: it may be one unknown field over the image.
+/// `references` are fringe patterns of the same view that are as described: mean and modulation
+/// that a hypothesis finds have to agree with theirs.
 ///
 /// @shape    a fringe pattern of 3 to 24 frames, at one exposure; not decided for others
 /// @missing  not decided for fewer than 200 lit pixels in the sample
 /// @source   MacKay 2003, chapter 28, for evidence and the Occam factor; Kish 1965
-[[nodiscard]] FrameExplanation explain_frames(const FrameStack& stack, const NoiseModel& noise);
+[[nodiscard]] FrameExplanation explain_frames(const FrameStack& stack,
+                                              const NoiseModel& noise,
+                                              std::span<const FrameStack* const> references = {});
 
 }  // namespace frangia

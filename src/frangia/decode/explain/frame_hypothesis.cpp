@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "frangia/core/angles.h"
 #include "frangia/decode/explain/internal/frame_design.h"
@@ -27,12 +28,24 @@ FrameHypothesis as_described(const Pattern& pattern) {
           .gains = std::vector<double>(frames, 1.0),
           .free = std::vector<bool>(frames, false),
           .lamp_on = {},
+          .displaced = {},
           .path = {}};
+}
+
+/// "frame 2", "frames 2 and 3", "some frames".
+std::string words_of(const std::vector<std::size_t>& frames) {
+  if (frames.empty()) return "some frames";
+  if (frames.size() == 1) return fmt::format("frame {}", frames.front());
+  return fmt::format("frames {}", fmt::join(frames, " and "));
 }
 
 std::string clause_of(FrameCause cause, std::size_t frame, const FrameHypothesis& all) {
   switch (cause) {
     case FrameCause::Lost:
+      if (all.in_part)
+        return fmt::format("frame {} shows no fringes in {:.0f} % of the lit part of the image",
+                           frame,
+                           100.0 * all.part);
       return fmt::format("frame {} shows no fringes", frame);
     case FrameCause::Repeated:
       return fmt::format("frame {} repeats frame {}", frame, frame - 1);
@@ -57,6 +70,8 @@ std::string clause_of(FrameCause cause, std::size_t frame, const FrameHypothesis
       return "the shifts begin elsewhere";
     case FrameCause::Direction:
       return "the shifts run in the opposite direction";
+    case FrameCause::Covered:
+    case FrameCause::Displaced:
     case FrameCause::Exchanged:
     case FrameCause::AsDescribed:
     case FrameCause::Unexplained:
@@ -73,6 +88,10 @@ std::string name_of(FrameCause cause) {
       return "as-described";
     case FrameCause::Lost:
       return "lost";
+    case FrameCause::Covered:
+      return "covered";
+    case FrameCause::Displaced:
+      return "displaced";
     case FrameCause::Repeated:
       return "repeated";
     case FrameCause::Exchanged:
@@ -110,9 +129,22 @@ std::vector<FrameHypothesis> frame_hypotheses(const Pattern& pattern) {
     one.choices = choices;
     out.push_back(std::move(one));
   };
+  add(FrameCause::Covered, 0, 1, 1);
+  out.back().frames.clear();
+  out.back().in_part = true;
   for (std::size_t k = 0; k < frames; ++k) {
     add(FrameCause::Lost, k, 2, frames);
     out.back().free[k] = true;
+    if (frames > 3) {
+      for (const std::size_t last : {k, k + 1}) {  // a hand may be in two frames
+        if (last == frames) continue;
+        add(FrameCause::Covered, k, 1, 2 * frames - 1);
+        out.back().in_part = true;
+        if (last > k) out.back().frames.push_back(last);
+      }
+      add(FrameCause::Displaced, k, 0, frames);
+      out.back().displaced = {k};
+    }
     if (frames > 3) {
       add(FrameCause::Lamp, k, 0, frames);
       out.back().lamp_on = k;
@@ -133,10 +165,12 @@ std::vector<FrameHypothesis> frame_hypotheses(const Pattern& pattern) {
     if (frames >= min_frames_of_steps(pattern)) {
       std::vector<double> path(frames, 0.0);
       std::fill(path.begin() + static_cast<std::ptrdiff_t>(k), path.end(), 1.0);
-      for (const FrameCause cause : {FrameCause::Steps, FrameCause::Moved}) {
+      for (const FrameCause cause : {FrameCause::Steps, FrameCause::Moved, FrameCause::Moved}) {
+        const bool again = cause == out.back().cause;  // all that is seen instead of the part
         add(cause, k, 0, frames - 2);
         out.back().path = path;
-        out.back().moves_part = cause == FrameCause::Moved;
+        out.back().moves_part = cause == FrameCause::Moved && !again;
+        out.back().moves_image = again;
       }
     }
     if (frames < kMinFramesOfLamp || k < 2) continue;
@@ -152,6 +186,10 @@ std::vector<FrameHypothesis> frame_hypotheses(const Pattern& pattern) {
     out.back().moves_part = true;
     for (std::size_t k = 0; k < frames; ++k)
       out.back().path.push_back(static_cast<double>(k) / static_cast<double>(frames - 1));
+    add(FrameCause::Moved, 0, 0, 1);  // all that is seen, anyhow
+    out.back().frames.clear();
+    for (std::size_t k = 0; k < frames; ++k)
+      out.back().displaced.push_back(k);
   }
   add(FrameCause::Start, 0, 1, 1);
   add(FrameCause::Direction, 0, 0, 1);
@@ -179,7 +217,9 @@ std::optional<FrameHypothesis> both_of(const FrameHypothesis& a, const FrameHypo
   // The order of what is late and exchanged would matter.
   if (common || (ordered(a) && ordered(b))) return std::nullopt;
   for (const FrameHypothesis* one : {&a, &b})
-    if (one->lamp_on || !one->path.empty() || one->has_free_steps) return std::nullopt;
+    if (one->lamp_on || !one->path.empty() || one->has_free_steps || one->in_part ||
+        !one->displaced.empty())
+      return std::nullopt;
   FrameHypothesis out = ordered(b) ? b : a;
   const FrameHypothesis& other = ordered(b) ? a : b;
   out.frames.insert(out.frames.end(), other.frames.begin(), other.frames.end());
@@ -200,6 +240,16 @@ std::string describe(const FrameHypothesis& hypothesis) {
       return "the frames are as described";
     case FrameCause::Unexplained:
       return "the frames differ from fringes of these shifts, and no known cause explains it";
+    case FrameCause::Covered:
+      return fmt::format("{:.0f} % of the lit part of the image is covered or lost in {}",
+                         100.0 * hypothesis.part,
+                         words_of(hypothesis.frames));
+    case FrameCause::Displaced:
+      return fmt::format(
+          "frame {} is displaced by {:.1f} px against the others, as where the camera or all that "
+          "is seen shook",
+          hypothesis.frames.front(),
+          hypothesis.displacement_px);
     case FrameCause::Exchanged: {
       std::string text =
           fmt::format("frames {} and {} are exchanged", hypothesis.frames[0], hypothesis.frames[1]);
@@ -227,8 +277,11 @@ bool is_lit_by_lamp(const FrameHypothesis& hypothesis, std::size_t frame) {
 }
 
 bool predict_alike(const FrameHypothesis& a, const FrameHypothesis& b) {
+  if (a.in_part != b.in_part || (a.in_part && a.frames != b.frames) || a.displaced != b.displaced)
+    return false;
   if (a.free != b.free || a.path != b.path || a.moves_part != b.moves_part ||
-      a.has_free_steps != b.has_free_steps || a.lamp_on.has_value() != b.lamp_on.has_value() ||
+      a.moves_image != b.moves_image || a.has_free_steps != b.has_free_steps ||
+      a.lamp_on.has_value() != b.lamp_on.has_value() ||
       (a.lamp_on && (a.cause == FrameCause::Gain) != (b.cause == FrameCause::Gain)) ||
       (a.cause == FrameCause::Unexplained) != (b.cause == FrameCause::Unexplained))
     return false;

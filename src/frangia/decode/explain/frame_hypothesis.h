@@ -14,6 +14,8 @@ namespace frangia {
 enum class FrameCause {
   AsDescribed,  ///< nothing
   Lost,         ///< a frame shows no fringes: black, white or something else
+  Covered,      ///< some frames show something else in a part of the image
+  Displaced,    ///< a frame is displaced as a whole against the others
   Repeated,     ///< a frame shows the one before it again
   Exchanged,    ///< two frames show each other
   Late,         ///< the frames show the one before them, from one of them on
@@ -27,7 +29,7 @@ enum class FrameCause {
 };
 
 /// Returns the word for a cause in JSON and in the table of hypotheses: "as-described", "lost",
-/// "repeated", "exchanged", "late", "gain", "lamp", "moved", "steps",
+/// "covered", "displaced", "repeated", "exchanged", "late", "gain", "lamp", "moved", "steps",
 /// "start", "direction" or "unexplained".
 [[nodiscard]] std::string name_of(FrameCause cause);
 
@@ -43,11 +45,17 @@ struct FrameHypothesis {
   std::vector<bool> free;                      ///< the frame shows no fringes
   std::optional<std::size_t> lamp_on;          ///< first frame with the light L of another lamp
   std::size_t lamp_off = SIZE_MAX;             ///< first frame after it without that light
+  /// The frames show something else in a part of the image: those of `frames`, or any of them.
+  bool in_part = false;
+  double part = 0.0;                   ///< share of the lit pixels in that part
+  std::vector<std::size_t> displaced;  ///< frames whose whole image is displaced, each by itself
+  double displacement_px = 0.0;        ///< the largest of them
   /// How far each frame is displaced, over the whole displacement; empty if nothing moved.
   std::vector<double> path;
   /// The displacement is that of a part: it shifts the image of the texture, and the phase
   /// differently over the image. Otherwise it shifts the phase of all pixels alike.
   bool moves_part = false;
+  bool moves_image = false;     ///< the displacement is that of all that is seen in the image
   bool has_free_steps = false;  ///< each shift has an error of its own
   int faults = 0;               ///< 0 as described, 1, or 2
   int parameters = 0;           ///< fitted for all pixels together

@@ -1,11 +1,15 @@
 #include "frangia/decode/explain/judge_frames.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "frangia/decode/explain/internal/frame_design.h"
+#include "frangia/decode/explain/internal/frame_sample.h"
+#include "frangia/decode/explain/internal/score_frames.h"
 
 namespace frangia {
 namespace {
@@ -15,6 +19,8 @@ std::vector<std::size_t> useless_frames(const FrameHypothesis& fault) {
   switch (fault.cause) {
     case FrameCause::Lost:
     case FrameCause::Repeated:
+    case FrameCause::Covered:
+    case FrameCause::Displaced:
     case FrameCause::Gain:
       break;
     case FrameCause::Lamp: {  // the smaller part of the set
@@ -52,18 +58,141 @@ bool determine_phase(const std::vector<double>& shifts_rad) {
                                         .gains = std::vector<double>(frames, 1.0),
                                         .free = std::vector<bool>(frames, false),
                                         .lamp_on = {},
+                                        .displaced = {},
                                         .path = {}});
   if (design.inverse.size() == 0) return false;
   const double noise = std::sqrt(0.5 * design.inverse.bottomRows(2).squaredNorm());
   return noise <= kMostNoise * std::sqrt(2.0 / static_cast<double>(frames));
 }
 
-bool is_sound(const FrameExplanation& found) {
-  return found.decided && found.best.cause == FrameCause::AsDescribed && found.are_fringes;
+/// Whether mean, modulation and phase by these frames are those of other patterns, at nearly all
+/// pixels. Three frames have no other check of themselves.
+bool agree_with(std::span<const FrameStack* const> references,
+                const FrameStack& stack,
+                const NoiseModel& noise) {
+  if (references.empty()) return true;
+  constexpr double kMost = 0.15;  // of the pixels; depth edges and indirect light are fewer
+  const FrameSample sample = sample_blocks(stack, noise, references);
+  if (sample.counts.rows() == 0) return true;
+  const FrameScore score = score_frames(sample, frame_hypotheses(stack.pattern).front());
+  if (score.reference_gains.size() == 0) return true;
+  return (score.reference_gains < 0.0).cast<double>().mean() < kMost;
 }
 
 std::string of_pattern(const FrameExplanation& found) {
   return fmt::format("pattern \"{}\": {}", found.pattern, describe(found.explanation));
+}
+
+/// Whether the frames that remain without some determine the phase, are as described, and agree
+/// with other patterns; then `again` is what explains them.
+bool remain_sound(const FrameStack& rest,
+                  const NoiseModel& noise,
+                  const JudgeOptions& options,
+                  FrameExplanation& again) {
+  constexpr std::size_t kWithoutResidual = 3;
+  const bool checked = rest.frames.size() > kWithoutResidual || options.has_other_check;
+  if (!checked || !determine_phase(rest.pattern.shifts_rad)) return false;
+  again = explain_frames(rest, noise, options.references);
+  return is_sound(again) && agree_with(options.references, rest, noise);
+}
+
+/// Whether a fault is one of some frames, which others might show instead.
+bool blames_frames(FrameCause cause) {
+  return cause == FrameCause::Lost || cause == FrameCause::Covered ||
+         cause == FrameCause::Displaced || cause == FrameCause::Gain || cause == FrameCause::Lamp ||
+         cause == FrameCause::Unexplained;
+}
+
+/// Names the only frame without which the others are as described and agree with other patterns.
+/// The frames that the verdict blames do not: without any such frame its cause is refuted.
+void judge_by_references(const FrameStack& stack,
+                         const NoiseModel& noise,
+                         const JudgeOptions& options,
+                         FrameVerdict& verdict) {
+  std::vector<std::size_t> named;
+  FrameExplanation of_rest;
+  for (std::size_t k = 0; k < stack.frames.size(); ++k) {
+    FrameExplanation again;
+    if (!remain_sound(without_frames(stack, std::array{k}), noise, options, again)) continue;
+    named.push_back(k);
+    of_rest = std::move(again);
+  }
+  FrameExplanation& found = verdict.explanation;
+  if (named.size() != 1) {
+    if (!found.has_fault()) return;
+    found.best.cause = FrameCause::Unexplained;
+    found.best.frames.clear();
+    found.explanation.second = std::exchange(found.explanation.best, {describe(found.best)});
+    found.explanation.log_odds = 0.0;
+    verdict.finding = fmt::format(
+        "pattern \"{}\": the frames contradict each other and the other patterns, and no known "
+        "cause "
+        "explains it",
+        found.pattern);
+    found.explanation.remedy =
+        "check that the frames are those of this pattern, and that nothing moved";
+    verdict.action = FrameAction::LeaveOutView;
+    return;
+  }
+  found.best.cause = FrameCause::Lost;
+  found.best.frames = named;
+  found.explanation.second = std::exchange(
+      found.explanation.best,
+      {fmt::format("frame {} shows something else than the other frames and the other patterns",
+                   named.front())});
+  found.unexplained_rad = of_rest.unexplained_rad;
+  found.explanation.remedy = "capture the frames again, the projector and the camera in step";
+  verdict.finding =
+      fmt::format("pattern \"{}\": {}", found.pattern, found.explanation.best.front());
+  verdict.left_out = named;
+  verdict.action = FrameAction::LeaveOutFrames;
+}
+
+/// Judges the frames by the explanation that the options allow.
+FrameVerdict judge_by_evidence(const FrameStack& stack,
+                               const NoiseModel& noise,
+                               const JudgeOptions& options) {
+  FrameVerdict out;
+  out.explanation = explain_frames(stack, noise, options.references);
+  const FrameExplanation& found = out.explanation;
+  if (!found.decided) return out;
+  if (!found.are_fringes) {
+    out.finding = fmt::format(
+        "pattern \"{}\": the frames show no fringes with its shifts, and no known cause explains "
+        "them; {}",
+        found.pattern,
+        "check that they are the frames of this pattern, and that nothing moved");
+    out.action = FrameAction::LeaveOutView;
+    return out;
+  }
+  if (!found.has_fault()) return out;
+  out.finding = of_pattern(found);
+  out.action =
+      found.best.cause == FrameCause::Covered ? FrameAction::Use : FrameAction::LeaveOutView;
+  constexpr std::size_t kFewSteps = 4;  // show some combinations of the errors of their steps alone
+  if (found.explanation.best.size() == 1 &&
+      (found.best.cause == FrameCause::Exchanged || found.best.cause == FrameCause::Late ||
+       (found.best.cause == FrameCause::Steps && stack.frames.size() > kFewSteps)) &&
+      found.best.faults == 1) {
+    FrameStack remedied = stack;
+    remedied.pattern.shifts_rad = found.best.shifts_rad;
+    if (is_sound(explain_frames(remedied, noise, options.references)))
+      out.remedy_rad = found.best.shifts_rad;
+  }
+  out.left_out = useless_frames(found.best);
+  // Hypotheses that predict alike but blame other frames do not say which one to leave out.
+  if (out.left_out.empty() || found.explanation.best.size() > 1 || !options.may_leave_out) {
+    out.left_out.clear();
+    return out;
+  }
+  FrameExplanation again;
+  if (remain_sound(without_frames(stack, out.left_out), noise, options, again)) {
+    out.action = FrameAction::LeaveOutFrames;
+    out.explanation.unexplained_rad = again.unexplained_rad;
+    return out;
+  }
+  out.left_out.clear();
+  return out;
 }
 
 }  // namespace
@@ -72,6 +201,10 @@ bool leaves_out_view(std::span<const FrameVerdict> verdicts) {
   return std::any_of(verdicts.begin(), verdicts.end(), [](const FrameVerdict& one) {
     return one.action == FrameAction::LeaveOutView;
   });
+}
+
+bool is_sound(const FrameExplanation& found) {
+  return found.decided && found.best.cause == FrameCause::AsDescribed && found.are_fringes;
 }
 
 FrameStack without_frames(const FrameStack& stack, std::span<const std::size_t> left_out) {
@@ -89,49 +222,21 @@ FrameStack without_frames(const FrameStack& stack, std::span<const std::size_t> 
 FrameVerdict judge_frames(const FrameStack& stack,
                           const NoiseModel& noise,
                           const JudgeOptions& options) {
-  FrameVerdict out;
-  out.explanation = explain_frames(stack, noise);
-  const FrameExplanation& found = out.explanation;
-  if (!found.decided) return out;
-  if (!found.are_fringes) {
-    out.finding = fmt::format(
-        "pattern \"{}\": the frames show no fringes with its shifts, and no known cause explains "
-        "them; {}",
-        found.pattern,
-        "check that they are the frames of this pattern, and that nothing moved");
-    out.action = FrameAction::LeaveOutView;
+  JudgeOptions alone = options;
+  alone.references = {};
+  FrameVerdict out = judge_by_evidence(stack, noise, alone);
+  if (options.references.empty() || !out.explanation.decided || is_sound(out.explanation))
     return out;
-  }
-  if (!found.has_fault()) return out;
-  out.finding = of_pattern(found);
-  out.action = FrameAction::LeaveOutView;
-  constexpr std::size_t kFewSteps = 4;  // show some combinations of the errors of their steps alone
-  if (found.explanation.best.size() == 1 &&
-      (found.best.cause == FrameCause::Exchanged || found.best.cause == FrameCause::Late ||
-       (found.best.cause == FrameCause::Steps && stack.frames.size() > kFewSteps)) &&
-      found.best.faults == 1) {
-    FrameStack remedied = stack;
-    remedied.pattern.shifts_rad = found.best.shifts_rad;
-    if (is_sound(explain_frames(remedied, noise))) out.remedy_rad = found.best.shifts_rad;
-  }
-  out.left_out = useless_frames(found.best);
-  // Hypotheses that predict alike but blame other frames do not say which one to leave out.
-  if (out.left_out.empty() || found.explanation.best.size() > 1 || !options.may_leave_out) {
-    out.left_out.clear();
+  // What the frames that remain predict of the other patterns confirms the cause.
+  if (out.action == FrameAction::LeaveOutFrames &&
+      agree_with(options.references, without_frames(stack, out.left_out), noise))
     return out;
-  }
-  const FrameStack rest = without_frames(stack, out.left_out);
-  constexpr std::size_t kWithoutResidual = 3;
-  const bool checked = rest.frames.size() > kWithoutResidual || options.has_other_check;
-  if (checked && determine_phase(rest.pattern.shifts_rad)) {
-    const FrameExplanation again = explain_frames(rest, noise);
-    if (is_sound(again)) {
-      out.action = FrameAction::LeaveOutFrames;
-      out.explanation.unexplained_rad = again.unexplained_rad;
-      return out;
-    }
-  }
-  out.left_out.clear();
+  out = judge_by_evidence(stack, noise, options);
+  const bool isolated = out.action == FrameAction::LeaveOutFrames ||
+                        (out.action == FrameAction::Use && out.explanation.has_fault());
+  if (!isolated && options.may_leave_out && out.explanation.decided &&
+      blames_frames(out.explanation.best.cause))
+    judge_by_references(stack, noise, options, out);
   return out;
 }
 

@@ -39,16 +39,23 @@ struct JudgeOptions {
   /// Coarser patterns or a Gray code check the phase, also if three frames remain, which leave no
   /// residual.
   bool has_other_check = false;
+  /// Fringe patterns of the same view that are as described, as `explain_frames` takes them.
+  std::span<const FrameStack* const> references{};
 };
 
 /// Explains the frames of a fringe pattern and decides what is used of them.
 ///
-/// A frame that is lost, repeated, or under other light is left out if those that remain determine
-/// the phase with less than twice the noise and are as described. Otherwise the pattern measures
-/// nothing in this view, and neither do frames that are no fringes.
+/// A frame that is lost, repeated, displaced, covered in part or under other light is left out if
+/// those that remain determine the phase with less than twice the noise and are as described.
+/// Otherwise the pattern measures nothing in this view, and neither do frames that are no fringes.
+/// Where frames are covered in part and are not left out, all of them are used: the pixels that
+/// contradict each other are left out.
 [[nodiscard]] FrameVerdict judge_frames(const FrameStack& stack,
                                         const NoiseModel& noise,
                                         const JudgeOptions& options = {});
+
+/// Whether the frames are as described, with evidence.
+[[nodiscard]] bool is_sound(const FrameExplanation& found);
 
 /// The stack without some of its frames and their shifts.
 [[nodiscard]] FrameStack without_frames(const FrameStack& stack,

@@ -63,11 +63,15 @@ void count_places(const DirectionInput& input, DirectionMaps& maps) {
   for (std::size_t m = 0; m < maps.fits.size(); ++m) {
     if (!maps.view.assessments[m].exceeds_noise) continue;
     const FittedAlgorithm& fit = maps.fits[m];
+    const Image<float> unexplained_rad = unexplained_phase(*maps.fringes[m], fit, maps.view.noise);
     const double discarded =
-        count_unexplained(unexplained_phase(*maps.fringes[m], fit, maps.view.noise),
+        count_unexplained(unexplained_rad,
                           {fit.unexplained_rad, input.options.wrap.max_sigma_rad, weights[m]},
                           {phase.phase_rad, phase.sigma_rad, phase.status, phase.systematic_rad});
-    const std::string warning = describe_contradicting(maps.fringes[m]->pattern.name, discarded);
+    const std::string warning = describe_contradicting(
+        maps.fringes[m]->pattern.name,
+        discarded,
+        place_of_unexplained(unexplained_rad, input.options.wrap.max_sigma_rad));
     if (warning.empty()) continue;
     input.run.warn(warning);
     if (maps.view.check->consistent && maps.view.check->finding.empty())

@@ -12,18 +12,21 @@
 #include "frangia/decode/explain/find_ceiling.h"
 #include "frangia/decode/select_stacks.h"
 #include "frangia/phase/wrap/estimate_noise.h"
+#include "frangia/phase/wrap/noise_of_view.h"
 #include "frangia/rig/rig.h"
 #include "frangia/uncertainty/combined_sigma.h"
 
 namespace frangia {
 namespace {
 
-/// The camera's noise: from rig.toml, else from the survey of several views, else from this view.
+/// The camera's noise: from rig.toml, else from the survey of several views unless this view
+/// contradicts it, else from this view.
 /// Lossy compression adds its own.
 NoiseModel noise_of(const DirectionInput& input, std::span<const FrameStack> stacks) {
-  NoiseModel noise = input.rig.reference().noise  ? *input.rig.reference().noise
-                     : input.options.survey.noise ? *input.options.survey.noise
-                                                  : estimate_noise(stacks);
+  NoiseModel noise = input.rig.reference().noise ? *input.rig.reference().noise
+                     : input.options.survey.noise
+                         ? noise_of_view(stacks, *input.options.survey.noise)
+                         : estimate_noise(stacks);
   noise.floor_counts2 += stacks.front().compression_counts2;
   return noise;
 }
@@ -64,6 +67,33 @@ bool is_undecided_order(const FrameVerdict& verdict) {
          verdict.explanation.has_fault() && verdict.explanation.best.cause == FrameCause::Exchanged;
 }
 
+/// Explains each pattern by itself, and those that are not as described again beside the others.
+std::vector<FrameVerdict> judge_patterns(std::span<const FrameStack* const> fringes,
+                                         const DirectionInput& input,
+                                         bool has_other_check,
+                                         const NoiseModel& noise) {
+  std::vector<const FrameStack*> stacks;
+  std::vector<FrameVerdict> verdicts;
+  std::vector<const FrameStack*> sound;
+  const auto judge = [&](const FrameStack& stack) {
+    return judge_frames(
+        stack, noise, {may_leave_out(stack.pattern, input.options), has_other_check, sound});
+  };
+  for (const FrameStack* stack : fringes) {
+    if (stack->pattern.exposure_count() > 1 || may_look_like_a_fault(stack->pattern, input.rig))
+      continue;
+    stacks.push_back(stack);
+    verdicts.push_back(judge(*stack));
+  }
+  for (std::size_t i = 0; i < stacks.size(); ++i)
+    if (is_sound(verdicts[i].explanation)) sound.push_back(stacks[i]);
+  for (std::size_t i = 0; i < stacks.size() && !sound.empty(); ++i) {
+    const FrameExplanation& found = verdicts[i].explanation;
+    if (found.decided && !is_sound(found)) verdicts[i] = judge(*stacks[i]);
+  }
+  return verdicts;
+}
+
 std::vector<double> degrees_of(const std::vector<double>& shifts_rad) {
   std::vector<double> degrees;
   for (const double shift : shifts_rad)
@@ -84,14 +114,10 @@ JudgedFrames judge_direction(const DirectionInput& input) {
   const auto fringes = fringes_of(stacks, input.plan.direction);
   const bool has_other_check = fringes.size() > 1 || !gray_of(stacks, input.plan.direction).empty();
   bool changed = false;
-  for (const FrameStack* stack : fringes) {
-    if (stack->pattern.exposure_count() > 1 || may_look_like_a_fault(stack->pattern, input.rig))
-      continue;
-    FrameVerdict verdict = judge_frames(
-        *stack, out.noise, {may_leave_out(stack->pattern, input.options), has_other_check});
-    out.unexplained_rad[stack->pattern.name] = verdict.explanation.unexplained_rad;
+  for (FrameVerdict& verdict : judge_patterns(fringes, input, has_other_check, out.noise)) {
+    out.unexplained_rad[verdict.explanation.pattern] = verdict.explanation.unexplained_rad;
     if (is_undecided_order(verdict))
-      out.orders_rad[stack->pattern.name] = verdict.explanation.alike_rad;
+      out.orders_rad[verdict.explanation.pattern] = verdict.explanation.alike_rad;
     if (!verdict.remedy_rad.empty() && input.options.accept_remedy)
       verdict.action = FrameAction::Use;
     changed = changed || verdict.action == FrameAction::LeaveOutFrames ||
@@ -125,6 +151,10 @@ std::optional<SequenceCheck> report_frames(const std::vector<FrameVerdict>& verd
     }
     if (verdict.action == FrameAction::Use && !verdict.remedy_rad.empty())
       run.warn(fmt::format("{}; decoded with the shifts that fit", verdict.finding));
+    if (verdict.action == FrameAction::Use && found.has_fault() && verdict.remedy_rad.empty())
+      run.warn(fmt::format("{}; the pixels where the frames contradict each other are left out; {}",
+                           verdict.finding,
+                           found.explanation.remedy));
     if (verdict.action != FrameAction::LeaveOutView || !check) continue;
     // The other patterns decide which of these orders it is.
     if (is_undecided_order(verdict) && !check->consistent) continue;

@@ -79,11 +79,15 @@ void count_places(const FrameStack& stack,
                   DecodedDirection& out) {
   if (!out.assessments.back().exceeds_noise || options.own.wrap) return;
   WrappedPhase& map = out.wrapped.back();
+  const Image<float> unexplained_rad = unexplained_phase(stack, fitted, out.noise);
   const double discarded =
-      count_unexplained(unexplained_phase(stack, fitted, out.noise),
+      count_unexplained(unexplained_rad,
                         {fitted.unexplained_rad, options.wrap.max_sigma_rad},
                         {map.phase_rad, map.sigma_rad, map.status, map.systematic_rad});
-  const std::string warning = describe_contradicting(stack.pattern.name, discarded);
+  const std::string warning =
+      describe_contradicting(stack.pattern.name,
+                             discarded,
+                             place_of_unexplained(unexplained_rad, options.wrap.max_sigma_rad));
   if (warning.empty()) return;
   run.warn(warning);
   if (out.check && out.check->consistent && out.check->finding.empty())

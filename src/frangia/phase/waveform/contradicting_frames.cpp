@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <span>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -21,6 +22,10 @@ constexpr double kLeastLight = 10.0;   ///< modulation over its noise; 0.1 rad, 
 constexpr double kNoiseModel = 1.25;   ///< variance over that of the noise model that may be noise
 constexpr double kChanceSigmas = 5.0;  ///< of the mean of squares over a window
 constexpr std::size_t kWithoutResidual = 3;
+constexpr int kSurroundings_px = 10;  ///< reach of the pixels that say whether one is covered
+/// Share of the lit pixels around one that contradict each other where it is within a region of
+/// them. Beyond a straight border it is half of them at most.
+constexpr float kWithin = 0.6F;
 
 /// What is summed over a window.
 struct WindowSum {
@@ -76,6 +81,67 @@ float unexplained_of(const WindowSum& window, double frames) {
   return static_cast<float>(std::sqrt(2.0 / frames * variance * window.pixels / window.square));
 }
 
+/// A pixel, or the sum of some.
+struct Surroundings {
+  float lit = 0.0F;
+  float unexplained = 0.0F;  ///< number of pixels that noise does not explain
+  float square = 0.0F;       ///< squared uncertainty of these, rad squared
+
+  void add(const Surroundings& one, float sign) {
+    lit += sign * one.lit;
+    unexplained += sign * one.unexplained;
+    square += sign * one.square;
+  }
+};
+
+/// Sums of windows of `kSurroundings_px` to either side along a line of any length.
+void sum_windows(std::vector<Surroundings>& line, std::vector<Surroundings>& sums) {
+  const int size = static_cast<int>(line.size());
+  Surroundings sum;
+  for (int at = 0; at < std::min(size, kSurroundings_px); ++at)
+    sum.add(line[static_cast<std::size_t>(at)], 1.0F);
+  for (int at = 0; at < size; ++at) {
+    if (at + kSurroundings_px < size)
+      sum.add(line[static_cast<std::size_t>(at + kSurroundings_px)], 1.0F);
+    if (at > kSurroundings_px)
+      sum.add(line[static_cast<std::size_t>(at - kSurroundings_px - 1)], -1.0F);
+    sums[static_cast<std::size_t>(at)] = sum;
+  }
+}
+
+/// Counts pixels within a region that contradicts itself as its other pixels. `lit` says which
+/// pixels have fringes.
+void count_within(const Image<char>& lit, Image<float>& unexplained_rad) {
+  const int width = lit.width();
+  const int height = lit.height();
+  Image<Surroundings> along(width, height, Uninitialized{});
+  parallel_rows(height, [&](int y) {
+    std::vector<Surroundings> row(static_cast<std::size_t>(width));
+    std::vector<Surroundings> sums(row.size());
+    for (int x = 0; x < width; ++x) {
+      const float found = unexplained_rad(x, y);
+      row[static_cast<std::size_t>(x)] = {
+          lit(x, y) != 0 ? 1.0F : 0.0F, found > 0.0F ? 1.0F : 0.0F, found * found};
+    }
+    sum_windows(row, sums);
+    for (int x = 0; x < width; ++x)
+      along(x, y) = sums[static_cast<std::size_t>(x)];
+  });
+  parallel_rows(width, [&](int x) {
+    std::vector<Surroundings> column(static_cast<std::size_t>(height));
+    std::vector<Surroundings> sums(column.size());
+    for (int y = 0; y < height; ++y)
+      column[static_cast<std::size_t>(y)] = along(x, y);
+    sum_windows(column, sums);
+    for (int y = 0; y < height; ++y) {
+      const Surroundings& sum = sums[static_cast<std::size_t>(y)];
+      if (lit(x, y) == 0 || sum.unexplained < kWithin * sum.lit) continue;
+      const float around = std::sqrt(std::max(0.0F, sum.square) / std::max(1.0F, sum.unexplained));
+      unexplained_rad(x, y) = std::max(unexplained_rad(x, y), around);
+    }
+  });
+}
+
 }  // namespace
 
 Image<float> unexplained_phase(const FrameStack& stack,
@@ -86,11 +152,14 @@ Image<float> unexplained_phase(const FrameStack& stack,
   const int height = height_of(stack.frames.front());
   const ResidualModel model(fitted);
   Image<WindowSum> along(width, height, Uninitialized{});
+  Image<char> lit(width, height, Uninitialized{});
   parallel_rows(height, [&](int y) {
     std::vector<double> counts(fitted.shifts_rad.size());
     std::vector<WindowSum> row(static_cast<std::size_t>(width));
     for (int x = 0; x < width; ++x)
       row[static_cast<std::size_t>(x)] = sum_of_pixel(stack, model, noise, x, y, counts);
+    for (int x = 0; x < width; ++x)
+      lit(x, y) = row[static_cast<std::size_t>(x)].pixels > 0.0F ? 1 : 0;
     for (int x = 0; x < width; ++x) {
       WindowSum sum;
       for (int at = std::max(0, x - kReach_px); at <= std::min(width - 1, x + kReach_px); ++at)
@@ -108,6 +177,7 @@ Image<float> unexplained_phase(const FrameStack& stack,
       out(x, y) = unexplained_of(sum, frames);
     }
   });
+  count_within(lit, out);
   return out;
 }
 
@@ -144,15 +214,41 @@ double count_unexplained(const Image<float>& unexplained_rad,
   return static_cast<double>(discarded) / static_cast<double>(std::max<std::size_t>(1, measured));
 }
 
-std::string describe_contradicting(const std::string& pattern, double share) {
+std::string place_of_unexplained(const Image<float>& unexplained_rad, float max_sigma_rad) {
+  std::vector<int> columns;
+  std::vector<int> rows;
+  for (int y = 0; y < unexplained_rad.height(); ++y) {
+    for (int x = 0; x < unexplained_rad.width(); ++x) {
+      if (!(unexplained_rad(x, y) > max_sigma_rad)) continue;
+      columns.push_back(x);
+      rows.push_back(y);
+    }
+  }
+  if (columns.empty()) return {};
+  const auto most_of = [](std::vector<int>& places) {
+    std::sort(places.begin(), places.end());
+    const std::size_t few = places.size() / 20;
+    return std::pair(places[few], places[places.size() - 1 - few]);
+  };
+  const auto [left, right] = most_of(columns);
+  const auto [top, bottom] = most_of(rows);
+  return fmt::format("columns {} to {} and rows {} to {}", left, right, top, bottom);
+}
+
+std::string describe_contradicting(const std::string& pattern,
+                                   double share,
+                                   const std::string& place) {
   constexpr double kMaterial = 0.02;  // edges of sound frames are fewer
   if (share < kMaterial) return {};
   return fmt::format(
-      "pattern \"{}\": at {:.0f} % of the measured pixels the frames contradict each other, and "
-      "these pixels are left out: check that nothing covered the part or shook while they were "
-      "captured",
+      "pattern \"{}\": at {:.0f} % of the measured pixels, most of them in {}, the frames "
+      "contradict "
+      "each other, and these pixels are left out: check that nothing covered the part or shook "
+      "while "
+      "they were captured",
       pattern,
-      100.0 * share);
+      100.0 * share,
+      place);
 }
 
 }  // namespace frangia

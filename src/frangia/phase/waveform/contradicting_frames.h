@@ -15,7 +15,8 @@ namespace frangia {
 /// of a frame that shook. What is alike all over the image is `FittedAlgorithm::unexplained_rad`.
 ///
 /// The residual is a mean over windows of 7 x 7 pixels: some phases hide a fault of two frames from
-/// a single pixel.
+/// a single pixel. What is covered is a region, so that pixels whose surroundings contradict each
+/// other count as these do.
 ///
 /// @shape    four frames or more of w x h, of one exposure; w x h out, empty for three frames:
 ///           they leave no residual
@@ -48,7 +49,17 @@ double count_unexplained(const Image<float>& unexplained_rad,
                          const UnexplainedUse& use,
                          const PhaseImages& images);
 
-/// The warning about pixels of a pattern that are discarded; empty where they are few.
-[[nodiscard]] std::string describe_contradicting(const std::string& pattern, double share);
+/// Where most pixels lie whose uncertainty is larger than this, for people: "columns 210 to 330 and
+/// rows 120 to 380".
+///
+/// @missing  empty without such pixels
+[[nodiscard]] std::string place_of_unexplained(const Image<float>& unexplained_rad,
+                                               float max_sigma_rad);
+
+/// The warning about pixels of a pattern that are discarded, and their place; empty where they are
+/// few.
+[[nodiscard]] std::string describe_contradicting(const std::string& pattern,
+                                                 double share,
+                                                 const std::string& place);
 
 }  // namespace frangia

@@ -70,18 +70,24 @@ using NoiseBins = std::array<NoiseSamples::Bin, NoiseSamples::kBins>;
 class NoiseRowGatherer {
  public:
   /// `stack` must outlive the gatherer; one weight a frame.
-  NoiseRowGatherer(const FrameStack& stack, std::vector<double> weights);
+  NoiseRowGatherer(const FrameStack& stack, std::vector<double> weights, int distance_px);
   /// Adds the absolute second differences along a row.
   void gather(int y, NoiseBins& bins) const;
 
  private:
   const FrameStack* stack_;
   std::vector<double> weights_;
+  std::size_t distance_px_;
   CombinedHarmonics harmonics_;
 };
 
-NoiseRowGatherer::NoiseRowGatherer(const FrameStack& stack, std::vector<double> weights)
-    : stack_(&stack), weights_(std::move(weights)), harmonics_(stack, weights_) {}
+NoiseRowGatherer::NoiseRowGatherer(const FrameStack& stack,
+                                   std::vector<double> weights,
+                                   int distance_px)
+    : stack_(&stack),
+      weights_(std::move(weights)),
+      distance_px_(static_cast<std::size_t>(distance_px)),
+      harmonics_(stack, weights_) {}
 
 void NoiseRowGatherer::gather(int y, NoiseBins& bins) const {
   const int width = width_of(stack_->frames.front());
@@ -106,12 +112,13 @@ void NoiseRowGatherer::gather(int y, NoiseBins& bins) const {
     for (int x = 0; x < width; ++x)
       sum[static_cast<std::size_t>(x)] -= harmonics_.value_at(*stack_, x, y);
   }
-  for (std::size_t i = 1; i + 1 < sum.size(); ++i) {
-    if (std::max({brightest[i - 1], brightest[i], brightest[i + 1]}) >= stack_->white_level)
+  const std::size_t d = distance_px_;
+  for (std::size_t i = d; i + d < sum.size(); ++i) {
+    if (std::max({brightest[i - d], brightest[i], brightest[i + d]}) >= stack_->white_level)
       continue;
     // Clipping at 0 counts would reduce the apparent noise.
-    if (std::min({darkest[i - 1], darkest[i], darkest[i + 1]}) <= 0) continue;
-    const double difference = (sum[i - 1] - 2.0 * sum[i] + sum[i + 1]) / std::sqrt(6.0);
+    if (std::min({darkest[i - d], darkest[i], darkest[i + d]}) <= 0) continue;
+    const double difference = (sum[i - d] - 2.0 * sum[i] + sum[i + d]) / std::sqrt(6.0);
     const double share = mean[i] / stack_->white_level;
     const auto bin = std::min<std::size_t>(NoiseSamples::kBins - 1,
                                            static_cast<std::size_t>(share * NoiseSamples::kBins));
@@ -248,7 +255,7 @@ void NoiseSamples::add(const FrameStack& stack) {
   const RowRounds rounds(
       width_of(stack.frames.front()), height_of(stack.frames.front()), kFirstSamples, kMostSamples);
   if (shifts.size() > 3) {
-    const NoiseRowGatherer gatherer(stack, noise_combination(shifts));
+    const NoiseRowGatherer gatherer(stack, noise_combination(shifts), distance_px_);
     NoiseBins bins;
     for (int round = 0; round < rounds.count() && !are_filled(bins); ++round)
       rounds.for_each_row(round, [&](int y) { gatherer.gather(y, bins); });
@@ -258,8 +265,8 @@ void NoiseSamples::add(const FrameStack& stack) {
   // Fine fringes add to the apparent noise of single frames, texture to that of their mean.
   std::vector<NoiseRowGatherer> frames;
   for (const FrameWeights& weights : single_frames(shifts.size()))
-    frames.emplace_back(stack, weights);
-  const NoiseRowGatherer mean_frame(stack, mean_of_frames(shifts));
+    frames.emplace_back(stack, weights, distance_px_);
+  const NoiseRowGatherer mean_frame(stack, mean_of_frames(shifts), distance_px_);
   NoiseBins single;
   NoiseBins mean;
   for (int round = 0; round < rounds.count() && !are_filled(mean); ++round) {
@@ -270,6 +277,17 @@ void NoiseSamples::add(const FrameStack& stack) {
     });
   }
   append(mean_variance(mean) < kFineFringes * mean_variance(single) ? mean : single, bins_);
+}
+
+void NoiseSamples::add(const NoiseSamples& other) {
+  white_ = other.white_;
+  append(other.bins_, bins_);
+}
+
+bool NoiseSamples::empty() const {
+  return std::all_of(bins_.begin(), bins_.end(), [](const Bin& bin) {
+    return bin.differences_counts.size() < kMinBinSamples;
+  });
 }
 
 NoiseModel NoiseSamples::model() const {

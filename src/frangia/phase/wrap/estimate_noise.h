@@ -23,6 +23,10 @@ namespace frangia {
 /// @source   Immerkaer 1996 for the differences; EMVA 1288, photon transfer curve, for the line
 class NoiseSamples {
  public:
+  /// `distance_px`: between the pixels of a difference. White noise is the same at any distance;
+  /// texture and what moved is more at a larger one.
+  explicit NoiseSamples(int distance_px = 1) : distance_px_(distance_px) {}
+
   static constexpr int kBins = 24;  ///< bins of brightness
   /// Absolute differences and the brightness at which they were taken.
   struct Bin {
@@ -31,11 +35,16 @@ class NoiseSamples {
   };
   /// Adds the samples of one stack. Stacks of other patterns than fringes are ignored.
   void add(const FrameStack& stack);
+  void add(const NoiseSamples& other);     ///< of the same distance, of other frames
   [[nodiscard]] NoiseModel model() const;  ///< noise model fitted to all samples
+  [[nodiscard]] bool empty() const;        ///< too few samples for a model
+  [[nodiscard]] int white_level() const { return white_; }        ///< of the frames, counts
+  [[nodiscard]] int distance_px() const { return distance_px_; }  ///< as it was constructed
 
  private:
   std::array<Bin, kBins> bins_;
   int white_ = 255;
+  int distance_px_;
 };
 
 /// Estimates one noise model from all stacks.

@@ -5,8 +5,10 @@
 #include <cstddef>
 #include <functional>
 
+#include "frangia/core/missing.h"
 #include "frangia/core/random.h"
 #include "frangia/core/statistics.h"
+#include "frangia/phase/algorithm/phase_algorithm.h"
 
 namespace frangia {
 namespace {
@@ -171,8 +173,67 @@ void add_places(const FrameStack& stack,
   }
 }
 
+/// Finds the pattern whose number of fringes is the smallest integer multiple or part of that of
+/// this one; null without any.
+const FrameStack* nearest_multiple(std::span<const FrameStack* const> references,
+                                   const Pattern& pattern,
+                                   FrameSample& out) {
+  constexpr double kInteger = 0.01;
+  const FrameStack* nearest = nullptr;
+  double least = 0.0;
+  for (const FrameStack* stack : references) {
+    const double ratio = pattern.fringes_per_unit() / stack->pattern.fringes_per_unit();
+    const double larger = std::max(ratio, 1.0 / ratio);
+    if (!(std::abs(larger - std::round(larger)) < kInteger)) continue;
+    if (nearest != nullptr && larger >= least) continue;
+    nearest = stack;
+    least = larger;
+    out.periods = ratio < 1.0 ? std::round(larger) : 1.0;
+    out.reference_periods = ratio < 1.0 ? 1.0 : std::round(larger);
+  }
+  return nearest;
+}
+
+/// Adds mean and modulation of the kept pixels by other patterns, and the phase of one of them.
+void add_references(std::span<const FrameStack* const> references,
+                    const Pattern& pattern,
+                    const std::vector<Place>& places,
+                    const std::vector<Eigen::Index>& kept,
+                    FrameSample& out) {
+  if (references.empty()) return;
+  const FrameStack* of_phase = nearest_multiple(references, pattern, out);
+  out.reference_mean = Eigen::ArrayXd::Zero(std::ssize(kept));
+  out.reference_modulation = Eigen::ArrayXd::Zero(std::ssize(kept));
+  if (of_phase != nullptr) out.reference_phase_rad.resize(std::ssize(kept));
+  for (const FrameStack* stack : references) {
+    const PhaseAlgorithm fit = least_squares(stack->pattern.shifts_rad);
+    for (std::size_t i = 0; i < kept.size(); ++i) {
+      const Place& place = places[static_cast<std::size_t>(kept[i])];
+      double mean = 0.0;
+      double cosine = 0.0;
+      double sine = 0.0;
+      bool saturated = false;
+      for (std::size_t k = 0; k < stack->frames.size(); ++k) {
+        const double counts = counts_at(stack->frames[k], place.x, place.y);
+        saturated = saturated || counts >= stack->white_level;
+        mean += fit.mean[k] * counts;
+        cosine += fit.cosine[k] * counts;
+        sine += fit.sine[k] * counts;
+      }
+      const double modulation = std::hypot(cosine, sine);
+      const bool measured = !saturated && mean > kMinCounts && modulation > kMinCounts;
+      const double share = measured ? 1.0 / static_cast<double>(references.size()) : kMissing;
+      const auto row = static_cast<Eigen::Index>(i);
+      out.reference_mean(row) += share * mean;
+      out.reference_modulation(row) += share * modulation;
+      if (stack == of_phase) out.reference_phase_rad(row) = std::atan2(sine, cosine);
+    }
+  }
+}
+
 FrameSample sample_at(const FrameStack& stack,
                       const NoiseModel& noise,
+                      std::span<const FrameStack* const> references,
                       const std::vector<Place>& places) {
   const Eigen::Index frames = std::ssize(stack.frames);
   Eigen::ArrayXXd counts(std::ssize(places), frames);
@@ -222,6 +283,7 @@ FrameSample sample_at(const FrameStack& stack,
   }
   out.counts = counts(kept, Eigen::all);
   add_places(stack, places, kept, out);
+  add_references(references, stack.pattern, places, kept, out);
   out.scale_counts = Eigen::Map<const Eigen::ArrayXd>(kept_scales.data(), std::ssize(kept_scales));
   out.variance = out.counts.rowwise().mean().unaryExpr(
       [&](double mean) { return noise.variance(mean) + 1e-3; });
@@ -248,15 +310,24 @@ FrameSample every_nth_block(const FrameSample& sample, int n) {
   out.y = sample.y(kept);
   out.scale_counts = sample.scale_counts(kept);
   out.variance = sample.variance(kept);
+  if (!sample.has_reference()) return out;
+  out.reference_mean = sample.reference_mean(kept);
+  out.reference_modulation = sample.reference_modulation(kept);
+  out.periods = sample.periods;
+  out.reference_periods = sample.reference_periods;
+  if (sample.reference_phase_rad.size() > 0)
+    out.reference_phase_rad = sample.reference_phase_rad(kept);
   return out;
 }
 
-FrameSample sample_blocks(const FrameStack& stack, const NoiseModel& noise) {
+FrameSample sample_blocks(const FrameStack& stack,
+                          const NoiseModel& noise,
+                          std::span<const FrameStack* const> references) {
   const int width = width_of(stack.frames.front());
   const int height = height_of(stack.frames.front());
   FrameSample out;
   for (int blocks = kFewestBlocks; blocks <= kMostBlocks; blocks *= 2) {
-    out = sample_at(stack, noise, places_in(width, height, blocks));
+    out = sample_at(stack, noise, references, places_in(width, height, blocks));
     if (out.counts.rows() >= kEnough) break;
   }
   const Eigen::Index freedom = std::max<Eigen::Index>(1, std::ssize(stack.frames) - 3);

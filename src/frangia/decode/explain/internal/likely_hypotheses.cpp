@@ -114,6 +114,16 @@ std::vector<std::size_t> jump_of(const std::vector<double>& path) {
   return {largest};
 }
 
+/// The displacements of the frames along the largest one.
+std::vector<double> along_largest(const FrameScore& fit) {
+  const Eigen::MatrixX2d away =
+      fit.displacements_px.rowwise() - fit.displacements_px.colwise().mean();
+  Eigen::Index largest = 0;
+  away.rowwise().norm().maxCoeff(&largest);
+  const Eigen::VectorXd along = away * away.row(largest).transpose();
+  return {along.begin(), along.end()};
+}
+
 /// A part that moved as the free steps of its frames say.
 FrameHypothesis moved_freely(const FrameHypothesis& steps, const Eigen::VectorXd& errors_rad) {
   FrameHypothesis out = steps;
@@ -137,8 +147,9 @@ std::vector<FrameHypothesis> likeliest_of_each(const FrameSample& sample,
   const FrameSample some = every_nth_block(sample, kEvery);
   std::map<FrameCause, std::pair<double, FrameHypothesis>> best;
   for (std::size_t i = 0; i < all.size(); ++i) {
+    const FrameScore fit = score_frames(some, all[i]);
+    if (fit.displacements_px.rows() > 1) all[i].frames = jump_of(along_largest(fit));
     const FrameHypothesis one = all[i];
-    const FrameScore fit = score_frames(some, one);
     const double price = price_of_parameter(static_cast<double>(some.counts.rows()));
     const double score = fit.log_evidence(1.0) - one.parameters * price;
     if (one.has_free_steps && fit.step_errors_rad.size() > 0)
@@ -162,13 +173,19 @@ std::vector<FrameHypothesis> likely_singles(const FrameSample& sample,
                                             const Pattern& pattern) {
   std::vector<std::pair<double, FrameHypothesis>> ranked;
   std::vector<FrameHypothesis> others;  // `rough_score` does not model them
+  std::vector<FrameHypothesis> displaced;
   std::vector<FrameHypothesis> all = frame_hypotheses(pattern);
   const FrameHypothesis declared = all.front();
   constexpr std::size_t kFewSteps = 6;  // their residuals are those of the harmonics 2 and 3
   const bool both_sides = sees_both_sides(sample, declared);
   for (FrameHypothesis& one : all) {
     if (one.cause == FrameCause::Gain && !fit_gain(moments, one.frames.front(), one)) continue;
-    if (!one.path.empty() || one.has_free_steps || one.lamp_on) {
+    if (one.in_part) continue;  // `find_covered_part`
+    if (one.cause == FrameCause::Displaced) {
+      displaced.push_back(std::move(one));
+      continue;
+    }
+    if (one.cause == FrameCause::Moved || !one.path.empty() || one.has_free_steps || one.lamp_on) {
       const std::size_t steps = declared.shifts_rad.size();
       const bool like_harmonic =
           one.lamp_on ? steps <= kFewSteps : one.cause == FrameCause::Steps || steps <= kFourSteps;
@@ -187,6 +204,8 @@ std::vector<FrameHypothesis> likely_singles(const FrameSample& sample,
     out.push_back(std::move(one));
   }
   for (FrameHypothesis& one : likeliest_of_each(sample, std::move(others)))
+    out.push_back(std::move(one));
+  for (FrameHypothesis& one : displaced)
     out.push_back(std::move(one));
   return out;
 }

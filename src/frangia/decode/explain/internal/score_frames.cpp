@@ -10,52 +10,48 @@
 #include "frangia/core/linear_algebra.h"
 #include "frangia/decode/explain/internal/frame_design.h"
 #include "frangia/decode/explain/internal/frame_priors.h"
+#include "frangia/decode/explain/internal/log_densities.h"
+#include "frangia/decode/explain/internal/lost_frames.h"
+#include "frangia/decode/explain/internal/reference_light.h"
 
 namespace frangia {
 namespace {
 
 constexpr int kHighestHarmonic = 12;
-/// Prior standard deviations of a movement of the part in the image and of the phase by it.
+/// Prior standard deviations of a movement in the image, of a part or of a whole frame, and of the
+/// phase by it.
 constexpr double kPriorMovement_px = 1.0;
 constexpr double kPriorMovement_rad = 0.5;
-/// Share and size, over the scale of a pixel, of what no model predicts: depth edges, highlights.
+/// Share of what no model predicts: depth edges, highlights.
 constexpr double kOutliers = 0.02;
-constexpr double kOutlierSize = 0.4;
 constexpr double kLimit = 9.0;  ///< squared residuals count up to this multiple of their variance
 constexpr int kRounds = 3;
 /// No model of fringes is more exact, relative to the modulation.
 constexpr double kModelError = 0.005;
-/// Probability that a pixel of a lost frame shows what the other frames predict: a torn frame.
-constexpr double kTorn = 0.5;
-constexpr double kLeastTorn = 0.15;  ///< share of its pixels that show something else
 /// Width of the density of counts of fringes over the scale of a pixel: a frame that is darker or
 /// brighter everywhere by less than a quarter of it is no sound one.
 constexpr double kBroad = 0.35;
 
-double log_normal(double square, double variance, double count) {
-  return -0.5 * (square / variance + count * std::log(kTwoPi * variance));
-}
-
-double log_of_mixture(double a, double b) {
-  const double larger = std::max(a, b);
-  return larger + std::log(std::exp(a - larger) + std::exp(b - larger));
-}
-
 /// The fringes of all pixels as one hypothesis sees them.
 class FrameFit {
  public:
-  FrameFit(const FrameSample& sample, const FrameHypothesis& hypothesis)
+  FrameFit(const FrameSample& sample,
+           const FrameHypothesis& hypothesis,
+           const Eigen::ArrayXd& counted)
       : sample_(sample),
         hypothesis_(hypothesis),
         design_(design_of(hypothesis)),
-        pixels_(sample.counts.rows()) {
+        pixels_(sample.counts.rows()),
+        counted_(counted.size() > 0 ? counted : Eigen::ArrayXd::Ones(pixels_)) {
     shown_.resize(pixels_, std::ssize(design_.shown));
+    for (const double place : hypothesis.path)
+      mean_path_ += place / static_cast<double>(hypothesis.path.size());
     for (std::size_t i = 0; i < design_.shown.size(); ++i)
       shown_.col(static_cast<Eigen::Index>(i)) = sample.counts.col(design_.shown[i]).matrix();
     rest_ = product(shown_, design_.rest);
     shown_scale_ = shown_.rowwise().maxCoeff().array().max(1.0);
     // The slopes of the fitted fringes have less noise than those of a frame.
-    if (hypothesis.moves_part) {
+    if (hypothesis.moves_part || hypothesis.moves_image || !hypothesis.displaced.empty()) {
       const auto of_fringes = [&](const Eigen::ArrayXXd& slopes) -> Eigen::MatrixXd {
         return product(slopes(Eigen::all, design_.shown).matrix(),
                        product_transposed(design_.span, design_.span));
@@ -75,23 +71,41 @@ class FrameFit {
   FrameScore score() {
     FrameScore out;
     if (rest_.cols() > 0) fit_rest(out);
-    for (Eigen::Index i = 0; i < pixels_; ++i)
-      out.log_density += rest_.cols() > 0 ? log_density_of_rest(i) : 0.0;
-    out.log_density += log_density_of_values() + log_density_of_free();
+    out.value_densities =
+        -static_cast<double>(design_.span.cols()) * (sample_.scale_counts * kBroad).log();
+    out.pixel_densities = out.value_densities;
+    out.squared_rests = Eigen::ArrayXd::Zero(pixels_);
+    if (rest_.cols() > 0) out.squared_rests = residual_.rowwise().squaredNorm().array();
+    for (Eigen::Index i = 0; i < pixels_ && rest_.cols() > 0; ++i)
+      out.pixel_densities(i) += log_density_of_rest(i);
+    double common = 0.0;
+    if (values_.size() > 0 && sample_.has_reference()) {
+      const ReferenceGain gain = reference_gain(sample_, values_, counted_);
+      out.reference_gains = gain.pixels;
+      out.pixel_densities += gain.pixels;
+      common = gain.common;
+    }
+    out.nuisance_price -= common;
+    out.log_density = (counted_ * out.pixel_densities).sum();
+    for (std::size_t k = 0; k < hypothesis_.free.size(); ++k)
+      if (hypothesis_.free[k])
+        out.log_density += log_density_of_lost(sample_, k, shown_scale_, values_);
     return out;
   }
 
  private:
   [[nodiscard]] Eigen::Index movement_count() const {
-    return hypothesis_.path.empty() ? 0 : hypothesis_.moves_part ? 8 : 1;
+    if (hypothesis_.path.empty()) return 0;
+    return hypothesis_.moves_part ? 8 : hypothesis_.moves_image ? 2 : 1;
   }
   [[nodiscard]] Eigen::Index nuisance_count() const {
     return shown_.cols() + 2 * std::ssize(waves_) + movement_count() +
+           2 * std::ssize(hypothesis_.displaced) +
            (hypothesis_.has_free_steps ? shown_.cols() : 0) + (hypothesis_.lamp_on ? 4 : 0);
   }
 
   /// What the nuisances of one pixel change in its frames, per unit of their priors: gains,
-  /// harmonics, a movement of the part, and errors of the steps.
+  /// harmonics, a movement of the part or of whole frames, and errors of the steps.
   void add_nuisances(Eigen::Index pixel, Eigen::MatrixXd& effects) const {
     const double phase = std::atan2(values_(pixel, 2), values_(pixel, 1));
     const double amplitude = std::hypot(values_(pixel, 1), values_(pixel, 2));
@@ -118,18 +132,29 @@ class FrameFit {
       column = after_waves;
       if (!hypothesis_.path.empty()) {
         const double by_phase = hypothesis_.path[k] * kPriorMovement_rad * slope;
-        const double by_image = hypothesis_.path[k] * kPriorMovement_px;
+        // All that is seen moves about its middle place, where the slopes are.
+        const double away = hypothesis_.path[k] - (hypothesis_.moves_image ? mean_path_ : 0.0);
+        const double by_image = away * kPriorMovement_px;
         // Smooth over the image: what stands still around a part shows as curvature.
         const double x = sample_.x(pixel);
         const double y = sample_.y(pixel);
         Eigen::Index at = column;
-        for (const double field : {1.0, x, y, x * x, y * y, x * y})
-          if (at == column || hypothesis_.moves_part) effects(i, at++) = by_phase * field;
-        if (hypothesis_.moves_part) {
+        for (const double field : {1.0, x, y, x * x, y * y, x * y}) {
+          if (hypothesis_.moves_image || (at > column && !hypothesis_.moves_part)) continue;
+          effects(i, at++) = by_phase * field;
+        }
+        if (hypothesis_.moves_part || hypothesis_.moves_image) {
           effects(i, at++) = by_image * slope_x_(pixel, i);
           effects(i, at) = by_image * slope_y_(pixel, i);
         }
         column += movement_count();
+      }
+      for (const std::size_t displaced : hypothesis_.displaced) {
+        if (displaced == k) {
+          effects(i, column) = kPriorMovement_px * slope_x_(pixel, i);
+          effects(i, column + 1) = kPriorMovement_px * slope_y_(pixel, i);
+        }
+        column += 2;
       }
       if (hypothesis_.has_free_steps) effects(i, column + i) = kPriorStep_rad * slope;
       if (is_lit_by_lamp(hypothesis_, k)) {
@@ -198,7 +223,8 @@ class FrameFit {
         const Eigen::MatrixXd& row = rows[static_cast<std::size_t>(i)];
         const double over =
             residual_.row(i).squaredNorm() / (static_cast<double>(freedom) * variance_(i));
-        const double weight = std::min(1.0, kLimit / std::max(over, 1e-9)) / variance_(i);
+        const double weight =
+            counted_(i) * std::min(1.0, kLimit / std::max(over, 1e-9)) / variance_(i);
         normal.selfadjointView<Eigen::Lower>().rankUpdate(row.transpose(), weight);
         right += weight * transposed_product(row, rest_.row(i).transpose());
       }
@@ -227,17 +253,23 @@ class FrameFit {
       out.largest_gain = (gains.array() - gains.mean()).abs().maxCoeff();
       if (hypothesis_.has_free_steps)
         out.step_errors_rad = kPriorStep_rad * found.tail(shown_.cols());
-      else if (!hypothesis_.path.empty() && !hypothesis_.moves_part)
+      else if (!hypothesis_.path.empty() && !hypothesis_.moves_part && !hypothesis_.moves_image)
         out.step_errors_rad = kPriorMovement_rad * found(count - 1) *
                               Eigen::VectorXd::Map(hypothesis_.path.data(), shown_.cols());
+      const Eigen::Index last = shown_.cols() + 2 * std::ssize(waves_) + movement_count();
+      out.displacements_px.resize(std::ssize(hypothesis_.displaced), 2);
+      for (Eigen::Index k = 0; k < out.displacements_px.rows(); ++k)
+        out.displacements_px.row(k) =
+            kPriorMovement_px * found.segment<2>(last + 2 * k).transpose();
+      if (out.displacements_px.rows() > 0)
+        out.largest_displacement_px = out.displacements_px.rowwise().norm().maxCoeff();
     }
-    double excess = 0.0;
+    const double excess = (counted_ * (1.0 - sample_.variance / variance_)).sum();
     for (Eigen::Index i = 0; i < pixels_; ++i) {
-      excess += 1.0 - sample_.variance(i) / variance_(i);
-      const double sigma = std::sqrt(variance_(i));
-      out.residuals.push_back(std::clamp(residual_(i, 0) / sigma, -3.0, 3.0));
+      const double over = residual_(i, 0) / std::sqrt(variance_(i));
+      out.residuals.push_back(counted_(i) * std::clamp(over, -3.0, 3.0));
     }
-    out.excess = relative < kModelError ? 0.0 : excess / static_cast<double>(pixels_);
+    out.excess = relative < kModelError ? 0.0 : excess / counted_.sum();
   }
 
   /// Updates the variance of the residuals by what they show beyond the noise, relative to the
@@ -248,8 +280,8 @@ class FrameFit {
     double scale = 0.0;
     for (Eigen::Index i = 0; i < pixels_; ++i) {
       const double square = residual_.row(i).squaredNorm() / freedom;
-      excess += std::min(square, kLimit * variance_(i)) - sample_.variance(i);
-      scale += modulation_(i) * modulation_(i);
+      excess += counted_(i) * (std::min(square, kLimit * variance_(i)) - sample_.variance(i));
+      scale += counted_(i) * modulation_(i) * modulation_(i);
     }
     relative = std::sqrt(std::max(0.0, excess / scale));
     const double counted = std::max(relative, kModelError);
@@ -266,79 +298,13 @@ class FrameFit {
                           std::log(kOutliers) + log_normal(square, outlier, freedom));
   }
 
-  /// Density of what the hypothesis leaves open at each pixel, in the space of the counts: as broad
-  /// as fringes are.
-  [[nodiscard]] double log_density_of_values() const {
-    return -static_cast<double>(design_.span.cols()) * (sample_.scale_counts * kBroad).log().sum();
-  }
-
-  /// Normal density of one value per pixel that is alike in counts, or relative to the scale, where
-  /// its variance is `in_scale`.
-  [[nodiscard]] double log_density_alike(const Eigen::ArrayXd& counts, double in_scale) const {
-    const auto n = static_cast<double>(pixels_);
-    const double noise = sample_.variance.mean();
-    const double in_counts =
-        std::max((counts - counts.mean()).square().mean(), std::min(noise, 1.0 / 12.0));
-    return std::max(log_normal(n * in_counts, in_counts, n),
-                    log_normal(n * in_scale, in_scale, n) - shown_scale_.log().sum());
-  }
-
-  /// Density of frames that show no fringes: normal in counts, or relative to those that do.
-  [[nodiscard]] double log_density_of_free() const {
-    double sum = 0.0;
-    for (std::size_t k = 0; k < hypothesis_.free.size(); ++k) {
-      if (!hypothesis_.free[k]) continue;
-      const Eigen::ArrayXd counts = sample_.counts.col(static_cast<Eigen::Index>(k));
-      const Eigen::ArrayXd relative = counts / shown_scale_;
-      const double in_scale = std::max((relative - relative.mean()).square().mean(), 1e-8);
-      sum += std::max({log_density_alike(counts, in_scale),
-                       log_density_of_mean(counts),
-                       log_density_of_torn(k, relative.mean(), in_scale)});
-    }
-    return sum;
-  }
-
-  /// Density of a frame that shows the mean of the others: fringes that are out of focus, or move
-  /// while it is exposed.
-  [[nodiscard]] double log_density_of_mean(const Eigen::ArrayXd& counts) const {
-    if (values_.size() == 0) return -std::numeric_limits<double>::infinity();
-    const Eigen::ArrayXd mean = values_.col(0).array().max(1.0);
-    const Eigen::ArrayXd relative = counts / mean;
-    const auto n = static_cast<double>(pixels_);
-    const double variance = std::max((relative - relative.mean()).square().mean(), 1e-6);
-    return log_normal(n * variance, variance, n) - mean.log().sum();
-  }
-
-  /// Density of a frame that shows its fringes at some pixels and something else at others.
-  [[nodiscard]] double log_density_of_torn(std::size_t frame, double mean, double variance) const {
-    if (values_.size() == 0) return -std::numeric_limits<double>::infinity();
-    const double c = std::cos(hypothesis_.shifts_rad[frame]);
-    const double s = std::sin(hypothesis_.shifts_rad[frame]);
-    double sum = 0.0;
-    double others = 0.0;  // pixels that show something else
-    for (Eigen::Index i = 0; i < pixels_; ++i) {
-      const double counts = sample_.counts(i, static_cast<Eigen::Index>(frame));
-      const double scale = shown_scale_(i);
-      const double predicted = values_(i, 0) + c * values_(i, 1) - s * values_(i, 2);
-      const double error = 2.0 * sample_.variance(i) + std::pow(0.02 * modulation_(i), 2);
-      const double shown =
-          std::log(1.0 - kTorn) + log_normal(std::pow(counts - predicted, 2), error, 1.0);
-      const double other =
-          std::log(kTorn) +
-          log_normal(std::pow(counts - mean * scale, 2), variance * scale * scale, 1.0);
-      sum += log_of_mixture(shown, other);
-      if (other > shown) others += 1.0;
-    }
-    // A frame that is a little off nearly everywhere is not torn.
-    const bool is_torn = others > kLeastTorn * static_cast<double>(pixels_);
-    return is_torn ? sum : -std::numeric_limits<double>::infinity();
-  }
-
   const FrameSample& sample_;
   double mean_scale_ = sample_.scale_counts.mean();
   const FrameHypothesis& hypothesis_;
   FrameDesign design_;
+  double mean_path_ = 0.0;
   Eigen::Index pixels_;
+  Eigen::ArrayXd counted_;  ///< 1 for the pixels that are fitted and scored, else 0
   Eigen::MatrixXd shown_;
   Eigen::ArrayXd shown_scale_;  ///< largest count of each pixel in these frames
   Eigen::MatrixXd rest_;
@@ -361,8 +327,10 @@ double FrameScore::log_evidence(double share) const {
   return out - 0.5 * Cholesky(scaled).log_determinant();
 }
 
-FrameScore score_frames(const FrameSample& sample, const FrameHypothesis& hypothesis) {
-  return FrameFit(sample, hypothesis).score();
+FrameScore score_frames(const FrameSample& sample,
+                        const FrameHypothesis& hypothesis,
+                        const Eigen::ArrayXd& counted) {
+  return FrameFit(sample, hypothesis, counted).score();
 }
 
 double rough_score(const Eigen::MatrixXd& moments,
