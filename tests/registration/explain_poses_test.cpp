@@ -206,6 +206,23 @@ TEST(ExplainPoses, CorrectsTheWobbleOfATableUnderAShaft) {
   EXPECT_TRUE(out.report.untrusted_reason().empty()) << out.report.untrusted_reason();
 }
 
+TEST(ExplainPoses, NamesAnglesThatRestOnTheStatementAlone) {
+  FaultyScan scan(8);
+  Turntable& table = *scan.stated.turntable;
+  table.point_sigma_mm = 0.02;
+  table.axis_sigma_rad = rad_from_deg(0.01);
+  table.angle_sigma_rad = rad_from_deg(0.3);
+  const Registered out = registered(scan, shaft());
+  ASSERT_TRUE(out.report.kept_rig);
+  EXPECT_NE(out.report.text().find("hardly shows the angles of the views (0.3°)"),
+            std::string::npos)
+      << out.report.text();
+  // The keyway shows them a little.
+  const auto turns = out.report.motions[3].row(2) - out.report.motions[0].row(2);
+  EXPECT_GT(turns.norm(), rad_from_deg(0.15));
+  EXPECT_LT(turns.norm(), rad_from_deg(0.3));
+}
+
 TEST(ExplainPoses, CountsInSigmaAMoveThatTheScatterOfThePairsHides) {
   for (const int views : {6, 8}) {
     FaultyScan scan(views);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <optional>
 #include <set>
 #include <span>
@@ -11,6 +12,7 @@
 
 #include <fmt/format.h>
 
+#include "frangia/core/held_messages.h"
 #include "frangia/core/missing.h"
 #include "frangia/core/pixel_buffer.h"
 #include "frangia/fusion/color_vertices.h"
@@ -22,6 +24,7 @@
 #include "frangia/reconstruct/internal/count_indirect_light.h"
 #include "frangia/reconstruct/internal/explain_no_surface.h"
 #include "frangia/reconstruct/internal/finish_targets.h"
+#include "frangia/reconstruct/internal/found_angles.h"
 #include "frangia/reconstruct/internal/measure_views.h"
 #include "frangia/reconstruct/internal/points_of_setups.h"
 #include "frangia/reconstruct/internal/register_setups.h"
@@ -36,25 +39,6 @@
 
 namespace frangia {
 namespace {
-
-/// Adds the names of the views that the registration of a setup emptied.
-void add_outliers(std::set<std::string>& names, const MeasuredSetup& setup) {
-  if (!setup.registration) return;
-  for (const std::size_t view : setup.registration->outliers)
-    names.insert(setup.measured.stations[view].name);
-}
-
-/// Marks as left out the outliers and the views that are not part of the joined setups.
-void mark_left_out(std::vector<ViewSummary>& summaries,
-                   const MeasuredSetup& joined,
-                   const std::set<std::string>& outliers) {
-  std::set<std::string> used;
-  for (const Station& station : joined.measured.stations)
-    used.insert(station.name);
-  for (ViewSummary& view : summaries) {
-    if (!used.contains(view.name) || outliers.contains(view.name)) view.left_out = true;
-  }
-}
 
 /// How well the points agree that were measured twice.
 std::vector<RigAgreement> agreements_of(const MeasuredViews& measured, const Rig& rig) {
@@ -117,16 +101,6 @@ std::string untrusted_reason_of(const Reconstruction& result) {
   for (const ViewSummary& view : result.view_summaries)
     if (!view.same_as.empty()) return copy_text(view);
   return reason;
-}
-
-/// The stations of some views. A rig with one camera is itself an explanation of what the views
-/// disagree about; points of several cameras are not those of one drift.
-TurntableStations stations_of(const Rig& rig, const MeasuredViews& measured) {
-  TurntableStations given{*rig.turntable, measured.stations};
-  if (rig.cameras.size() > 1 || rig.projector.is_label) return given;
-  given.rig = &rig;
-  given.pattern = &measured.coarsest;
-  return given;
 }
 
 /// Whether the views of a setup were triangulated again by a rig that drifts, so that their targets
@@ -198,23 +172,6 @@ MeasuredSetup join_setups(std::vector<MeasuredSetup> setups,
                          run);
 }
 
-/// How uncertain the poses of the views on the turntable are: as the registration found, or without
-/// one as the rig states.
-ViewMotions motions_of_views(const MeasuredSetup& joined,
-                             const Rig& rig,
-                             const ReconstructOptions& options,
-                             const Run& run) {
-  if (joined.registration) return joined.registration->motions;
-  const std::vector<Station>& stations = joined.measured.stations;
-  const bool one_setup = std::all_of(
-      stations.begin(), stations.end(), [](const Station& station) { return station.setup == 0; });
-  if (!rig.turntable || stations.size() < 2 || !one_setup) return {};
-  RegistrationReport alone;
-  alone.sigma = sigma_of(*rig.turntable, options.registration, rig.turntable->point_mm.norm());
-  run.warn("the views are not registered; " + alone.rig_alone_text());
-  return motions_of_rig({*rig.turntable, stations}, alone.sigma);
-}
-
 /// Brings all setups into the frame of the first one and registers them together. `outliers`: views
 /// that the setups by themselves left out.
 MeasuredSetup register_together(std::vector<MeasuredSetup> setups,
@@ -272,7 +229,7 @@ FusedSurface fuse_registered(RegisteredViews& registered,
             : count_indirect_light(joined.measured, lit, fusion, run);
   }
   FusedSurface fused = fuse_with_weights(cameras, fusion, run);
-  const ViewMotions motions = motions_of_views(joined, scan.rig, options, run);
+  const ViewMotions motions = motions_of_views(joined, scan.rig, options.registration, run);
   const bool turntable_counts = add_turntable_part(fused, motions, run);
   if (options.keep_raw) {
     out.raw = collect_points_of_cameras(cameras, run, fusion.terms);
@@ -299,10 +256,33 @@ Reconstruction reconstruct_with_refined_rig(const Scan& scan,
   return out;
 }
 
-}  // namespace
+/// Looks for the angles of views that no other view has corrected by wrong angles: those points
+/// alone whose fringe orders a view knows by itself.
+std::optional<ScanWithAngles> angles_without_other_views(const LitScan& lit,
+                                                         Capabilities can,
+                                                         const DecodeOptions& decode,
+                                                         const ReconstructOptions& options,
+                                                         std::optional<ScanTargets> targets,
+                                                         const Run& run) {
+  HeldMessages unused;
+  const Run quiet = unused.in_place_of(run);
+  can.corrects_before_registration = false;
+  std::vector<MeasuredSetup> setups = split_setups(
+      measure_views(lit.scan, lit.rays, decode, options.mixed_pixels, quiet, options.decoded));
+  for (MeasuredSetup& setup : setups) {
+    double height_mm = kMissing;
+    register_setup(setup, lit, can, options, targets, height_mm, quiet);
+  }
+  return with_found_angles(lit.scan, setups);
+}
 
-Reconstruction reconstruct(const Scan& scan, const ReconstructOptions& given, const Run& all) {
-  const Run run = without_repeated_warnings(all);
+/// Whether the angles of a scan are those it states.
+enum class ScanAngles : std::uint8_t { Stated, Found };
+
+Reconstruction reconstruct_by(ScanAngles angles,
+                              const Scan& scan,
+                              const ReconstructOptions& given,
+                              const Run& run) {
   ReconstructOptions options = given;
   if (options.explain_rig) options.registration.wrong_rig = WrongRig::IsRefined;
   if (options.refine_rig) return reconstruct_with_refined_rig(scan, options, run);
@@ -337,16 +317,31 @@ Reconstruction reconstruct(const Scan& scan, const ReconstructOptions& given, co
   std::set<std::string> outliers;
   EarlyIndirectLight indirect_light{.found = false};
   std::size_t unresolved = 0;
+  HeldMessages held;
+  const Run attempt = held.in_place_of(run);
   for (MeasuredSetup& setup : setups) {
-    unresolved += resolve_fringe_orders(setup.measured, scan.rig, rays, correction, run);
+    unresolved += resolve_fringe_orders(setup.measured, scan.rig, rays, correction, attempt);
     const EarlyIndirectLight early =
-        register_setup(setup, lit, can, options, targets, out.turntable_top_height_mm, run);
+        register_setup(setup, lit, can, options, targets, out.turntable_top_height_mm, attempt);
     indirect_light.found = indirect_light.found || early.found;
     indirect_light.corrected = indirect_light.corrected || early.corrected;
     indirect_light.corrects = indirect_light.corrects && early.corrects;
     out.points += setup.measured.points;
     add_outliers(outliers, setup);
   }
+  if (angles == ScanAngles::Stated) {
+    std::optional<ScanWithAngles> found = with_found_angles(scan, setups);
+    if (!found && may_hide_angles(setups))
+      found = angles_without_other_views(lit, can, decode, options, targets, run);
+    if (found) {
+      run.warn(found->explanation.text + "; " + found->explanation.remedy);
+      out = reconstruct_by(ScanAngles::Found, found->scan, options, run);
+      if (out.registration && out.registration->explanation.best == PoseCause::AsStated)
+        out.registration->explanation = std::move(found->explanation);
+      return out;
+    }
+  }
+  held.pass_on(run);
   if (out.points == 0) {
     throw Error(unresolved > 0 ? ErrorKind::Input : ErrorKind::Numeric,
                 explain_no_surface(scan, rays, options.decode, {0, unresolved}, run));
@@ -390,6 +385,12 @@ Reconstruction reconstruct(const Scan& scan, const ReconstructOptions& given, co
   if (!out.untrusted_reason.empty()) discard_sigma(out.mesh);
   out.sigma = median_sigma(out.mesh);
   return out;
+}
+
+}  // namespace
+
+Reconstruction reconstruct(const Scan& scan, const ReconstructOptions& options, const Run& run) {
+  return reconstruct_by(ScanAngles::Stated, scan, options, without_repeated_warnings(run));
 }
 
 }  // namespace frangia

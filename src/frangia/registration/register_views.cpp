@@ -10,12 +10,12 @@
 #include <fmt/format.h>
 
 #include "frangia/core/error.h"
+#include "frangia/core/held_messages.h"
 #include "frangia/core/missing.h"
 #include "frangia/core/statistics.h"
 #include "frangia/registration/internal/assess_fit.h"
 #include "frangia/registration/internal/assess_observability.h"
 #include "frangia/registration/internal/assess_places.h"
-#include "frangia/registration/internal/explain_angles.h"
 #include "frangia/registration/internal/explain_poses.h"
 #include "frangia/registration/internal/leave_out_views.h"
 #include "frangia/registration/internal/make_bundle.h"
@@ -125,44 +125,6 @@ void report_sums(RegistrationReport& report, const BundleSums& sums, Registratio
   report.overlap = overlap_of(sums, work.surfels);
 }
 
-/// Explains what the views disagree about. A view that is elsewhere by itself is left out, and the
-/// others are explained again.
-ExplainedPoses explain(RegistrationReport& report,
-                       Registration& work,
-                       const TurntableStations& given,
-                       std::size_t dense) {
-  std::optional<ExplainedAngles> angles = explain_angles(work);
-  if (!angles) angles = explain_turns(work);
-  for (;;) {
-    if (angles) {
-      report.explanation = std::move(angles->explanation);
-      work.bundle.given.angles_rad = std::move(angles->angles_rad);
-      if (report.explanation.best == PoseCause::AnglesScaled)
-        work.angle_factor = report.explanation.scale;
-      work.optimize_again();
-      angles.reset();
-    }
-    ExplainedPoses found = explain_poses(work, given, dense);
-    const PoseExplanation& explanation = found.explanation;
-    const bool each_moved = explanation.best == PoseCause::Unexplained ||
-                            explanation.best == PoseCause::ViewsMoved ||
-                            explanation.best == PoseCause::Wobble;
-    if (each_moved && found.corrected && report.explanation.best == PoseCause::AsStated) {
-      angles = explain_free_views(work, *found.corrected);
-      if (angles) continue;
-    }
-    if (explanation.best != PoseCause::AsStated) report.explanation = explanation;
-    const bool leaves_out = explanation.best == PoseCause::ViewMoved && explanation.decided &&
-                            2 * (report.outliers.size() + 1) < work.views.size();
-    if (!leaves_out) return found;
-    work.run.warn(explanation.text);
-    const std::size_t view = explanation.views.front();
-    report.outliers.push_back(view);
-    work.leave_out(view);
-    work.optimize_again();
-  }
-}
-
 /// Triangulates the points of each view by the rig as it was while the view was taken, and
 /// registers them again.
 void correct_drift(Registration& work,
@@ -244,24 +206,6 @@ bool keep_better_state(RegistrationReport& report, const BundleSums& refined, Re
   return slid;
 }
 
-/// Holds back the messages of an attempt until it is known whether its result is used.
-class HeldMessages {
- public:
-  [[nodiscard]] Run in_place_of(const Run& run) {
-    Run held = run;
-    held.on_warning = [this](const std::string& text) { texts_.emplace_back(true, text); };
-    held.on_note = [this](const std::string& text) { texts_.emplace_back(false, text); };
-    return held;
-  }
-  void pass_on(const Run& run) const {
-    for (const auto& [is_warning, text] : texts_)
-      is_warning ? run.warn(text) : run.note(text);
-  }
-
- private:
-  std::vector<std::pair<bool, std::string>> texts_;
-};
-
 /// A registration, and the view that makes it untrustworthy, if there is one.
 struct Attempt {
   RegistrationReport report;
@@ -300,7 +244,7 @@ Attempt register_once(ViewStore& views,
   }
   optimize_bundle(bundle, surfels, options.max_iterations, run);
   run.report(0.5);
-  ExplainedPoses explained = explain(report, work, given, many_surfels);
+  ExplainedPoses explained = explain_registration(report, work, given, many_surfels);
   report.rig_open = std::move(explained.rig_open);
   const PoseExplanation& explanation = report.explanation;
   if (!explained.rigs.empty()) {

@@ -82,6 +82,24 @@ std::string residual_text(const RegistrationReport& report) {
       overlap_percent);
 }
 
+/// What rests on the rig's statement alone, with its standard deviation; empty for nothing.
+std::string stated_text(const RegistrationReport& report) {
+  if (report.undetermined.empty()) return {};
+  std::string list;  // "the angles of the views (0.05°)"
+  for (const std::string& unknown : report.undetermined) {
+    const bool length = unknown == kPositionOfAxis;
+    const double sigma = length                   ? report.sigma.point_mm
+                         : unknown == kTiltOfAxis ? deg_from_rad(report.sigma.axis_rad)
+                                                  : deg_from_rad(report.sigma.angle_rad);
+    list += fmt::format(
+        "{}{} ({:.2g}{})", list.empty() ? "" : ", ", unknown, sigma, length ? " mm" : "°");
+  }
+  return fmt::format(
+      "; the overlap of the views hardly shows {}: there what the rig states decides, and its "
+      "standard deviation is in sigma",
+      list);
+}
+
 }  // namespace
 
 std::string RegistrationReport::untrusted_reason() const {
@@ -134,7 +152,7 @@ std::string RegistrationReport::text() const {
 
 std::string RegistrationReport::fit_text() const {
   std::string words = residual_text(*this);
-  if (kept_rig) return words;
+  if (kept_rig) return words + stated_text(*this);
   words += fmt::format(
       "; the axis moved by {:.3g} mm and {:.3f} degrees, the angles by up to {:.3f} degrees",
       axis_moved_mm(),

@@ -14,6 +14,11 @@
 
 namespace frangia {
 
+/// Unknowns of a registration, in words.
+inline constexpr const char* kTiltOfAxis = "the tilt of the axis";
+inline constexpr const char* kPositionOfAxis = "the position of the axis";
+inline constexpr const char* kAnglesOfViews = "the angles of the views";
+
 /// Result of the registration of a turntable's views.
 ///
 /// @units    mm, rad

@@ -303,4 +303,44 @@ export const FAULTS_REGISTRATION = {
   ],
   'fault.turnAboutAxis': ['its turn about the axis', 'seine Drehung um die Achse', "la sua rotazione attorno all'asse"],
   'fault.shiftAlong': ['its shift along', 'seine Verschiebung längs', 'il suo spostamento lungo'],
+  'fault.anglesExchanged': [
+    "views {0} have each other's angle",
+    'die Ansichten {0} haben jede den Winkel der anderen',
+    "le viste {0} hanno l'una l'angolo dell'altra",
+  ],
+  'fault.anglesEven': [
+    'the views are evenly spaced by {0}°, where one angle is stated for all',
+    'die Ansichten liegen gleichmäßig {0}° auseinander, angegeben ist ein Winkel für alle',
+    'le viste distano regolarmente {0}°, mentre è dichiarato un solo angolo per tutte',
+  ],
+  'fault.angleOfView': [
+    'the angle of view {0} is not the one stated: it is off by {1}°',
+    'der Winkel der Ansicht {0} ist nicht der angegebene: er liegt um {1}° daneben',
+    "l'angolo della vista {0} non è quello dichiarato: differisce di {1}°",
+  ],
+  'fault.anglesOfManyViews': [
+    'the angles of {0} views are not those stated: they are off by up to {1}°',
+    'die Winkel von {0} Ansichten sind nicht die angegebenen: sie liegen um bis zu {1}° daneben',
+    'gli angoli di {0} viste non sono quelli dichiarati: differiscono fino a {1}°',
+  ],
+  'fault.anglesOfViews': [
+    'the angles of views {0} are not those stated: they are off by {1}',
+    'die Winkel der Ansichten {0} sind nicht die angegebenen: sie liegen um {1} daneben',
+    'gli angoli delle viste {0} non sono quelli dichiarati: differiscono di {1}',
+  ],
+  'fault.otherAngles': [
+    'other angles than those stated',
+    'andere Winkel als die angegebenen',
+    'angoli diversi da quelli dichiarati',
+  ],
+  'fault.correctAngles': [
+    'correct the angles in scan.toml',
+    'die Winkel in scan.toml berichtigen',
+    'correggere gli angoli in scan.toml',
+  ],
+  'fault.restsOnStatement': [
+    '; the overlap of the views hardly shows {0}: there what the rig states decides, and its standard deviation is in sigma',
+    '; die Überlappung der Ansichten zeigt {0} kaum: dort entscheidet die Angabe des Aufbaus, deren Standardabweichung in Sigma steht',
+    "; la sovrapposizione delle viste mostra appena {0}: lì decide quanto dichiara l'apparato, il cui scarto tipo è in sigma",
+  ],
 } as const satisfies Rows;

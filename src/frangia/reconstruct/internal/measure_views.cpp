@@ -320,4 +320,12 @@ MeasuredViews measure_views(const Scan& scan,
   return all;
 }
 
+TurntableStations stations_of(const Rig& rig, const MeasuredViews& measured) {
+  TurntableStations given{*rig.turntable, measured.stations};
+  if (rig.cameras.size() > 1 || rig.projector.is_label) return given;
+  given.rig = &rig;
+  given.pattern = &measured.coarsest;
+  return given;
+}
+
 }  // namespace frangia

@@ -19,6 +19,7 @@
 #include "frangia/range/depth_agreement.h"
 #include "frangia/range/remove_mixed_pixels.h"
 #include "frangia/registration/register_views.h"
+#include "frangia/rig/rig.h"
 #include "frangia/views/view_store.h"
 
 namespace frangia {
@@ -72,5 +73,9 @@ struct MeasuredViews {
                                           const MixedPixelOptions& mixed_pixels,
                                           const Run& run = {},
                                           const std::shared_ptr<const DecodedViews>& known = {});
+
+/// The stations of some views. A rig with one camera is itself an explanation of what the views
+/// disagree about; points of several cameras are not those of one drift.
+[[nodiscard]] TurntableStations stations_of(const Rig& rig, const MeasuredViews& measured);
 
 }  // namespace frangia

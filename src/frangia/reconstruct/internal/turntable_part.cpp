@@ -196,4 +196,19 @@ void add_turntable_part(PointCloud& cloud,
   }
 }
 
+ViewMotions motions_of_views(const MeasuredSetup& joined,
+                             const Rig& rig,
+                             const RegisterOptions& options,
+                             const Run& run) {
+  if (joined.registration) return joined.registration->motions;
+  const std::vector<Station>& stations = joined.measured.stations;
+  const bool one_setup = std::all_of(
+      stations.begin(), stations.end(), [](const Station& station) { return station.setup == 0; });
+  if (!rig.turntable || stations.size() < 2 || !one_setup) return {};
+  RegistrationReport alone;
+  alone.sigma = sigma_of(*rig.turntable, options, rig.turntable->point_mm.norm());
+  run.warn("the views are not registered; " + alone.rig_alone_text());
+  return motions_of_rig({*rig.turntable, stations}, alone.sigma);
+}
+
 }  // namespace frangia

@@ -5,7 +5,10 @@
 #include "frangia/core/run.h"
 #include "frangia/fusion/fuse_views.h"
 #include "frangia/geometry/mesh.h"
+#include "frangia/reconstruct/internal/split_setups.h"
+#include "frangia/registration/register_views.h"
 #include "frangia/registration/view_motions.h"
+#include "frangia/rig/rig.h"
 #include "frangia/views/view_store.h"
 
 namespace frangia {
@@ -29,5 +32,12 @@ void add_turntable_part(PointCloud& cloud,
                         const std::vector<CameraViews>& cameras,
                         const ViewMotions& motions,
                         const Run& run);
+
+/// How uncertain the poses of the views on the turntable are: as the registration found, or without
+/// one as the rig states.
+[[nodiscard]] ViewMotions motions_of_views(const MeasuredSetup& joined,
+                                           const Rig& rig,
+                                           const RegisterOptions& options,
+                                           const Run& run);
 
 }  // namespace frangia

@@ -9,7 +9,6 @@
 #include "frangia/core/statistics.h"
 #include "frangia/registration/explain/internal/describe_explanation.h"
 #include "frangia/registration/internal/assess_fit.h"
-#include "frangia/registration/internal/state_motions.h"
 
 namespace frangia {
 namespace {
@@ -130,54 +129,6 @@ PoseExplanation scaled_by(double factor) {
   return scale;
 }
 
-/// Turns of the views about the table's axis from where the given angles place them to other poses,
-/// from that of the first.
-Eigen::VectorXd turns_to(const TableState& given,
-                         const std::vector<Eigen::Isometry3d>& object_from_rig) {
-  const std::vector<Eigen::Isometry3d> stated = object_poses(given);
-  TableState turned = given;
-  constexpr double kTurn_rad = 0.1;  // shows the sense of the angles
-  turned.angles_rad[0] += kTurn_rad;
-  const auto turn_of = [&](std::size_t view, const Eigen::Isometry3d& rig_from_object) {
-    const Eigen::Matrix3d by = (stated[view].inverse() * rig_from_object).linear();
-    return std::atan2(by(1, 0) - by(0, 1), by(0, 0) + by(1, 1));
-  };
-  const double sense = std::copysign(1.0, turn_of(0, object_poses(turned)[0]));
-  Eigen::VectorXd turns(static_cast<Eigen::Index>(stated.size()));
-  for (std::size_t view = 0; view < stated.size(); ++view) {
-    const double turn = sense * turn_of(view, object_from_rig[view].inverse());
-    turns[static_cast<Eigen::Index>(view)] = view == 0 ? turn : wrap_rad(turn - turns[0]);
-  }
-  turns[0] = 0.0;
-  return turns;
-}
-
-/// The simplest angles that the turns of views follow: a share of those commanded, or a step.
-ExplainedAngles angles_by(const Eigen::VectorXd& turns, const std::vector<double>& given) {
-  const auto views = static_cast<Eigen::Index>(given.size());
-  const Eigen::VectorXd commanded =
-      Eigen::Map<const Eigen::VectorXd>(given.data(), views).array() - given[0];
-  const double share = turns.dot(commanded) / std::max(1e-300, commanded.squaredNorm());
-  ExplainedAngles best{scaled(given, 1.0 + share), scaled_by(1.0 + share)};
-  double least = (turns - share * commanded).cwiseAbs().maxCoeff();
-  for (Eigen::Index first = 1; first < views; ++first) {
-    const double step = turns.tail(views - first).mean() - turns.head(first).mean();
-    Eigen::VectorXd rest = turns;
-    rest.tail(views - first).array() -= step;
-    rest.array() -= rest.mean();
-    if (rest.cwiseAbs().maxCoeff() >= least) continue;
-    least = rest.cwiseAbs().maxCoeff();
-    best.angles_rad = given;
-    for (Eigen::Index view = first; view < views; ++view)
-      best.angles_rad[static_cast<std::size_t>(view)] += step;
-    best.explanation = {};
-    best.explanation.best = PoseCause::Turned;
-    best.explanation.views = {static_cast<std::size_t>(first)};
-    best.explanation.turned_rad = step;
-  }
-  return best;
-}
-
 /// With its sentence.
 ExplainedAngles worded(ExplainedAngles found, const Registration& work) {
   found.explanation.text =
@@ -248,25 +199,6 @@ std::optional<ExplainedAngles> explain_angles(const Registration& work) {
   }
   if (best.explanation.best == PoseCause::AsStated) return std::nullopt;
   return worded(std::move(best), work);
-}
-
-std::optional<ExplainedAngles> explain_free_views(const Registration& work,
-                                                  const CorrectedPoses& free) {
-  constexpr std::size_t kFewest = 4;  // views: through fewer any angles go
-  constexpr double kNearly = 1.1;     // times as far apart as free views, and as much of an overlap
-  const TableState& given = work.bundle.given;
-  if (!given.part_poses.empty() || given.angles_rad.size() < kFewest) return std::nullopt;
-  ExplainedAngles found = angles_by(turns_to(given, free.object_from_rig), given.angles_rad);
-  Bundle bundle = work.bundle;
-  bundle.gate_mm = work.reach_mm;
-  bundle.given.angles_rad = found.angles_rad;
-  bundle.state = bundle.given;
-  optimize_bundle(bundle, work.surfels, work.options.max_iterations, work.run);
-  const BundleSums sums = sum(bundle, work.surfels);
-  if (rms_of(sums.distances_mm) > kNearly * rms_of(free.fit.distances_mm) ||
-      overlap_of(sums, work.surfels) < overlap_of(free.wide, work.surfels) / kNearly)
-    return std::nullopt;
-  return worded(std::move(found), work);
 }
 
 }  // namespace frangia

@@ -1,15 +1,12 @@
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <utility>
 
 #include "frangia/core/angles.h"
-#include "frangia/core/parallel.h"
 #include "frangia/registration/explain/internal/describe_explanation.h"
+#include "frangia/registration/explain/internal/turn_fits.h"
 #include "frangia/registration/internal/assess_fit.h"
 #include "frangia/registration/internal/explain_angles.h"
-#include "frangia/registration/internal/state_motions.h"
-#include "frangia/registration/internal/surfel_pair.h"
 
 namespace frangia {
 namespace {
@@ -18,82 +15,15 @@ namespace {
 constexpr double kMostTurned_rad = rad_from_deg(12.0);
 constexpr double kStep_rad = rad_from_deg(0.25);
 constexpr int kSteps = 48;
-/// What a view's surfels say by how far it is turned against another view.
-using FitByTurn = std::array<float, 2 * kSteps + 1>;
 
-/// Compares all surfels of some views with those of others by the turn between the views.
-class TurnFits {
- public:
-  explicit TurnFits(const Registration& work) : bundle_(work.bundle) {
-    constexpr std::size_t kSome = 3000;  // surfels of a view
-    constexpr double kNear = 0.1;        // of the reach: axis and rig are near to where they belong
-    bundle_.gate_mm = std::max(bundle_.min_gate_mm, kNear * work.reach_mm);
-    surfels_ = pick_all_surfels(bundle_.maps, kSome);
-    const std::size_t views = bundle_.maps.size();
-    fits_.assign(views * views, FitByTurn{});
-    parallel_chunks(
-        fits_.front().size(), 1, [&](std::size_t begin, std::size_t /*end*/) { compare(begin); });
-  }
-
-  /// How well the views fit with changes of their angles.
-  [[nodiscard]] double fit_of(const std::vector<double>& turned_rad) const {
-    const std::size_t views = turned_rad.size();
-    double all = 0.0;
-    for (std::size_t from = 0; from < views; ++from) {
-      for (const std::size_t to : bundle_.pairs[from]) {
-        const double at = (turned_rad[from] - turned_rad[to]) / kStep_rad + kSteps;
-        const auto index = static_cast<std::size_t>(std::clamp(at, 0.0, 2.0 * kSteps - 1.0));
-        const double share = std::clamp(at - static_cast<double>(index), 0.0, 1.0);
-        const FitByTurn& fit = fits_[from * views + to];
-        all += (1.0 - share) * static_cast<double>(fit.at(index)) +
-               share * static_cast<double>(fit.at(index + 1));
-      }
-    }
-    return all;
-  }
-
- private:
-  void compare(std::size_t at) {
-    constexpr float kContradicts = 3.0F;  // pairs that agree, which one that contradicts outweighs
-    constexpr double kShowsTurn = 0.3;    // motion along the normal by a turn, over the way
-    const std::size_t views = bundle_.maps.size();
-    const double turn_rad = (static_cast<double>(at) - kSteps) * kStep_rad;
-    TableState turned = bundle_.state;
-    for (double& angle : turned.angles_rad)
-      angle += turn_rad;
-    const std::vector<Eigen::Isometry3d> there = object_poses(bundle_.state);
-    const std::vector<Eigen::Isometry3d> here = object_poses(turned);
-    const double margin_mm = free_space_margin_mm(bundle_);
-    for (std::size_t from = 0; from < views; ++from) {
-      const Eigen::Isometry3d object_from_rig = here[from].inverse();
-      for (const std::size_t to : bundle_.pairs[from]) {
-        const Eigen::Isometry3d to_from = there[to] * object_from_rig;
-        float& fit = fits_[from * views + to].at(at);
-        for (const SurfelMap::Surfel& surfel : surfels_[from]) {
-          const Eigen::Vector3d point = to_from * surfel.point_mm.cast<double>();
-          const SurfelMap::Surfel* target = surfel_at(bundle_.maps[to], bundle_.model, point);
-          if (target == nullptr) continue;
-          const SurfelPair pair(point, to_from.linear() * surfel.normal.cast<double>(), *target);
-          const double variance = std::pow(static_cast<double>(surfel.sigma_mm), 2) +
-                                  std::pow(static_cast<double>(target->sigma_mm), 2);
-          if (pair.violates_free_space(SurfelPair::margin_mm(margin_mm, variance)))
-            fit -= kContradicts;
-          const double distance = pair.distance_mm();
-          if (!pair.faces_alike() || std::abs(distance) > bundle_.gate_mm) continue;
-          const Eigen::Vector3d seen = object_from_rig * surfel.point_mm.cast<double>();
-          const Eigen::Vector3d normal = object_from_rig.linear() * surfel.normal.cast<double>();
-          const double way = seen.head<2>().norm();
-          if (std::abs(Eigen::Vector3d::UnitZ().cross(seen).dot(normal)) > kShowsTurn * way)
-            fit += static_cast<float>(1.0 - std::pow(distance / bundle_.gate_mm, 2));
-        }
-      }
-    }
-  }
-
-  Bundle bundle_;
-  SurfelLists surfels_;
-  std::vector<FitByTurn> fits_;  ///< of each view with each other
-};
+/// Compares the views near to where the table was refined to.
+TurnFits fits_near(const Registration& work) {
+  constexpr std::size_t kSome = 3000;  // surfels of a view
+  constexpr double kNear = 0.1;        // of the reach: axis and rig are near to where they belong
+  Bundle near = work.bundle;
+  near.gate_mm = std::max(near.min_gate_mm, kNear * work.reach_mm);
+  return {near, {kStep_rad, kSteps, kSome, near.gate_mm, free_space_margin_mm(near)}};
+}
 
 /// Changes of the angles from those of a state, and what they are.
 struct Turns {
@@ -105,7 +35,9 @@ struct Turns {
 class TurnSearch {
  public:
   explicit TurnSearch(const Registration& work)
-      : fits_(work), given_(work.bundle.given.angles_rad), state_(work.bundle.state.angles_rad) {}
+      : fits_(fits_near(work)),
+        given_(work.bundle.given.angles_rad),
+        state_(work.bundle.state.angles_rad) {}
 
   [[nodiscard]] double fit_as_refined() const {
     return fits_.fit_of(std::vector<double>(given_.size(), 0.0));

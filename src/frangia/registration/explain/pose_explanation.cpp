@@ -12,6 +12,8 @@ const char* name_of(PoseCause cause) {
       return "turned";
     case PoseCause::AnglesScaled:
       return "angles-scaled";
+    case PoseCause::AnglesWrong:
+      return "angles-wrong";
     case PoseCause::PartMoved:
       return "part-moved";
     case PoseCause::PartMovedTwice:

@@ -15,6 +15,7 @@ enum class PoseCause : std::uint8_t {
   Turntable,     ///< axis or angles are farther from the statement than its standard deviations
   Turned,        ///< from one view on, the table or the part is turned about the axis
   AnglesScaled,  ///< the table turns by another angle than was commanded, in proportion
+  AnglesWrong,   ///< the angles of views are not those stated, by any amount
   PartMoved,     ///< the part moved between two views
   PartMovedTwice,
   ViewMoved,   ///< one view alone was taken in another pose
@@ -48,7 +49,12 @@ struct PoseExplanation {
   double moved_sigma_mm = kMissing;    ///< its standard deviation
   double turned_rad = kMissing;        ///< of the table; of the part about its centre, if it did
   double turned_sigma_rad = kMissing;  ///< its standard deviation, of the part
-  double scale = kMissing;         ///< of the angles, or the standard deviation of a wobble in mm
+  double scale = kMissing;  ///< of the angles, or the standard deviation of a wobble in mm
+  /// Of angles that are not those stated: of `views`, what they are off by; whether two views have
+  /// each other's; and the spacing, where all views have one stated angle and are evenly spaced.
+  std::vector<double> turns_rad{};
+  bool exchanged = false;
+  double spacing_rad = kMissing;
   std::vector<std::string> terms;  ///< of the rig, that changed most
   /// Of a drift that approaches its end exponentially, as a share of the time between the first
   /// view and the last.

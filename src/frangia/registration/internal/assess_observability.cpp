@@ -56,9 +56,9 @@ void assess_observability(RegistrationReport& report,
     undetermined[2] += direction.segment(4, angles).sum();
   }
   // More than half of a unit vector: the weak direction belongs mainly to these unknowns.
-  if (undetermined[0] > 0.5) report.undetermined.emplace_back("the tilt of the axis");
-  if (undetermined[1] > 0.5) report.undetermined.emplace_back("the position of the axis");
-  if (undetermined[2] > 0.5) report.undetermined.emplace_back("the angles of the views");
+  if (undetermined[0] > 0.5) report.undetermined.emplace_back(kTiltOfAxis);
+  if (undetermined[1] > 0.5) report.undetermined.emplace_back(kPositionOfAxis);
+  if (undetermined[2] > 0.5) report.undetermined.emplace_back(kAnglesOfViews);
 }
 
 }  // namespace frangia

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -32,13 +33,17 @@ struct ExplainedAngles {
 ///           or there are several setups
 [[nodiscard]] std::optional<ExplainedAngles> explain_turns(const Registration& work);
 
-/// Looks for angles of the table that place the views as they fit by themselves: in proportion to
-/// those commanded, or off by the same from one view on. Such angles are far from what the other
-/// causes are linearized about.
-///
-/// @missing  none where the views moved otherwise, the table does not place them nearly as well, or
-///           there are several setups
-[[nodiscard]] std::optional<ExplainedAngles> explain_free_views(const Registration& work,
-                                                                const CorrectedPoses& free);
+/// Tries angles; whether nothing else is then left to be explained.
+using TryAngles = std::function<bool(const ExplainedAngles&)>;
+
+/// Looks for angles about the stated axis, however far from those stated, with which the surfaces
+/// of the views fit: in proportion to those commanded, off by the same from one view on, exchanged
+/// between two views, of one view alone, or of any. Those that fit better than the stated ones are
+/// tried, the simplest first, and the nearest to those stated of those that fit alike. Returns
+/// whether the last that were tried are found; angles of any views are when none of these views
+/// fits in another turn, too. `free`: poses where every view fits by itself.
+[[nodiscard]] bool find_turned_views(const Registration& work,
+                                     const std::optional<CorrectedPoses>& free,
+                                     const TryAngles& try_angles);
 
 }  // namespace frangia

@@ -46,4 +46,12 @@ struct ExplainedPoses {
                                            const TurntableStations& given,
                                            std::size_t dense);
 
+/// Explains what the views disagree about, by angles far from those stated or as `explain_poses`,
+/// and refines the table about what is found. A view that is elsewhere by itself is left out, and
+/// the others are explained again.
+[[nodiscard]] ExplainedPoses explain_registration(RegistrationReport& report,
+                                                  Registration& work,
+                                                  const TurntableStations& given,
+                                                  std::size_t dense);
+
 }  // namespace frangia

@@ -1,5 +1,7 @@
 #include "frangia/registration/internal/leave_out_views.h"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "frangia/registration/internal/assess_fit.h"
@@ -19,6 +21,15 @@ void Registration::leave_out(std::size_t view) {
                 [view](const PointTie& tie) { return tie.from == view || tie.to == view; });
   for (auto& surfel : bundle.maps[view].surfels.pixels())
     surfel = {};
+}
+
+bool fits_by_table(const Registration& work) {
+  const BundleSums sums = sum(work.bundle, work.surfels);
+  if (contradiction_of(sums, work.surfels) > work.options.max_contradiction) return false;
+  const std::vector<std::size_t> outliers = find_outliers(sums, work.options.outlier_overlap);
+  return std::all_of(outliers.begin(), outliers.end(), [&](std::size_t view) {
+    return work.surfels[view].empty();  // left out already
+  });
 }
 
 void leave_out_outliers(RegistrationReport& report, Registration& work) {

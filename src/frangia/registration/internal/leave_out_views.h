@@ -38,6 +38,9 @@ struct Registration {
   void leave_out(std::size_t view);
 };
 
+/// Whether the table places all views where none contradicts the others or fits none.
+[[nodiscard]] bool fits_by_table(const Registration& work);
+
 /// Leaves out views that fit no other one.
 void leave_out_outliers(RegistrationReport& report, Registration& work);
 

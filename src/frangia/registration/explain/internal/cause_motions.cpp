@@ -86,6 +86,16 @@ Eigen::MatrixXd unit_motions(PoseCause cause,
       return repeated(turn_of_table() / setting.radius_mm, from_on(at[0], setting.views), unknowns);
     case PoseCause::AnglesScaled:
       return repeated(turn_of_table(), turned_angles(setting), unknowns);
+    case PoseCause::AnglesWrong: {
+      const auto count = static_cast<Eigen::Index>(at.size());
+      Eigen::MatrixXd all(unknowns, count);
+      for (Eigen::Index i = 0; i < count; ++i) {
+        const auto view = static_cast<Eigen::Index>(at[static_cast<std::size_t>(i)]);
+        all.col(i) = repeated(
+            turn_of_table() / setting.radius_mm, Eigen::VectorXd::Unit(views, view), unknowns);
+      }
+      return all;
+    }
     case PoseCause::PartMoved:
       return repeated(motions_of_part(setting), from_on(at[0], setting.views), unknowns);
     case PoseCause::PartMovedTwice: {

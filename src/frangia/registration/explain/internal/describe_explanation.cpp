@@ -41,6 +41,34 @@ std::string list_of(const std::vector<std::size_t>& views, const ViewNames& name
   return list;
 }
 
+/// What is wrong with stated angles.
+std::string text_of_angles(const PoseExplanation& found, const ViewNames& names) {
+  constexpr std::size_t kMostListed = 4;
+  if (found.exchanged) {
+    return fmt::format("views {} have each other's angle", list_of(found.views, names));
+  }
+  if (!std::isnan(found.spacing_rad)) {
+    return fmt::format("the views are evenly spaced by {:.3f}°, where one angle is stated for all",
+                       deg_from_rad(found.spacing_rad));
+  }
+  if (found.views.size() == 1) {
+    return fmt::format("the angle of view {} is not the one stated: it is off by {:.3f}°",
+                       names(found.views.front()),
+                       deg_from_rad(found.turned_rad));
+  }
+  if (found.views.size() > kMostListed) {
+    return fmt::format("the angles of {} views are not those stated: they are off by up to {:.3f}°",
+                       found.views.size(),
+                       std::abs(deg_from_rad(found.turned_rad)));
+  }
+  std::vector<std::string> turns;
+  for (const double turn : found.turns_rad)
+    turns.push_back(fmt::format("{:.3f}°", deg_from_rad(turn)));
+  return fmt::format("the angles of views {} are not those stated: they are off by {}",
+                     list_of(found.views, names),
+                     fmt::join(turns, ", "));
+}
+
 std::string cause_text(PoseCause cause, const PoseExplanation& found, const ViewNames& names) {
   switch (cause) {
     case PoseCause::AsStated:
@@ -55,6 +83,8 @@ std::string cause_text(PoseCause cause, const PoseExplanation& found, const View
                          between(found.views.front(), names));
     case PoseCause::AnglesScaled:
       return fmt::format("the table turns by {:.4f} times the commanded angles", found.scale);
+    case PoseCause::AnglesWrong:
+      return text_of_angles(found, names);
     case PoseCause::PartMoved:
       return fmt::format("the part {} by {} {}",
                          std::isnan(found.turned_rad) ? "slid" : "moved",
@@ -117,6 +147,8 @@ const char* words_of(PoseCause cause) {
       return "a lost step of the table";
     case PoseCause::AnglesScaled:
       return "angles in another proportion";
+    case PoseCause::AnglesWrong:
+      return "other angles than those stated";
     case PoseCause::PartMoved:
       return "a part that slid once";
     case PoseCause::PartMovedTwice:
@@ -174,6 +206,7 @@ std::string describe(const PoseExplanation& found, const ViewNames& names) {
       return words + "; they were joined by their surfaces";
     case PoseCause::Turned:
     case PoseCause::AnglesScaled:
+    case PoseCause::AnglesWrong:
     case PoseCause::PartDrift:
     case PoseCause::Wobble:
     case PoseCause::RigDrift:
@@ -195,6 +228,8 @@ std::string remedy_of(const PoseExplanation& found, WrongRig wrong_rig) {
     case PoseCause::Turned:
     case PoseCause::AnglesScaled:
       return "check the table's steps per turn and its load";
+    case PoseCause::AnglesWrong:
+      return "correct the angles in scan.toml";
     case PoseCause::PartMoved:
     case PoseCause::PartMovedTwice:
     case PoseCause::ViewMoved:

@@ -190,6 +190,7 @@ int freedom_of(PoseCause cause) {
       return 0;
     case PoseCause::Turned:
     case PoseCause::AnglesScaled:
+    case PoseCause::AnglesWrong:
       return 1;
     case PoseCause::PartMoved:
     case PoseCause::ViewMoved:

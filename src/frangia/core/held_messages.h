@@ -1,0 +1,30 @@
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "frangia/core/run.h"
+
+namespace frangia {
+
+/// Holds back the messages of an attempt until it is known whether its result is used. It must
+/// outlive the attempt.
+class HeldMessages {
+ public:
+  [[nodiscard]] Run in_place_of(const Run& run) {
+    Run held = run;
+    held.on_warning = [this](const std::string& text) { texts_.emplace_back(true, text); };
+    held.on_note = [this](const std::string& text) { texts_.emplace_back(false, text); };
+    return held;
+  }
+  void pass_on(const Run& run) const {
+    for (const auto& [is_warning, text] : texts_)
+      is_warning ? run.warn(text) : run.note(text);
+  }
+
+ private:
+  std::vector<std::pair<bool, std::string>> texts_;
+};
+
+}  // namespace frangia
