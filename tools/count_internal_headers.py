@@ -7,7 +7,7 @@ import pathlib
 import re
 import sys
 
-MOST = 56
+MOST = 50
 
 
 def main(root, *options):

@@ -8,8 +8,8 @@
 
 #include "frangia/core/angles.h"
 #include "frangia/phase/algorithm/algorithm_errors.h"
+#include "frangia/phase/algorithm/phase_algorithm.h"
 #include "frangia/phase/algorithm/published_algorithms.h"
-#include "frangia/phase/algorithm/read_algorithm.h"
 
 #include "print_text.h"
 #include "verbs.h"

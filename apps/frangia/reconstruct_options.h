@@ -6,7 +6,7 @@
 #include <CLI/CLI.hpp>
 
 #include "frangia/core/error.h"
-#include "frangia/phase/algorithm/read_algorithm.h"
+#include "frangia/phase/algorithm/phase_algorithm.h"
 #include "frangia/reconstruct/reconstruct.h"
 #include "frangia/rig/read_rig.h"
 

@@ -14,7 +14,6 @@
 #include "frangia/phase/algorithm/algorithm_errors.h"
 #include "frangia/phase/algorithm/phase_algorithm.h"
 #include "frangia/phase/algorithm/published_algorithms.h"
-#include "frangia/phase/algorithm/read_algorithm.h"
 
 #include "bindings.h"
 #include "phase_arrays.h"

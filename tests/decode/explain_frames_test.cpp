@@ -11,7 +11,6 @@
 #include <gtest/gtest.h>
 
 #include "frangia/core/angles.h"
-#include "frangia/decode/explain/find_ceiling.h"
 #include "frangia/decode/explain/judge_frames.h"
 
 #include "support/rendered_frames.h"

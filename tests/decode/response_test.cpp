@@ -6,9 +6,7 @@
 
 #include "frangia/core/angles.h"
 #include "frangia/core/error.h"
-#include "frangia/phase/waveform/correct_response.h"
-#include "frangia/phase/waveform/measure_fringe_response.h"
-#include "frangia/phase/waveform/measure_response.h"
+#include "frangia/phase/waveform/fringe_response.h"
 #include "frangia/phase/wrap/wrap_phase.h"
 #include "frangia/simulate/internal/render_view.h"
 

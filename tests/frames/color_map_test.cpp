@@ -1,10 +1,10 @@
-#include "frangia/frames/color_map.h"
-
 #include <array>
 #include <cstddef>
 #include <limits>
 
 #include <gtest/gtest.h>
+
+#include "frangia/frames/map_picture.h"
 
 namespace frangia {
 namespace {

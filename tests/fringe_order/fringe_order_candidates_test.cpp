@@ -1,11 +1,10 @@
-#include "frangia/fringe_order/fringe_order_candidates.h"
-
 #include <cmath>
 #include <cstdint>
 
 #include <gtest/gtest.h>
 
 #include "frangia/core/angles.h"
+#include "frangia/fringe_order/resolve_by_views.h"
 
 #include "fringe_order/ball_views.h"
 

@@ -1,5 +1,3 @@
-#include "frangia/phase/internal/best_frequency.h"
-
 #include <cmath>
 #include <vector>
 
@@ -7,6 +5,7 @@
 
 #include "frangia/core/angles.h"
 #include "frangia/core/random.h"
+#include "frangia/phase/internal/fringe_frequency.h"
 
 namespace frangia {
 namespace {

@@ -1,6 +1,4 @@
 // Frames of a Gray code and their inverses by its published formula, with one fault.
-#include "frangia/phase/gray/check_gray_inverses.h"
-
 #include <cmath>
 #include <cstdint>
 #include <functional>
@@ -9,6 +7,8 @@
 #include <utility>
 
 #include <gtest/gtest.h>
+
+#include "frangia/phase/gray/check_gray_code.h"
 
 namespace frangia {
 namespace {

@@ -1,5 +1,3 @@
-#include "frangia/phase/waveform/correct_response.h"
-
 #include <cmath>
 #include <string>
 #include <vector>
@@ -8,6 +6,7 @@
 
 #include "frangia/core/angles.h"
 #include "frangia/core/missing.h"
+#include "frangia/phase/waveform/fringe_response.h"
 
 #include "support/error_of.h"
 

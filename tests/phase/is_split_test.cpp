@@ -1,10 +1,9 @@
-#include "frangia/phase/internal/is_split.h"
-
 #include <vector>
 
 #include <gtest/gtest.h>
 
 #include "frangia/core/missing.h"
+#include "frangia/phase/internal/jumpless_regions.h"
 
 namespace frangia {
 namespace {

@@ -1,6 +1,4 @@
 // The published algorithms, written as coefficients, are the truth.
-#include "frangia/phase/algorithm/linear_algorithm.h"
-
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -10,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "frangia/core/angles.h"
-#include "frangia/phase/algorithm/read_algorithm.h"
+#include "frangia/phase/algorithm/phase_algorithm.h"
 
 #include "support/error_of.h"
 #include "support/temporary_folder.h"

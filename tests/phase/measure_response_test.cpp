@@ -1,5 +1,3 @@
-#include "frangia/phase/waveform/measure_response.h"
-
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -10,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "frangia/core/angles.h"
-#include "frangia/phase/waveform/measure_fringe_response.h"
+#include "frangia/phase/waveform/fringe_response.h"
 
 #include "support/error_of.h"
 

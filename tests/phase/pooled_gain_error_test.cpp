@@ -1,5 +1,3 @@
-#include "frangia/phase/waveform/pooled_gain_error.h"
-
 #include <cmath>
 #include <random>
 #include <vector>
@@ -8,6 +6,7 @@
 
 #include "frangia/core/angles.h"
 #include "frangia/phase/algorithm/fit_algorithm.h"
+#include "frangia/phase/waveform/assess_frames.h"
 #include "frangia/phase/wrap/wrap_phase.h"
 
 #include "support/synthetic_fringes.h"

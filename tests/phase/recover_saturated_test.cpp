@@ -1,11 +1,10 @@
-#include "frangia/phase/wrap/recover_saturated.h"
-
 #include <cmath>
 
 #include <gtest/gtest.h>
 
 #include "frangia/core/error.h"
 #include "frangia/phase/algorithm/phase_algorithm.h"
+#include "frangia/phase/wrap/merge_exposures.h"
 #include "frangia/phase/wrap/wrap_phase.h"
 
 #include "support/synthetic_fringes.h"

@@ -1,9 +1,9 @@
-#include "frangia/phase/temporal/unwrap_levels.h"
-
 #include <cmath>
 #include <vector>
 
 #include <gtest/gtest.h>
+
+#include "frangia/phase/temporal/unwrap_temporally.h"
 
 namespace frangia {
 namespace {

@@ -12,7 +12,7 @@
 #include "frangia/core/angles.h"
 #include "frangia/core/missing.h"
 #include "frangia/phase/spatial/find_residues.h"
-#include "frangia/phase/spatial/internal/discard_residues.h"
+#include "frangia/phase/spatial/internal/cut_mask.h"
 
 namespace frangia {
 namespace {

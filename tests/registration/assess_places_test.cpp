@@ -1,11 +1,11 @@
-#include "frangia/registration/internal/assess_places.h"
-
 #include <array>
 #include <cmath>
 #include <initializer_list>
 #include <random>
 
 #include <gtest/gtest.h>
+
+#include "frangia/registration/internal/assess_fit.h"
 
 #include "support/misaligned_table.h"
 

@@ -1,11 +1,10 @@
-#include "frangia/registration/internal/find_ball_pair.h"
-
 #include <cmath>
 #include <vector>
 
 #include <gtest/gtest.h>
 
 #include "frangia/core/random.h"
+#include "frangia/registration/internal/known_length.h"
 
 namespace frangia {
 namespace {

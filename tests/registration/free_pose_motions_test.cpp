@@ -1,11 +1,10 @@
-#include "frangia/registration/internal/free_pose_motions.h"
-
 #include <cmath>
 #include <vector>
 
 #include <gtest/gtest.h>
 
 #include "frangia/local_fit/surfel_map.h"
+#include "frangia/registration/internal/free_pose_bundle.h"
 #include "frangia/registration/register_poses.h"
 
 #include "support/analytic_views.h"

@@ -1,6 +1,6 @@
-#include "frangia/registration/internal/make_bundle.h"
-
 #include <gtest/gtest.h>
+
+#include "frangia/registration/internal/optimize_bundle.h"
 
 #include "support/misaligned_table.h"
 

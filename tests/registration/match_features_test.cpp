@@ -1,5 +1,3 @@
-#include "frangia/registration/internal/match_features.h"
-
 #include <vector>
 
 #include <gtest/gtest.h>

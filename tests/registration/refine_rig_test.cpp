@@ -11,7 +11,7 @@
 #include "frangia/core/error.h"
 #include "frangia/registration/internal/drift_model.h"
 #include "frangia/registration/internal/known_length.h"
-#include "frangia/registration/internal/retriangulate_views.h"
+#include "frangia/registration/internal/view_transfer.h"
 
 #include "support/error_of.h"
 #include "support/misaligned_table.h"

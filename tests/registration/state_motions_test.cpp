@@ -1,11 +1,10 @@
-#include "frangia/registration/internal/state_motions.h"
-
 #include <array>
 #include <cmath>
 #include <vector>
 
 #include <gtest/gtest.h>
 
+#include "frangia/registration/internal/table_state.h"
 #include "frangia/registration/register_views.h"
 
 namespace frangia {

@@ -1,6 +1,6 @@
-#include "frangia/registration/internal/widen_drift.h"
-
 #include <gtest/gtest.h>
+
+#include "frangia/registration/internal/drift_views.h"
 
 namespace frangia {
 namespace {

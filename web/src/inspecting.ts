@@ -219,7 +219,10 @@ export class Inspecting {
   /** Writes a report, or the plan, and downloads it when it is there. */
   async write(format: 'html' | 'pdf' | 'csv' | 'qif' | 'toml'): Promise<void> {
     try {
-      const { job } = await this.app.session.command<{ job: number }>('report', { format, language: currentLanguage() });
+      const { job } = await this.app.session.command<{ job: number }>('report', {
+        format,
+        language: currentLanguage(),
+      });
       const name = format === 'toml' ? 'inspection.toml' : `${this.app.project.name} report.${format}`;
       this.report = { job, name };
       this.follow();

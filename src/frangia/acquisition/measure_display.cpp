@@ -10,7 +10,7 @@
 #include "frangia/acquisition/internal/display_probe.h"
 #include "frangia/acquisition/internal/room_light.h"
 #include "frangia/core/angles.h"
-#include "frangia/phase/waveform/measure_response.h"
+#include "frangia/phase/waveform/fringe_response.h"
 
 namespace frangia {
 namespace {

@@ -8,7 +8,7 @@
 #include "frangia/core/run.h"
 #include "frangia/devices/camera_device.h"
 #include "frangia/devices/rig_devices.h"
-#include "frangia/frames/frame.h"
+#include "frangia/frames/frame_stack.h"
 #include "frangia/pattern/pattern.h"
 #include "frangia/rig/rig.h"
 

@@ -12,7 +12,7 @@
 #include "frangia/dataset/internal/import_images.h"
 #include "frangia/dataset/internal/import_patterns.h"
 #include "frangia/dataset/name_template.h"
-#include "frangia/frames/turn_image.h"
+#include "frangia/frames/grey_image.h"
 #include "frangia/rig/read_rig.h"
 #include "frangia/rig/rig_covariance.h"
 

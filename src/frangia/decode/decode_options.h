@@ -10,7 +10,7 @@
 #include "frangia/decode/phase_files.h"
 #include "frangia/decode/survey_scan.h"
 #include "frangia/fringe_order/resolve_regions.h"
-#include "frangia/phase/algorithm/linear_algorithm.h"
+#include "frangia/phase/algorithm/phase_algorithm.h"
 #include "frangia/phase/spatial/unwrap_spatially.h"
 #include "frangia/phase/temporal/check_sequence.h"
 #include "frangia/phase/temporal/correct_order_jumps.h"

@@ -16,7 +16,7 @@
 #include "frangia/frames/png.h"
 #include "frangia/fringe_order/resolve_regions.h"
 #include "frangia/phase/blur/estimate_blur.h"
-#include "frangia/phase/temporal/sequence_check.h"
+#include "frangia/phase/temporal/check_sequence.h"
 #include "frangia/phase/waveform/assess_frames.h"
 #include "frangia/phase/wrap/phase_map.h"
 #include "frangia/range/laser_profile.h"

@@ -9,7 +9,7 @@
 
 #include "frangia/core/error.h"
 #include "frangia/decode/decode_options.h"
-#include "frangia/phase/temporal/unwrap_levels.h"
+#include "frangia/phase/temporal/unwrap_temporally.h"
 #include "frangia/rig/rig.h"
 
 namespace frangia {

@@ -10,7 +10,7 @@
 
 #include "frangia/dataset/read_frames.h"
 #include "frangia/phase/algorithm/estimate_step.h"
-#include "frangia/phase/waveform/pooled_gain_error.h"
+#include "frangia/phase/waveform/assess_frames.h"
 #include "frangia/phase/wrap/estimate_noise.h"
 #include "frangia/phase/wrap/noise_of_view.h"
 

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "frangia/devices/device.h"
-#include "frangia/frames/frame.h"
+#include "frangia/frames/frame_stack.h"
 
 namespace frangia {
 

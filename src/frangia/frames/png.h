@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "frangia/core/image.h"
-#include "frangia/frames/frame.h"
+#include "frangia/frames/frame_stack.h"
 #include "frangia/frames/image_file.h"
 
 namespace frangia {

@@ -3,7 +3,7 @@
 #include <cstddef>
 
 #include "frangia/core/run.h"
-#include "frangia/fringe_order/fringe_order_candidates.h"
+#include "frangia/fringe_order/resolve_by_views.h"
 #include "frangia/range/remove_mixed_pixels.h"
 #include "frangia/views/view_store.h"
 

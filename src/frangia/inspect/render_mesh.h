@@ -9,7 +9,7 @@
 #include "frangia/core/angles.h"
 #include "frangia/core/image.h"
 #include "frangia/core/run.h"
-#include "frangia/frames/color_map.h"
+#include "frangia/frames/map_picture.h"
 #include "frangia/frames/png.h"
 #include "frangia/geometry/mesh.h"
 #include "frangia/geometry/ray_scene.h"

@@ -12,7 +12,6 @@
 #include "frangia/core/statistics.h"
 #include "frangia/geometry/robust_gauss_newton.h"
 #include "frangia/registration/internal/free_pose_bundle.h"
-#include "frangia/registration/internal/free_pose_motions.h"
 
 namespace frangia {
 namespace {

@@ -15,13 +15,11 @@
 #include "frangia/core/statistics.h"
 #include "frangia/registration/internal/assess_fit.h"
 #include "frangia/registration/internal/assess_observability.h"
-#include "frangia/registration/internal/assess_places.h"
 #include "frangia/registration/internal/explain_poses.h"
-#include "frangia/registration/internal/leave_out_views.h"
-#include "frangia/registration/internal/make_bundle.h"
-#include "frangia/registration/internal/retriangulate_views.h"
-#include "frangia/registration/internal/state_motions.h"
+#include "frangia/registration/internal/optimize_bundle.h"
+#include "frangia/registration/internal/table_state.h"
 #include "frangia/registration/internal/turntable_bundle.h"
+#include "frangia/registration/internal/view_transfer.h"
 
 namespace frangia {
 namespace {

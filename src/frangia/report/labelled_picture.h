@@ -8,7 +8,7 @@
 #include <Eigen/Core>
 
 #include "frangia/core/image.h"
-#include "frangia/frames/color_map.h"
+#include "frangia/frames/map_picture.h"
 #include "frangia/frames/png.h"
 #include "frangia/inspect/render_mesh.h"
 #include "frangia/inspection/inspect_part.h"

@@ -105,7 +105,8 @@ void write_acceptance(const ProjectFolder& project, const std::string& text) {
     std::filesystem::remove(project.in_derived(kPlan));
     return;
   }
-  require(text.size() <= kMostAcceptanceBytes, "the plan of a test has at most 20 kB; shorten its texts");
+  require(text.size() <= kMostAcceptanceBytes,
+          "the plan of a test has at most 20 kB; shorten its texts");
   static_cast<void>(parse_acceptance_plan(text, "the test"));
   make_folder(project.derived);
   write_text_file(project.in_derived(kPlan), text, Durability::Synced);

@@ -151,21 +151,6 @@ export const FAULTS_INSPECTION = {
     'die Oberfläche wird nach Flecken von {0} mm beurteilt statt {1} mm, von denen es zu viele gäbe; ein min_feature_mm von {2} mm angeben',
     'la superficie è giudicata per zone di {0} mm e non di {1} mm, che sarebbero troppe; indicare un min_feature_mm di {2} mm',
   ],
-  'fault.thicknessoptionsMaxMm': [
-    'ThicknessOptions: max_mm must be above 0',
-    'max_mm muss größer als 0 sein',
-    'max_mm deve essere maggiore di 0',
-  ],
-  'fault.thicknessoptionsMaxTilt': [
-    'ThicknessOptions: max_tilt_rad must be between 0 and 90 degrees',
-    'max_tilt_rad muss zwischen 0 und 90 Grad liegen',
-    'max_tilt_rad deve stare fra 0 e 90 gradi',
-  ],
-  'fault.thicknessoptionsMaxEdge': [
-    'ThicknessOptions: max_edge_rad must be between 0 and 90 degrees',
-    'max_edge_rad muss zwischen 0 und 90 Grad liegen',
-    'max_edge_rad deve stare fra 0 e 90 gradi',
-  ],
   'fault.meshTrianglesWalls': [
     'the mesh has no triangles: it has no walls',
     'das Netz hat keine Dreiecke und damit keine Wände',

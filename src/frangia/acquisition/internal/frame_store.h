@@ -9,7 +9,7 @@
 #include <thread>
 
 #include "frangia/acquisition/internal/capture_manifest.h"
-#include "frangia/frames/frame.h"
+#include "frangia/frames/frame_stack.h"
 
 namespace frangia {
 

@@ -14,7 +14,7 @@
 #include "frangia/core/run.h"
 #include "frangia/dataset/scan_folder.h"
 #include "frangia/decode/decoded_views.h"
-#include "frangia/frames/frame.h"
+#include "frangia/frames/frame_stack.h"
 
 namespace frangia {
 

@@ -13,8 +13,8 @@
 #include "frangia/core/error.h"
 #include "frangia/core/parallel.h"
 #include "frangia/frames/float_tiff.h"
+#include "frangia/frames/grey_image.h"
 #include "frangia/frames/png.h"
-#include "frangia/frames/turn_image.h"
 
 namespace frangia {
 namespace {

@@ -22,7 +22,7 @@
 #include "frangia/frames/frame_stack.h"
 #include "frangia/fringe_order/check_start_by_sheet.h"
 #include "frangia/phase/algorithm/fit_algorithm.h"
-#include "frangia/phase/gray/check_gray_inverses.h"
+#include "frangia/phase/gray/check_gray_code.h"
 #include "frangia/phase/gray/check_gray_neighbours.h"
 #include "frangia/phase/gray/decode_gray_alone.h"
 #include "frangia/phase/gray/decode_gray_code.h"

@@ -9,7 +9,7 @@
 #include <fmt/ranges.h>
 
 #include "frangia/core/angles.h"
-#include "frangia/decode/explain/find_ceiling.h"
+#include "frangia/decode/explain/explain_frames.h"
 #include "frangia/decode/select_stacks.h"
 #include "frangia/phase/wrap/estimate_noise.h"
 #include "frangia/phase/wrap/noise_of_view.h"

@@ -8,7 +8,7 @@
 #include "frangia/decode/explain/judge_frames.h"
 #include "frangia/decode/internal/direction_maps.h"
 #include "frangia/frames/frame_stack.h"
-#include "frangia/phase/temporal/sequence_check.h"
+#include "frangia/phase/temporal/check_sequence.h"
 #include "frangia/phase/wrap/phase_map.h"
 
 namespace frangia {

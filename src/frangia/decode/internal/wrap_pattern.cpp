@@ -7,11 +7,10 @@
 
 #include "frangia/decode/select_stacks.h"
 #include "frangia/phase/waveform/contradicting_frames.h"
-#include "frangia/phase/waveform/correct_response.h"
+#include "frangia/phase/waveform/fringe_response.h"
 #include "frangia/phase/waveform/share_waveforms.h"
 #include "frangia/phase/waveform/systematic_phase.h"
 #include "frangia/phase/wrap/merge_exposures.h"
-#include "frangia/phase/wrap/recover_saturated.h"
 
 namespace frangia {
 namespace {

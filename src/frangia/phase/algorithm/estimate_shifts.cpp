@@ -8,7 +8,7 @@
 #include "frangia/core/angles.h"
 #include "frangia/core/error.h"
 #include "frangia/core/linear_algebra.h"
-#include "frangia/phase/internal/fringe_model.h"
+#include "frangia/phase/internal/fringe_curve.h"
 #include "frangia/phase/waveform/frame_samples.h"
 
 namespace frangia {

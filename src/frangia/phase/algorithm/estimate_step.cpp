@@ -11,7 +11,7 @@
 #include "frangia/core/linear_algebra.h"
 #include "frangia/frames/frame_stack.h"
 #include "frangia/phase/internal/fit_residuals.h"
-#include "frangia/phase/internal/fringe_bins.h"
+#include "frangia/phase/internal/fringe_curve.h"
 #include "frangia/phase/waveform/frame_samples.h"
 
 namespace frangia {

@@ -11,7 +11,7 @@
 #include "frangia/core/error.h"
 #include "frangia/phase/algorithm/estimate_shifts.h"
 #include "frangia/phase/algorithm/published_algorithms.h"
-#include "frangia/phase/waveform/pooled_gain_error.h"
+#include "frangia/phase/waveform/assess_frames.h"
 
 namespace frangia {
 namespace {

@@ -8,7 +8,6 @@
 #include "frangia/frames/frame_stack.h"
 #include "frangia/frames/noise_model.h"
 #include "frangia/phase/algorithm/estimate_step.h"
-#include "frangia/phase/algorithm/linear_algorithm.h"
 #include "frangia/phase/algorithm/phase_algorithm.h"
 #include "frangia/phase/waveform/fit_waveform.h"
 

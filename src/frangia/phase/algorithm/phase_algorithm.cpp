@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
+#include <cstddef>
 #include <numeric>
+#include <vector>
 
 #include <Eigen/LU>
 #include <fmt/format.h>
@@ -12,7 +15,8 @@
 #include "frangia/core/error.h"
 #include "frangia/phase/algorithm/algorithm_errors.h"
 #include "frangia/phase/algorithm/published_algorithms.h"
-#include "frangia/phase/internal/fringe_model.h"
+#include "frangia/phase/internal/fringe_curve.h"
+#include "frangia/rig/toml_reader.h"
 
 namespace frangia {
 namespace {
@@ -199,6 +203,111 @@ PhaseAlgorithm make_algorithm(const std::string& name,
   subtract_phase_offset(gain_error * mean_shift, algorithm);
   algorithm.noise_gain = noise_gain(algorithm, shifts_rad);
   return algorithm;
+}
+
+LinearAlgorithm read_algorithm(const std::filesystem::path& path, const Run& run) {
+  const toml::table table = parse_toml(path, "frangia-algorithm");
+  TomlReader reader(path, "", table);
+  reader.ignore("format");
+  reader.ignore("version");
+  const std::string name = reader.text("name");
+  std::vector<double> shifts_rad;
+  for (const double shift : reader.numbers("shifts_deg"))
+    shifts_rad.push_back(rad_from_deg(shift));
+  const auto numerator = reader.numbers("numerator");
+  const auto denominator = reader.numbers("denominator");
+  reader.warn_of_unused_keys(run);
+  try {
+    return linear_algorithm(name, shifts_rad, numerator, denominator);
+  } catch (const Error& error) {
+    throw Error(error.kind(), fmt::format("{}: {}", path.string(), error.what()));
+  }
+}
+
+namespace {
+
+using Complex = std::complex<double>;
+
+/// What the filter c_k = denominator + i numerator makes of 1, exp(i phi) and exp(-i phi).
+struct Answers {
+  Complex constant;
+  Complex phase;
+  Complex mirrored;
+  double size = 0.0;  ///< sum of |c_k|
+};
+
+Answers answers_of(const std::vector<double>& shifts_rad,
+                   const std::vector<double>& numerator,
+                   const std::vector<double>& denominator) {
+  Answers out;
+  for (std::size_t k = 0; k < shifts_rad.size(); ++k) {
+    const Complex c(denominator[k], numerator[k]);
+    out.constant += c;
+    out.phase += 0.5 * c * std::polar(1.0, shifts_rad[k]);
+    out.mirrored += 0.5 * c * std::polar(1.0, -shifts_rad[k]);
+    out.size += std::abs(c);
+  }
+  return out;
+}
+
+[[noreturn]] void refuse(const std::string& name, const std::string& what) {
+  throw Error(ErrorKind::Input, fmt::format("algorithm \"{}\": {}", name, what));
+}
+
+void check(const std::string& name, const Answers& answers) {
+  constexpr double kNone = 1e-6;  // of the coefficients' sum
+  const double none = kNone * answers.size;
+  if (!(std::abs(answers.phase) > none)) {
+    refuse(name,
+           std::abs(answers.mirrored) > none
+               ? "it returns the negative phase; change the sign of the numerator"
+               : "its sums do not depend on the phase; check the coefficients and the shifts");
+  }
+  if (std::abs(answers.constant) > none)
+    refuse(name, "its result depends on the mean intensity; each list must sum to zero");
+  if (std::abs(answers.mirrored) > none) {
+    refuse(name,
+           fmt::format("its two sums are not the sine and the cosine of one angle: the phase would "
+                       "have an error of up to {:.2g} rad; check the coefficients and the shifts",
+                       std::asin(std::min(1.0, std::abs(answers.mirrored / answers.phase)))));
+  }
+}
+
+}  // namespace
+
+LinearAlgorithm linear_algorithm(const std::string& name,
+                                 const std::vector<double>& shifts_rad,
+                                 const std::vector<double>& numerator,
+                                 const std::vector<double>& denominator) {
+  if (numerator.size() != shifts_rad.size() || denominator.size() != shifts_rad.size()) {
+    refuse(name,
+           fmt::format("there are {} shifts, {} coefficients of the numerator and {} of the "
+                       "denominator; give one of each for each frame",
+                       shifts_rad.size(),
+                       numerator.size(),
+                       denominator.size()));
+  }
+  const PhaseAlgorithm mean = least_squares(shifts_rad);  // checks the shifts
+  const Answers answers = answers_of(shifts_rad, numerator, denominator);
+  check(name, answers);
+  LinearAlgorithm out{{.name = name, .mean = mean.mean}, shifts_rad};
+  for (std::size_t k = 0; k < shifts_rad.size(); ++k) {
+    const Complex c = Complex(denominator[k], numerator[k]) / answers.phase;
+    out.algorithm.cosine.push_back(c.real());
+    out.algorithm.sine.push_back(c.imag());
+  }
+  out.algorithm.noise_gain = noise_gain(out.algorithm, shifts_rad);
+  return out;
+}
+
+bool fits(const LinearAlgorithm& algorithm, const std::vector<double>& shifts_rad) {
+  constexpr double kSame_rad = 1e-6;
+  if (algorithm.shifts_rad.size() != shifts_rad.size()) return false;
+  for (std::size_t k = 0; k < shifts_rad.size(); ++k) {
+    if (std::abs(std::remainder(algorithm.shifts_rad[k] - shifts_rad[k], kTwoPi)) > kSame_rad)
+      return false;
+  }
+  return true;
 }
 
 }  // namespace frangia

@@ -1,8 +1,11 @@
 #pragma once
 
+#include <filesystem>
 #include <span>
 #include <string>
 #include <vector>
+
+#include "frangia/core/run.h"
 
 namespace frangia {
 
@@ -55,5 +58,43 @@ struct PhaseAlgorithm {
 
 /// Changes an algorithm so that it returns a phase smaller by `angle_rad`.
 void subtract_phase_offset(double angle_rad, PhaseAlgorithm& algorithm);
+
+/// An algorithm and the frames for which it was made.
+struct LinearAlgorithm {
+  PhaseAlgorithm algorithm;        ///< its coefficients include the shifts
+  std::vector<double> shifts_rad;  ///< that the frames must have
+};
+
+/// The algorithm phi = atan2(sum numerator[k] I_k, sum denominator[k] I_k) for frames with these
+/// shifts, A + B cos(phi + shifts_rad[k]).
+///
+/// A common factor of the coefficients and a constant angle of the result are taken off, so that it
+/// returns the phase at shift zero like every other algorithm.
+///
+/// @units    rad
+/// @errors   Error(Input) when the numbers of coefficients differ, when the shifts do not determine
+///           a phase, or when the result would depend on A, vary with the phase in another way, or
+///           have the opposite sign
+/// @source   Freischlad and Koliopoulos 1990: the two sums are one complex filter of the frames
+[[nodiscard]] LinearAlgorithm linear_algorithm(const std::string& name,
+                                               const std::vector<double>& shifts_rad,
+                                               const std::vector<double>& numerator,
+                                               const std::vector<double>& denominator);
+
+/// Whether frames with these shifts are those for which the algorithm was made, up to whole turns.
+[[nodiscard]] bool fits(const LinearAlgorithm& algorithm, const std::vector<double>& shifts_rad);
+
+/// Reads a phase-shift algorithm of the user:
+///
+///     format = "frangia-algorithm"
+///     version = 1
+///     name = "mine"
+///     shifts_deg = [0, 90, 180, 270]
+///     numerator = [0, -1, 0, 1]          # phase = atan2(numerator . frames, denominator . frames)
+///     denominator = [1, 0, -1, 0]
+///
+/// @errors   Error(Input) that names the file and the key, and as `linear_algorithm`
+[[nodiscard]] LinearAlgorithm read_algorithm(const std::filesystem::path& path,
+                                             const Run& run = {});
 
 }  // namespace frangia

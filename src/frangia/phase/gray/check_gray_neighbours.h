@@ -1,7 +1,7 @@
 #pragma once
 
 #include "frangia/frames/frame_stack.h"
-#include "frangia/phase/temporal/sequence_check.h"
+#include "frangia/phase/temporal/check_sequence.h"
 
 namespace frangia {
 

@@ -3,7 +3,7 @@
 #include <complex>
 #include <vector>
 
-#include "frangia/phase/internal/fringe_bins.h"
+#include "frangia/phase/internal/fringe_curve.h"
 
 namespace frangia {
 

@@ -4,6 +4,12 @@
 #include <span>
 #include <vector>
 
+#include <Eigen/Core>
+
+#include "frangia/core/angles.h"
+#include "frangia/frames/frame_stack.h"
+#include "frangia/frames/noise_model.h"
+
 namespace frangia {
 
 /// The wrapped phases that several maps can have together: a curve over the projector's field.
@@ -35,5 +41,47 @@ class FringeCurve {
   std::vector<float> square_;
   std::vector<float> along_;
 };
+
+/// The coefficients of mean, cosine and sine in a frame: I = A + B cos(phi) cos(shift) - B sin(phi)
+/// sin(shift), linear in three unknowns.
+[[nodiscard]] Eigen::Vector3d fringe_model_row(double shift_rad);
+
+/// The normal matrix of the least-squares fit of the fringe model.
+///
+/// @errors   Error(Input) when fewer than three shifts differ, so that the phase is undetermined
+[[nodiscard]] Eigen::Matrix3d fringe_normal_matrix(const std::vector<double>& shifts_rad);
+
+/// Number of bins of the measured phase over a fringe.
+inline constexpr int kPhaseBins = 96;
+/// Number of tiles of the image, along x and along y, within which contrasts are compared.
+inline constexpr int kContrastTiles = 8;
+
+/// Phase at the centre of a bin, from -pi to pi.
+[[nodiscard]] inline double bin_phase(int bin) {
+  return -kPi + kTwoPi * (bin + 0.5) / kPhaseBins;
+}
+
+/// Statistics of sampled pixels by their measured phase.
+struct FringeBins {
+  std::size_t pixels = 0;  ///< that contribute
+  /// Inverse variance of `residual`, summed over the pixels of each bin.
+  Eigen::ArrayXd weight = Eigen::ArrayXd::Zero(kPhaseBins);
+  /// Weighted mean residual of each frame (column) from the least-squares fringe, over the
+  /// modulation.
+  Eigen::ArrayXXd residual;
+  /// Weighted mean of mean over modulation.
+  Eigen::ArrayXd mean_over_modulation = Eigen::ArrayXd::Zero(kPhaseBins);
+  /// Number of pixels, and sums of logarithms, by bin (row) and tile (column).
+  Eigen::ArrayXXd tile_count;
+  Eigen::ArrayXXd tile_log_contrast;
+  Eigen::ArrayXXd tile_log_mean;  ///< sum of the logarithm of the mean
+};
+
+/// Samples about `samples` pixels of a stack on a regular grid and bins them by the phase that
+/// least squares measures.
+[[nodiscard]] FringeBins bin_fringes(const FrameStack& stack,
+                                     const std::vector<double>& shifts_rad,
+                                     const NoiseModel& noise,
+                                     std::size_t samples);
 
 }  // namespace frangia

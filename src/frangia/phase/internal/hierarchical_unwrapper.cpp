@@ -8,7 +8,7 @@
 #include "frangia/core/error.h"
 #include "frangia/core/vectorized.h"
 #include "frangia/pattern/fringe_sequence.h"
-#include "frangia/phase/internal/frequency_slope.h"
+#include "frangia/phase/internal/fringe_frequency.h"
 #include "frangia/phase/internal/unwrap_level_lanes.h"
 #include "frangia/phase/internal/wrap_tile.h"
 #include "frangia/rig/rig.h"

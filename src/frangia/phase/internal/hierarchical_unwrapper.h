@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "frangia/pattern/pattern.h"
-#include "frangia/phase/internal/tile_phases.h"
-#include "frangia/phase/temporal/unwrap_levels.h"
+#include "frangia/phase/internal/wrap_tile.h"
+#include "frangia/phase/temporal/unwrap_temporally.h"
 #include "frangia/rig/projector.h"
 
 namespace frangia {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <numeric>
 #include <utility>
 
@@ -56,6 +57,19 @@ JumplessRegions find_jumpless_regions(const Image<float>& phase_rad) {
     if (label >= 0) label = rank[static_cast<std::size_t>(label)];
   out.size = std::move(sorted);
   return out;
+}
+
+bool is_split(std::span<const double> places) {
+  constexpr std::size_t kBeside = 5;  // pixels on both sides that belong to the surface
+  constexpr double kSameSide = 0.2;   // of the field
+  constexpr double kAtTheEnd = 0.05;  // of the field: what two neighbouring pixels span
+  for (std::size_t x = kBeside; x + kBeside + 1 < places.size(); ++x) {
+    const double jump = std::abs(places[x] - places[x + 1]);
+    if (std::abs(jump - 1.0) < kAtTheEnd && std::abs(places[x] - places[x - kBeside]) < kSameSide &&
+        std::abs(places[x + 1] - places[x + 1 + kBeside]) < kSameSide)
+      return true;
+  }
+  return false;
 }
 
 }  // namespace frangia

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "frangia/core/image.h"
@@ -17,5 +18,12 @@ struct JumplessRegions {
 /// Finds the regions of neighbouring pixels whose absolute phases differ by less than half a
 /// fringe.
 [[nodiscard]] JumplessRegions find_jumpless_regions(const Image<float>& phase_rad);
+
+/// Whether the two ends of the projector's field meet on a surface: neighbouring pixels of a line
+/// lie at opposite ends, and the next pixels on either side at the same ends.
+///
+/// @shape    `places` in the field, from 0 to 1, one per pixel of the line
+/// @missing  NaN: not measured
+[[nodiscard]] bool is_split(std::span<const double> places);
 
 }  // namespace frangia

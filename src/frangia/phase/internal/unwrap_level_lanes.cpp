@@ -4,7 +4,6 @@
 
 #include "frangia/core/angles.h"
 #include "frangia/core/vectorized.h"
-#include "frangia/phase/internal/lane_math.h"
 
 namespace frangia {
 namespace {

@@ -1,7 +1,6 @@
 #pragma once
 
 #include "frangia/core/enum_names.h"
-#include "frangia/phase/spatial/join_regions.h"
 #include "frangia/phase/spatial/split_regions.h"
 #include "frangia/phase/wrap/phase_map.h"
 

@@ -1,9 +1,11 @@
 #pragma once
 
+#include <cstddef>
 #include <span>
 #include <vector>
 
 #include "frangia/pattern/fringe_sequence.h"
+#include "frangia/pattern/pattern.h"
 #include "frangia/phase/wrap/phase_map.h"
 #include "frangia/rig/projector.h"
 
@@ -49,5 +51,28 @@ struct TemporalUnwrapOptions {
 [[nodiscard]] AbsolutePhase unwrap_finer_levels(AbsolutePhase absolute,
                                                 std::span<const WrappedPhase> finer,
                                                 const TemporalUnwrapOptions& options = {});
+
+/// One level of hierarchical unwrapping: a map or the beat of two maps.
+struct UnwrapLevel {
+  std::size_t map = 0;    ///< index of the map
+  int subtracted = -1;    ///< index of the subtracted map; -1 for none
+  double per_unit = 0.0;  ///< fringes per degree or projector pixel
+};
+
+/// Finds the levels from one fringe over the field to the finest map. Each level is the finest that
+/// is safe for noise `sigma_rad` in every map; empty when the maps do not determine an absolute
+/// phase.
+///
+/// @shape    patterns coarse to fine
+/// @units    rad
+[[nodiscard]] std::vector<UnwrapLevel> find_unwrap_levels(std::span<const Pattern> patterns,
+                                                          const Projector& projector,
+                                                          double sigma_rad = 0.05);
+
+/// Returns whether every level has a probability of a wrong order below `max_wrong_order` for noise
+/// `sigma_rad` in every map.
+[[nodiscard]] bool is_safe(std::span<const UnwrapLevel> levels,
+                           double sigma_rad,
+                           double max_wrong_order);
 
 }  // namespace frangia

@@ -9,7 +9,7 @@
 
 #include "frangia/core/angles.h"
 #include "frangia/phase/internal/fit_residuals.h"
-#include "frangia/phase/internal/fringe_bins.h"
+#include "frangia/phase/internal/fringe_curve.h"
 #include "frangia/phase/waveform/internal/fit_contrast.h"
 
 namespace frangia {

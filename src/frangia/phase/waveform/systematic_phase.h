@@ -3,7 +3,7 @@
 #include <optional>
 
 #include "frangia/phase/algorithm/fit_algorithm.h"
-#include "frangia/phase/waveform/correct_response.h"
+#include "frangia/phase/waveform/fringe_response.h"
 #include "frangia/phase/wrap/phase_map.h"
 
 namespace frangia {

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <functional>
+#include <memory>
 #include <span>
 #include <utility>
 #include <vector>
@@ -13,6 +15,7 @@
 #include "frangia/core/image.h"
 #include "frangia/core/missing.h"
 #include "frangia/core/statistics.h"
+#include "frangia/dataset/scan_folder.h"
 #include "frangia/indirect_light/extrapolate_faces.h"
 #include "frangia/reconstruct/internal/indirect_part.h"
 #include "frangia/rig/camera_model.h"
@@ -274,6 +277,54 @@ std::optional<IndirectLightReport> correct_indirect_light(MeasuredViews& measure
   IndirectLightReport report = indirect->report;
   report.corrected = points == ShiftedPoints::Moved;
   announce(report, run);
+  return report;
+}
+
+namespace {
+
+/// Indirect light in the views of one camera, and the rays of its pixels.
+struct CameraPart {
+  Image<Eigen::Vector2f> rays;
+  std::optional<IndirectPart> part;
+};
+
+}  // namespace
+
+std::optional<IndirectLightReport> count_indirect_light(const MeasuredViews& measured,
+                                                        const LitScan& lit,
+                                                        FusionOptions& fusion,
+                                                        const Run& run) {
+  constexpr double kCoarse_px = 3.0;
+  Run quiet;
+  quiet.stop = run.stop;
+  const auto& cameras = lit.scan.rig.cameras;
+  std::vector<std::unique_ptr<const ThinnedViews>> thinned;
+  std::vector<CameraViews> views;
+  for (std::size_t camera = 0; camera < cameras.size(); ++camera) {
+    thinned.push_back(std::make_unique<const ThinnedViews>(
+        measured, camera, cameras[camera].camera.model, 1, quiet));
+    views.push_back({thinned.back()->views, thinned.back()->camera});
+  }
+  const Mesh surface = fuse_views(views, thinned.front()->coarse_fusion(kCoarse_px, fusion), quiet);
+  const auto parts = std::make_shared<std::vector<CameraPart>>(cameras.size());
+  std::optional<IndirectLightReport> report;
+  for (std::size_t camera = 0; camera < parts->size(); ++camera) {
+    CameraPart& own = (*parts)[camera];
+    const Scan scan = scan_of_camera(lit.scan, camera);
+    own.rays = rays_of(scan.rig.reference().model);
+    own.part = indirect_part(
+        lit_views(*thinned[camera], lit, scan.rig.projector), surface, ShiftedPoints::Kept, run);
+    if (own.part && (!report || own.part->report.largest_mm > report->largest_mm))
+      report = own.part->report;
+  }
+  if (!report) return report;
+  report->corrected = false;
+  fusion.terms.push_back(
+      {UncertaintyTerm::IndirectLight, [parts](const View& view, std::size_t camera) {
+         const CameraPart& own = parts->at(camera);
+         return own.part ? own.part->correction->systematic_mm(view, own.rays) : Image<float>();
+       }});
+  announce(*report, run);
   return report;
 }
 

@@ -12,7 +12,6 @@
 #include "frangia/fusion/fuse_views.h"
 #include "frangia/geometry/mesh.h"
 #include "frangia/indirect_light/indirect_correction.h"
-#include "frangia/indirect_light/indirect_light_report.h"
 #include "frangia/reconstruct/internal/measure_views.h"
 #include "frangia/rig/camera_model.h"
 

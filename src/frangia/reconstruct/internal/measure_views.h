@@ -12,7 +12,7 @@
 #include "frangia/dataset/scan_folder.h"
 #include "frangia/decode/decode_view.h"
 #include "frangia/decode/decoded_views.h"
-#include "frangia/decode/view_summary.h"
+#include "frangia/decode/view_quality.h"
 #include "frangia/fringe_order/resolve_by_views.h"
 #include "frangia/indirect_light/estimate_albedo.h"
 #include "frangia/pattern/pattern.h"

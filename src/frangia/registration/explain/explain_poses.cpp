@@ -7,15 +7,15 @@
 #include <utility>
 
 #include "frangia/core/statistics.h"
+#include "frangia/registration/explain/internal/cause_motions.h"
 #include "frangia/registration/explain/internal/correct_poses.h"
 #include "frangia/registration/explain/internal/describe_explanation.h"
-#include "frangia/registration/explain/internal/displace_views.h"
 #include "frangia/registration/explain/internal/measure_cause.h"
 #include "frangia/registration/explain/internal/scored_round.h"
 #include "frangia/registration/explain/internal/spread_of_causes.h"
 #include "frangia/registration/explain/internal/time_profiles.h"
 #include "frangia/registration/internal/assess_fit.h"
-#include "frangia/registration/internal/state_motions.h"
+#include "frangia/registration/internal/table_state.h"
 #include "frangia/registration/refine_rig.h"
 
 namespace frangia {

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "frangia/registration/explain/pose_explanation.h"
+#include "frangia/registration/internal/assess_fit.h"
 #include "frangia/registration/internal/explain_poses.h"
-#include "frangia/registration/internal/leave_out_views.h"
 
 namespace frangia {
 

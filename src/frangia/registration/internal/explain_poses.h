@@ -6,7 +6,7 @@
 #include <Eigen/Geometry>
 
 #include "frangia/registration/explain/pose_explanation.h"
-#include "frangia/registration/internal/leave_out_views.h"
+#include "frangia/registration/internal/assess_fit.h"
 #include "frangia/registration/register_views.h"
 #include "frangia/registration/view_motions.h"
 #include "frangia/rig/rig.h"

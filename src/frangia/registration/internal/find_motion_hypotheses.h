@@ -6,7 +6,7 @@
 
 #include <Eigen/Geometry>
 
-#include "frangia/registration/internal/match_features.h"
+#include "frangia/registration/internal/surface_features.h"
 #include "frangia/registration/surface_points.h"
 
 namespace frangia {

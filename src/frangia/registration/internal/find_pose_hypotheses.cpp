@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "frangia/registration/internal/find_motion_hypotheses.h"
-#include "frangia/registration/internal/match_features.h"
+#include "frangia/registration/internal/surface_features.h"
 
 namespace frangia {
 namespace {

@@ -8,6 +8,7 @@
 
 #include "frangia/local_fit/surfel_map.h"
 #include "frangia/registration/internal/view_pairs.h"
+#include "frangia/registration/view_motions.h"
 #include "frangia/rig/camera_model.h"
 
 namespace frangia {
@@ -43,5 +44,14 @@ struct FreePoseSums {
 
 /// Moves the views 1, 2, ... in the world by a step in the unknowns.
 void apply_update(FreePoseBundle& bundle, const Eigen::VectorXd& step);
+
+/// How the poses of free views may be wrong by what their pairs leave open, in independent changes
+/// of one standard deviation.
+///
+/// @shape    one for each view; that of view 0, whose pose is held, is 0
+/// @units    `prior_mm`: standard deviation of the given poses, as the way of a view's points
+[[nodiscard]] ViewMotions motions_of_free_poses(const FreePoseBundle& bundle,
+                                                const FreePoseSums& sums,
+                                                double prior_mm);
 
 }  // namespace frangia

@@ -10,6 +10,7 @@
 #include "frangia/registration/internal/sum_ties.h"
 #include "frangia/registration/internal/turntable_bundle.h"
 #include "frangia/registration/internal/view_pairs.h"
+#include "frangia/registration/register_views.h"
 #include "frangia/rig/camera_model.h"
 
 namespace frangia {
@@ -51,5 +52,34 @@ void optimize_bundle(Bundle& bundle,
                      const SurfelLists& surfels,
                      int max_iterations,
                      const Run& run);
+
+/// The state that rig, stations and options give to start from.
+///
+/// @errors   Error(Input) when a further setup has no part pose
+[[nodiscard]] TableState given_state(const TurntableStations& given,
+                                     const RegisterOptions& options);
+
+/// Standard deviations of the prior of each unknown of a state.
+[[nodiscard]] Eigen::VectorXd prior_sigmas(const TableState& state,
+                                           const RegisterOptions& options,
+                                           double distance_mm);
+
+/// A bundle with the surfel map of each view, in the given state. Lengths of the options are
+/// relative to the working distance, the median distance of the surfels from the camera.
+[[nodiscard]] Bundle make_bundle(const ViewStore& views,
+                                 const CameraModel& camera,
+                                 const TableState& given,
+                                 const RegisterOptions& options,
+                                 const Run& run);
+
+/// Lengths of the measured part.
+struct PartScale {
+  double radius_mm = 0.0;    ///< 95 % of the surfels are nearer to their centroid
+  double sampling_mm = 0.0;  ///< median distance between points of neighbouring pixels
+};
+
+[[nodiscard]] PartScale measure_part_scale(const Bundle& bundle,
+                                           const SurfelLists& surfels,
+                                           const CameraModel& camera);
 
 }  // namespace frangia

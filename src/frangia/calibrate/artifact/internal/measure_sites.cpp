@@ -135,8 +135,7 @@ ArtifactCapture measure_balls(const Scan& scan,
   std::vector<Eigen::Vector3d> sums(count, Eigen::Vector3d::Zero());
   for (std::size_t i = 0; i < measured.size(); ++i) {
     const std::vector<Eigen::Vector3d> points = site_points(measured[i], rig);
-    std::vector<FoundBall> found =
-        find_balls(points, 0.5 * balls.diameter_mm, count);
+    std::vector<FoundBall> found = find_balls(points, 0.5 * balls.diameter_mm, count);
     ArtifactView view{scan.views[i].folder.generic_string(), scan.views[i].angle_rad, {}, {}, {}};
     if (found.size() < count) {
       capture.left_out.push_back(view.name);

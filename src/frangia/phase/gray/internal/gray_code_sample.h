@@ -10,7 +10,7 @@
 #include "frangia/core/missing.h"
 #include "frangia/phase/gray/check_gray_code.h"
 #include "frangia/phase/gray/internal/gray_trials.h"
-#include "frangia/phase/internal/best_frequency.h"
+#include "frangia/phase/internal/fringe_frequency.h"
 
 namespace frangia {
 

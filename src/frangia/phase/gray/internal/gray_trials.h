@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "frangia/pattern/pattern.h"
-#include "frangia/phase/temporal/sequence_check.h"
+#include "frangia/phase/temporal/check_sequence.h"
 
 namespace frangia {
 

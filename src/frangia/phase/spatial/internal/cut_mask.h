@@ -1,8 +1,10 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 
 #include "frangia/core/image.h"
+#include "frangia/phase/wrap/phase_map.h"
 
 namespace frangia {
 
@@ -20,5 +22,10 @@ struct SmoothSteps {
 [[nodiscard]] Image<std::uint8_t> mark_near_cuts(const Image<float>& phase_rad,
                                                  const SmoothSteps& smooth,
                                                  int radius_px);
+
+/// Discards the four pixels of each residue and returns the number of discarded pixels.
+///
+/// @source   the paper's reference [34], Huntley 1989
+std::size_t discard_residues(WrappedPhase& phase);
 
 }  // namespace frangia

@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "frangia/phase/internal/fringe_bins.h"
+#include "frangia/phase/internal/fringe_curve.h"
 #include "frangia/rig/fringe_waveform.h"
 
 namespace frangia {

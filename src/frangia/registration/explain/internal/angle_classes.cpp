@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "frangia/core/angles.h"
-#include "frangia/registration/internal/state_motions.h"
+#include "frangia/registration/internal/table_state.h"
 
 namespace frangia {
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "frangia/registration/explain/internal/displace_views.h"
+#include "frangia/registration/explain/internal/cause_motions.h"
 #include "frangia/registration/explain/internal/moved_rig.h"
 #include "frangia/registration/explain/internal/time_profiles.h"
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "frangia/registration/explain/internal/scored_round.h"
-#include "frangia/registration/internal/leave_out_views.h"
+#include "frangia/registration/internal/assess_fit.h"
 
 namespace frangia {
 

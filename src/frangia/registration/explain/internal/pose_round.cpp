@@ -10,7 +10,7 @@
 #include "frangia/geometry/robust_gauss_newton.h"
 #include "frangia/registration/explain/internal/cause_motions.h"
 #include "frangia/registration/explain/internal/time_profiles.h"
-#include "frangia/registration/internal/state_motions.h"
+#include "frangia/registration/internal/table_state.h"
 
 namespace frangia {
 namespace {

@@ -6,7 +6,7 @@
 #include <Eigen/Core>
 
 #include "frangia/registration/explain/internal/scored_round.h"
-#include "frangia/registration/internal/leave_out_views.h"
+#include "frangia/registration/internal/assess_fit.h"
 #include "frangia/rig/rig_covariance.h"
 
 namespace frangia {

@@ -5,8 +5,8 @@
 
 #include "frangia/core/angles.h"
 #include "frangia/core/parallel.h"
-#include "frangia/registration/internal/state_motions.h"
 #include "frangia/registration/internal/surfel_pair.h"
+#include "frangia/registration/internal/table_state.h"
 
 namespace frangia {
 
