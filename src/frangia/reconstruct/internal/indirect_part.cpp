@@ -261,7 +261,8 @@ FusionOptions ThinnedViews::coarse_fusion(double voxel_px, FusionOptions options
   const auto px = static_cast<double>((rays(1, 0) - rays(0, 0)).norm());
   for (std::size_t i = 0; i < views.size(); ++i) {
     std::vector<float> depths_mm;
-    for (const float depth : views.load_depth_mm(i).pixels())
+    const Image<float> depth_mm = views.load_depth_mm(i);
+    for (const float depth : depth_mm.pixels())
       if (!std::isnan(depth)) depths_mm.push_back(depth);
     if (depths_mm.empty()) continue;
     options.voxel_mm = std::max(voxel_px / step_px, kLeastVoxel_px) * px *

@@ -42,7 +42,8 @@ std::vector<PointCloud> points_of_setups(const MeasuredSetup& joined,
     if (join.joined && join.number != joined.number) numbers.push_back(join.number);
   std::size_t points = 0;
   for (std::size_t i = 0; i < measured.reference().size(); ++i) {
-    for (const float depth : measured.reference().load_depth_mm(i).pixels())
+    const Image<float> depth_mm = measured.reference().load_depth_mm(i);
+    for (const float depth : depth_mm.pixels())
       points += std::isnan(depth) ? 0U : 1U;
   }
   const std::size_t step =
