@@ -170,7 +170,7 @@ TEST_F(RegistrationProgram, AClipThatTakesAllIsRefused) {
 TEST_F(RegistrationProgram, AViewOfAPartThatWasPushedIsNamedAndLeftOut) {
   write_pushed_scan(1);
   const Answer answer = run_program("--quiet reconstruct " + path("scan") + " -o " + path("a.ply"));
-  expect_told(answer, 4, "view views/1 fits no other view: the part was elsewhere in it alone");
+  expect_told(answer, 4, "view 1 fits no other view: the part was elsewhere in it alone");
   EXPECT_EQ(answer.output.find("contradict each other"), std::string::npos) << answer.output;
 }
 

@@ -64,6 +64,7 @@ TEST(ReportWords, KeepTheNamesOfAPlan) {
   EXPECT_EQ(german("axis: plane"), "axis: Ebene");
   EXPECT_EQ(german("the worst is plane: 10.2 mm, U95 0.01"),
             "am schlechtesten ist plane: 10.2 mm, U95 0.01");
+  EXPECT_EQ(german("axis diameter was not measured"), "axis, Durchmesser wurde nicht gemessen");
 }
 
 /// The texts of a page that hold words, without its style.

@@ -59,7 +59,7 @@ std::string texts_of(const std::vector<SectionDimension>& dimensions) {
 
 TEST(SectionDimensions, AreTheDiametersOfWhatThePlaneCutsAcross) {
   const auto across = section_dimensions(section_plane({1, 2, 40}, {0, 0, 1}), shaft(), rows());
-  ASSERT_EQ(texts_of(across), "⌀ 12.000 ± 0.004; ");
+  ASSERT_EQ(texts_of(across), "⌀ 12.0000 ± 0.0040; ");
   EXPECT_EQ(across[0].conformity, Conformity::Out);
   EXPECT_NEAR((across[0].to_mm - across[0].from_mm).norm(), 12.0, 1e-12);
   // The axis is the origin of the part, and the plane begins at (1, 2).
@@ -71,7 +71,7 @@ TEST(SectionDimensions, AreTheDiametersOfWhatThePlaneCutsAcross) {
 
 TEST(SectionDimensions, AreDiametersAndDistancesWhereThePlaneHoldsTheAxis) {
   const auto along = section_dimensions(section_plane({0, 0, 0}, {0, 1, 0}), shaft(), rows());
-  ASSERT_EQ(texts_of(along), "⌀ 20.000 ± 0.010; ⌀ 12.000 ± 0.004; 50.010; ");
+  ASSERT_EQ(texts_of(along), "⌀ 20.000 ± 0.010; ⌀ 12.0000 ± 0.0040; 50.010; ");
   EXPECT_FALSE(along[0].conformity);
   for (const auto& [index, length] : {std::pair(0, 20.0), std::pair(1, 12.0), std::pair(2, 50.0)}) {
     const SectionDimension& dimension = along.at(static_cast<std::size_t>(index));
@@ -111,7 +111,7 @@ TEST(SectionDimensions, AreDrawnWhereTheyDoNotCoverEachOther) {
     boxes.push_back(box);
   }
   EXPECT_EQ(boxes.size(), dimensions.size());
-  EXPECT_NE(svg.find("⌀ 12.000 ± 0.004"), std::string::npos);
+  EXPECT_NE(svg.find("⌀ 12.0000 ± 0.0040"), std::string::npos);
 }
 
 }  // namespace

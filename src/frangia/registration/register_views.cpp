@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -290,6 +291,12 @@ Attempt register_once(ViewStore& views,
 
 }  // namespace
 
+std::string Station::label(std::size_t view) const {
+  constexpr std::string_view kFolder = "views/";
+  if (name.empty()) return std::to_string(view);
+  return name.starts_with(kFolder) ? name.substr(kFolder.size()) : name;
+}
+
 void RegisterOptions::check() const {
   require(angle_sigma_rad > 0.0, "RegisterOptions: angle_sigma_rad must be above 0");
   require(tilt_sigma_rad > 0.0, "RegisterOptions: tilt_sigma_rad must be above 0");
@@ -327,7 +334,7 @@ RegistrationReport register_views(ViewStore& views,
         "view {} contradicts the surfaces of the others, which agree without it, and is left out: "
         "check that nothing moved while it was captured or covered the part, and that it is in "
         "focus",
-        given.stations[view].name.empty() ? std::to_string(view) : given.stations[view].name));
+        given.stations[view].label(view)));
     views.clear(view);
     outliers.push_back(view);
     std::erase_if(ties, [&](const PointTie& tie) { return tie.from == view || tie.to == view; });

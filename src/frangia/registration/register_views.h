@@ -69,6 +69,10 @@ struct Station {
   std::size_t setup = 0;     ///< the part was turned over or tilted between setups
   double time_s = kMissing;  ///< when its frames were taken, since the scan began; missing: the
                              ///< stations are taken for even in time
+
+  /// What a sentence says behind "view": its number for "views/NUMBER", else its name; `view`, if
+  /// it has none.
+  [[nodiscard]] std::string label(std::size_t view) const;
 };
 
 /// The turntable as the rig gives it, and its stations, one a view.

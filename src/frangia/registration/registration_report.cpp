@@ -91,8 +91,9 @@ std::string stated_text(const RegistrationReport& report) {
     const double sigma = length                   ? report.sigma.point_mm
                          : unknown == kTiltOfAxis ? deg_from_rad(report.sigma.axis_rad)
                                                   : deg_from_rad(report.sigma.angle_rad);
-    list += fmt::format(
-        "{}{} ({:.2g}{})", list.empty() ? "" : ", ", unknown, sigma, length ? " mm" : "°");
+    const std::string stated =
+        sigma > 0.0 ? fmt::format("{:.2g}{}", sigma, length ? " mm" : "°") : "stated as exact";
+    list += fmt::format("{}{} ({})", list.empty() ? "" : ", ", unknown, stated);
   }
   return fmt::format(
       "; the overlap of the views hardly shows {}: there what the rig states decides, and its "

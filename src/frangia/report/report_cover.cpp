@@ -37,7 +37,7 @@ std::size_t rows_on_cover(const InspectionReport& report,
     room_mm -= kLine_mm * static_cast<double>(lines_of(reason, 102) - 1);
   std::size_t count = 0;
   for (const MeasuredCharacteristic& row : rows) {
-    room_mm -= 1.7 + kLine_mm * static_cast<double>(lines_of(words.name(row.name), 24));
+    room_mm -= 1.7 + kLine_mm * static_cast<double>(lines_of(words.name(row.name), 21));
     if (!row.reason.empty())
       room_mm -= 1.7 + kLine_mm * static_cast<double>(lines_of(words.sentence(row.reason), 110));
     if (room_mm < 0.0) break;

@@ -84,7 +84,7 @@ std::string ReportWords::filled(std::string_view form,
     const auto place = place_at(form);
     if (place) {
       const std::string_view value = values[slot_of(*place)];
-      text += place->is_name ? std::string(value) : (*this)(value);
+      text += place->is_name ? name(value) : (*this)(value);
     } else {
       text += form.front();
     }

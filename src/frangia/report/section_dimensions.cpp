@@ -22,9 +22,11 @@ Vector2d in_plane(const SectionPlane& plane, const Vector3d& point) {
   return {from.dot(plane.u), from.dot(plane.v)};
 }
 
+/// A value with as many decimals as its U95 has with two digits.
 std::string value_text(const char* sign, double value, double u95) {
-  const std::string text = fmt::format("{}{:.3f}", sign, value);
-  return std::isfinite(u95) ? fmt::format("{} ± {:.3f}", text, u95) : text;
+  if (!(u95 > 0.0)) return fmt::format("{}{:.3f}", sign, value);
+  const int decimals = std::clamp(1 - static_cast<int>(std::floor(std::log10(u95))), 0, 4);
+  return fmt::format("{0}{1:.{3}f} ± {2:.{3}f}", sign, value, u95, decimals);
 }
 
 /// The ends of a diameter of a round feature in the plane; none where the plane does not show it.

@@ -343,4 +343,5 @@ export const FAULTS_REGISTRATION = {
     '; die Überlappung der Ansichten zeigt {0} kaum: dort entscheidet die Angabe des Aufbaus, deren Standardabweichung in Sigma steht',
     "; la sovrapposizione delle viste mostra appena {0}: lì decide quanto dichiara l'apparato, il cui scarto tipo è in sigma",
   ],
+  'fault.statedAsExact': ['stated as exact', 'als exakt angegeben', 'indicato come esatto'],
 } as const satisfies Rows;

@@ -234,7 +234,7 @@ void calibrate_by_balls(std::span<const Scan> scans,
   if (!start.projector.is_angular()) rig.projector = start.projector;
   const std::size_t plates = result.captures.size();
   for (const Scan& scan : scans) {
-    if (is_kind<Balls>(scan)) result.captures.push_back(measure_balls(scan, rig, options, run));
+    if (is_kind<Balls>(scan)) result.captures.push_back(measure_balls(scan, rig, run));
   }
   if (plates > 0 && !options.solve.baseline_mm && start.projector.is_angular()) {
     const ArtifactCapture& balls = result.captures[plates];

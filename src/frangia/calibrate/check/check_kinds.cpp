@@ -74,7 +74,7 @@ RigCheck check_balls_of(const Scan& scan,
                         const Run& run) {
   const Rig& rig = scan.rig;
   const auto& balls = std::get<Balls>(*scan.artifact);
-  const ArtifactCapture capture = measure_balls(scan, rig, options.measure, run);
+  const ArtifactCapture capture = measure_balls(scan, rig, run);
   const std::size_t count = capture.surfaces.size();
   std::vector<double> spacings;
   std::vector<std::vector<double>> diameters(count);

@@ -119,10 +119,7 @@ struct ArtifactLinearization {
 /// Finds balls in all views of a scan by a rig that is right but for its scale.
 ///
 /// @errors   Error(Input) when no view shows all balls
-[[nodiscard]] ArtifactCapture measure_balls(const Scan& scan,
-                                            const Rig& rig,
-                                            const CalibrateArtifactsOptions& options,
-                                            const Run& run);
+[[nodiscard]] ArtifactCapture measure_balls(const Scan& scan, const Rig& rig, const Run& run);
 
 /// The points of sites as the rig triangulates them.
 ///

@@ -88,7 +88,7 @@ struct Registration {
   std::optional<std::size_t> contradicting{};
 
   [[nodiscard]] std::string name_of(std::size_t view) const {
-    return stations[view].name.empty() ? std::to_string(view) : stations[view].name;
+    return stations[view].label(view);
   }
   void optimize_again();  ///< from the given state on
   void leave_out(std::size_t view);

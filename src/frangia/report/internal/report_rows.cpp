@@ -50,7 +50,7 @@ constexpr ReportRow kSheetRows[] = {
     {"of", "von", "di"},
     // the table of results
     {"characteristic", "Merkmal", "caratteristica"},
-    {"unit", "Einheit", "unità"},
+    {"unit", "Einh.", "unità"},
     {"nominal", "Nennwert", "nominale"},
     {"tolerance", "Toleranz", "tolleranza"},
     {"measured", "gemessen", "misurato"},

@@ -115,10 +115,7 @@ bool is_frontal(const Eigen::Vector3d& point, const Eigen::Vector3d& center, con
 
 }  // namespace
 
-ArtifactCapture measure_balls(const Scan& scan,
-                              const Rig& rig,
-                              const CalibrateArtifactsOptions& options,
-                              const Run& run) {
+ArtifactCapture measure_balls(const Scan& scan, const Rig& rig, const Run& run) {
   const auto& balls = std::get<Balls>(*scan.artifact);
   constexpr double kFarOff = 12.0;  // diameters, where the rig has no turntable
   const std::size_t count = balls.spacing_mm ? 2 : 1;
