@@ -124,6 +124,8 @@ class AllTurns {
         for (const std::size_t view : found.as.views)
           add(view, view + 1, kTwoPi);
         break;
+      case AngleClass::Even:
+        return spaced_elsewhere(found);
       default:
         break;
     }
@@ -131,6 +133,25 @@ class AllTurns {
   }
 
  private:
+  /// Other spacings of all views with which they fit.
+  [[nodiscard]] std::vector<std::vector<double>> spaced_elsewhere(
+      const ClassedAngles& found) const {
+    constexpr double kFits = 0.2;  // of the fit with the spacing found
+    constexpr int kNear = 5;       // steps
+    std::vector<std::vector<double>> spaced;
+    std::vector<double> fit;
+    for (int i = 0; i <= 2 * kTurnSteps; ++i) {
+      spaced.push_back(found.angles_rad);
+      for (std::size_t view = 0; view < given_.size(); ++view)
+        spaced.back()[view] += i * kTurnStep_rad * static_cast<double>(view);
+      fit.push_back(fits_.fit_of(spaced.back()));
+    }
+    std::vector<std::vector<double>> all;
+    for (std::size_t i = kNear; i + kNear < fit.size(); ++i)
+      if (fit[i] >= kFits * fit[0] && fit[i] >= fit[i - 1] && fit[i] >= fit[i + 1])
+        all.push_back(spaced[i]);
+    return all;
+  }
   /// Of some views with all others.
   [[nodiscard]] double fit_between(std::size_t first,
                                    std::size_t last,
