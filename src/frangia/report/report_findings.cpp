@@ -67,7 +67,7 @@ void add_walls(HtmlPage& page, const InspectionReport& report, const ReportWords
   Rows rows{{"measured area, mm²", number_text(t.area_mm2, 1)},
             {"smallest, mm", number_text(t.min_mm, 4)},
             {"its standard uncertainty, mm", number_text(t.min_u_mm, 4)},
-            {"its place, mm", fmt::format("{:.2f} {:.2f} {:.2f}", at.x(), at.y(), at.z())},
+            {"its place, mm", at.allFinite() ? point_text(at, 2) : ""},
             {"5 % of the area is below, mm", number_text(t.p5_mm, 4)},
             {"median, mm", number_text(t.median_mm, 4)},
             {"mean, mm", number_text(t.mean_mm, 4)},

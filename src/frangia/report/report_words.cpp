@@ -30,6 +30,11 @@ std::size_t slot_of(const Place& place) {
   return place.index + (place.is_name ? 10U : 0U);
 }
 
+/// Whether a text can be a value: it is no sentence of several clauses.
+bool is_value(std::string_view text) {
+  return !text.empty() && text.find("; ") == std::string_view::npos;
+}
+
 /// Whether the text has the form of the row; then its values. A value is as short as possible.
 bool matches(std::string_view form, std::string_view text, Values& values) {
   while (!form.empty()) {
@@ -43,11 +48,12 @@ bool matches(std::string_view form, std::string_view text, Values& values) {
     form.remove_prefix(3);
     if (form.empty()) {
       values.at(slot_of(*place)) = text;
-      return !text.empty();
+      return is_value(text);
     }
     const std::string_view literal = form.substr(0, form.find('{'));
     for (std::size_t at = text.find(literal, 1); at != std::string_view::npos;
          at = text.find(literal, at + 1)) {
+      if (!is_value(text.substr(0, at))) return false;
       if (!matches(form, text.substr(at), values)) continue;
       values.at(slot_of(*place)) = text.substr(0, at);
       return true;
