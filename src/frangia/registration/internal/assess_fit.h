@@ -87,9 +87,7 @@ struct Registration {
   /// The one view that is in all contradictions of the views.
   std::optional<std::size_t> contradicting{};
 
-  [[nodiscard]] std::string name_of(std::size_t view) const {
-    return stations[view].label(view);
-  }
+  [[nodiscard]] std::string name_of(std::size_t view) const { return stations[view].label(view); }
   void optimize_again();  ///< from the given state on
   void leave_out(std::size_t view);
 };
