@@ -188,16 +188,6 @@ TEST(ExplainAngles, FindsEvenlySpacedViewsThatAllStateOneAngle) {
   EXPECT_LT(out.error_mm, 0.005) << out.report.explanation.text;
 }
 
-TEST(ExplainAngles, DoesNotSpaceAPartThatFitsInManySpacings) {
-  FaultyScan scan(8);
-  for (double& angle : scan.stated_angles_rad)
-    angle = 0.0;
-  const Registered out = registered(scan, RayScene(make_part("gear")));
-  const bool trusted = out.report.outliers.empty() && out.report.untrusted_reason().empty();
-  EXPECT_TRUE(!trusted || out.error_mm < 0.01)
-      << out.error_mm << " mm: " << out.report.explanation.text;
-}
-
 TEST(ExplainAngles, DoesNotFitACopyOfAViewInAnotherTurn) {
   FaultyScan scan(8);
   ViewStore views = scan.take(bracket());

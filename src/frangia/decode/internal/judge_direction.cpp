@@ -151,7 +151,7 @@ std::optional<SequenceCheck> report_frames(const std::vector<FrameVerdict>& verd
     }
     if (verdict.action == FrameAction::Use && !verdict.remedy_rad.empty())
       run.warn(fmt::format("{}; decoded with the shifts that fit", verdict.finding));
-    if (verdict.action == FrameAction::Use && found.has_fault() && verdict.remedy_rad.empty())
+    if (verdict.action == FrameAction::Use && found.best.cause == FrameCause::Covered)
       run.warn(fmt::format("{}; the pixels where the frames contradict each other are left out; {}",
                            verdict.finding,
                            found.explanation.remedy));
