@@ -15,11 +15,11 @@ using PageWords = std::function<std::string(std::string_view)>;
 
 /// Size of the paper that a page is printed on, and what stands on each sheet.
 struct HtmlPaper {
-  std::string size = "A4";  ///< A4 or Letter
-  std::string head;         ///< at the top of every sheet but the first
-  std::string foot;         ///< at the bottom of every sheet, beside its number
-  std::string language = "en";
-  PageWords words;  ///< for texts in English; none: they stay
+  std::string size = "A4";      ///< A4 or Letter
+  std::string head;             ///< at the top of every sheet but the first
+  std::string foot;             ///< at the bottom of every sheet, beside its number
+  std::string language = "en";  ///< its code, as the attribute lang
+  PageWords words;              ///< for texts in English; none: they stay
 };
 
 /// A page of HTML without references to other files, scripts or layout grids, which a browser shows

@@ -16,8 +16,8 @@ namespace frangia {
 
 /// Unknowns of a registration, in words.
 inline constexpr const char* kTiltOfAxis = "the tilt of the axis";
-inline constexpr const char* kPositionOfAxis = "the position of the axis";
-inline constexpr const char* kAnglesOfViews = "the angles of the views";
+inline constexpr const char* kPositionOfAxis = "the position of the axis";  ///< see `kTiltOfAxis`
+inline constexpr const char* kAnglesOfViews = "the angles of the views";    ///< see `kTiltOfAxis`
 
 /// Result of the registration of a turntable's views.
 ///

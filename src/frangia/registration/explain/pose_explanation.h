@@ -53,8 +53,8 @@ struct PoseExplanation {
   /// Of angles that are not those stated: of `views`, what they are off by; whether two views have
   /// each other's; and the spacing, where all views have one stated angle and are evenly spaced.
   std::vector<double> turns_rad{};
-  bool exchanged = false;
-  double spacing_rad = kMissing;
+  bool exchanged = false;          ///< two views have each other's angle
+  double spacing_rad = kMissing;   ///< between neighbouring views that state one angle; NaN: none
   std::vector<std::string> terms;  ///< of the rig, that changed most
   /// Of a drift that approaches its end exponentially, as a share of the time between the first
   /// view and the last.
