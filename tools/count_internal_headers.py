@@ -7,7 +7,7 @@ import pathlib
 import re
 import sys
 
-MOST = 50
+MOST = 48
 
 
 def main(root, *options):

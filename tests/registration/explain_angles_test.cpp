@@ -188,6 +188,16 @@ TEST(ExplainAngles, FindsEvenlySpacedViewsThatAllStateOneAngle) {
   EXPECT_LT(out.error_mm, 0.005) << out.report.explanation.text;
 }
 
+// A plate fits in two spacings.
+TEST(ExplainAngles, DoesNotSpaceAPartThatFitsInManySpacings) {
+  FaultyScan scan(8);
+  for (double& angle : scan.stated_angles_rad)
+    angle = 0.0;
+  const Registered out = registered(scan, RayScene(make_part("plate")));
+  EXPECT_NE(out.report.explanation.best, PoseCause::AnglesWrong) << out.report.explanation.text;
+  EXPECT_FALSE(out.report.outliers.empty() && out.report.untrusted_reason().empty());
+}
+
 TEST(ExplainAngles, DoesNotFitACopyOfAViewInAnotherTurn) {
   FaultyScan scan(8);
   ViewStore views = scan.take(bracket());

@@ -47,10 +47,11 @@ TEST(ReportWords, TranslateSentencesWithTheirValues) {
   EXPECT_EQ(german("bore 3"), "bore 3");
   EXPECT_EQ(german(""), "");
   EXPECT_EQ(ReportWords("en")("out"), "out");
-  EXPECT_EQ(ReportWords("it").sentence("measure with a smaller uncertainty; what nobody knows; "
-                                       "the widest gap is 3 mm at (1, 2, 3) mm"),
-            "misurare con un'incertezza minore; what nobody knows; la lacuna più larga è di 3 mm a "
-            "(1, 2, 3) mm");
+  EXPECT_EQ(
+      ReportWords("it").sentence("measure with a smaller uncertainty; a clause without a row; "
+                                 "the widest gap is 3 mm at (1, 2, 3) mm"),
+      "misurare con un'incertezza minore; a clause without a row; la lacuna più larga è di 3 mm a "
+      "(1, 2, 3) mm");
   EXPECT_EQ(german.sentence("what; calibrate again, or state a tolerance that this rig can decide"),
             "what; neu kalibrieren oder eine Toleranz wählen, die dieser Aufbau entscheiden kann");
   EXPECT_THROW(ReportWords("fr"), Error);

@@ -12,14 +12,14 @@ namespace frangia {
 /// outlive the attempt.
 class HeldMessages {
  public:
-  /// The run with which the attempt is made; what it is told is held back.
+  /// A run for the attempt, whose warnings and notes are held back.
   [[nodiscard]] Run in_place_of(const Run& run) {
     Run held = run;
     held.on_warning = [this](const std::string& text) { texts_.emplace_back(true, text); };
     held.on_note = [this](const std::string& text) { texts_.emplace_back(false, text); };
     return held;
   }
-  /// Tells what was held back, in its order.
+  /// Gives them to `run`, in their order.
   void pass_on(const Run& run) const {
     for (const auto& [is_warning, text] : texts_)
       is_warning ? run.warn(text) : run.note(text);

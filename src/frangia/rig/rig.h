@@ -127,7 +127,7 @@ struct PhaseRange {
 [[nodiscard]] double fringe_parallax_px(const Rig& rig, FringeDirection direction);
 
 /// The direction of fringes that measures depth better: horizontal for a projector above or below
-/// the camera, vertical for one beside it and for an angular projector.
+/// the camera, vertical for one to its left or right and for an angular projector.
 [[nodiscard]] FringeDirection measuring_direction(const Rig& rig);
 
 /// Whether fringes of a direction measure next to nothing, while those of the other would: their

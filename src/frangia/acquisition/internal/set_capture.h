@@ -54,7 +54,7 @@ class SetFiles {
   [[nodiscard]] std::vector<bool> stored_frames(std::size_t view, const Pattern& pattern) const;
   /// The scale of a set's shifts: that of its stored frames, else that of the next set.
   [[nodiscard]] double scale_of(std::size_t view, const Pattern& pattern) const;
-  /// Moves the frames of a rejected set to the folder `rejected` beside them. Raw frames are never
+  /// Moves the frames of a rejected set to the view's folder `rejected`. Raw frames are never
   /// changed or deleted.
   void move_to_rejected(std::size_t view, const Pattern& pattern, int attempt) const;
 

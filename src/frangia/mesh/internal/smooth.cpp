@@ -16,7 +16,7 @@ namespace frangia {
 namespace {
 
 constexpr double kSharpCosine = 0.8;  // an edge is sharp above a dihedral angle of 37 degrees
-// Fractions of the limit. Sharp edges are shape rather than noise, and vertices beside them often
+// Fractions of the limit. Sharp edges are shape rather than noise, and vertices next to them often
 // belong to the edge. `./run figures` measures what smoothing does to the edges of the block.
 constexpr float kAtEdges = 0.15F;
 constexpr float kBesideEdges = 0.4F;

@@ -14,32 +14,10 @@
 #include "frangia/core/parallel.h"
 #include "frangia/phase/internal/fringe_forest.h"
 #include "frangia/phase/spatial/internal/cut_mask.h"
-#include "frangia/phase/spatial/internal/unwrap_pixels.h"
 #include "frangia/phase/spatial/internal/unwrap_run_merging.h"
+#include "frangia/phase/spatial/split_regions.h"
 
 namespace frangia {
-
-RelativePhase unwrap_spatially(WrappedPhase phase, const SpatialUnwrapOptions& options) {
-  discard_residues(phase);
-  Regions regions = split_regions(phase, options.split);
-  RelativePhase relative;
-  Image<std::int32_t> order;
-  if (options.keep_growth_order) order = unwrap_quality_guided(phase, regions, true).growth_order;
-  switch (options.method) {
-    case SpatialMethod::RunMerging:
-      relative = unwrap_run_merging(std::move(phase), regions);
-      break;
-    case SpatialMethod::QualityGuided:
-      relative = unwrap_quality_guided(phase, regions);
-      break;
-    case SpatialMethod::ReliabilitySorted:
-      relative = unwrap_reliability_sorted(phase, regions);
-      break;
-  }
-  relative.growth_order = std::move(order);
-  join_regions(relative, regions, options.join);
-  return relative;
-}
 
 namespace {
 
@@ -80,11 +58,14 @@ void snap_to_whole_fringes(std::span<const float> wrapped, std::span<float> unwr
   }
 }
 
-}  // namespace
-
+/// Unwraps each region by growth from its best pixel to the neighbour with the largest product of
+/// modulations. The best pixel has fringe order 0. With `keep_growth_order` the order of growth is
+/// recorded.
+///
+/// @source   the paper's reference [35], Takeda & Abe 1996
 RelativePhase unwrap_quality_guided(const WrappedPhase& phase,
                                     const Regions& regions,
-                                    bool keep_growth_order) {
+                                    bool keep_growth_order = false) {
   const int width = phase.phase_rad.width();
   const int height = phase.phase_rad.height();
   const auto row = static_cast<std::size_t>(width);
@@ -137,8 +118,6 @@ RelativePhase unwrap_quality_guided(const WrappedPhase& phase,
   snap_to_whole_fringes(wrapped, unwrapped);
   return out;
 }
-
-namespace {
 
 float wrapped(float jump) {
   return jump - kTwoPiF * std::round(jump / kTwoPiF);
@@ -194,8 +173,10 @@ std::vector<Edge> sorted_edges(const Image<float>& phase, const Regions& regions
   return edges;
 }
 
-}  // namespace
-
+/// Unwraps each region by joining pixels along their edges, the most reliable first: those with the
+/// smallest second differences. The best pixel of a region has fringe order 0.
+///
+/// @source   Herráez, Burton, Lalor and Gdeisat 2002
 RelativePhase unwrap_reliability_sorted(const WrappedPhase& phase, const Regions& regions) {
   const auto rad = phase.phase_rad.pixels();
   FringeForest forest(rad.size());  // of pixels
@@ -220,6 +201,30 @@ RelativePhase unwrap_reliability_sorted(const WrappedPhase& phase, const Regions
     out.phase_rad.pixels()[i] += kTwoPiF * static_cast<float>(forest.root(i).fringes - zero);
   }
   return out;
+}
+
+}  // namespace
+
+RelativePhase unwrap_spatially(WrappedPhase phase, const SpatialUnwrapOptions& options) {
+  discard_residues(phase);
+  Regions regions = split_regions(phase, options.split);
+  RelativePhase relative;
+  Image<std::int32_t> order;
+  if (options.keep_growth_order) order = unwrap_quality_guided(phase, regions, true).growth_order;
+  switch (options.method) {
+    case SpatialMethod::RunMerging:
+      relative = unwrap_run_merging(std::move(phase), regions);
+      break;
+    case SpatialMethod::QualityGuided:
+      relative = unwrap_quality_guided(phase, regions);
+      break;
+    case SpatialMethod::ReliabilitySorted:
+      relative = unwrap_reliability_sorted(phase, regions);
+      break;
+  }
+  relative.growth_order = std::move(order);
+  join_regions(relative, regions, options.join);
+  return relative;
 }
 
 }  // namespace frangia

@@ -84,29 +84,25 @@ class AllTurns {
 
   /// Angles of the same class with which what is turned fits elsewhere, however much less well:
   /// where it contradicts others it does not fit at all. Turns that are several times as far from
-  /// the stated angles count for free angles alone.
+  /// the stated angles count for free angles and spacings alone.
   [[nodiscard]] std::vector<std::vector<double>> elsewhere(const ClassedAngles& found) const {
     std::vector<std::vector<double>> all;
     const auto add = [&](std::size_t first, std::size_t last, double change_rad) {
-      constexpr double kFits = 0.2;     // of the fit in its place
       constexpr double kFarther = 2.9;  // times the change
-      constexpr int kNear = 5;          // steps
       const auto turned = [&](int steps) {
         std::vector<double> angles_rad = found.angles_rad;
         for (std::size_t view = first; view < last; ++view)
           angles_rad[view] += steps * kTurnStep_rad;
         return angles_rad;
       };
-      std::vector<double> fit;
-      for (int i = 0; i <= 2 * kTurnSteps; ++i)
-        fit.push_back(fit_between(first, last, turned(i)));
-      for (int i = kNear; i <= 2 * kTurnSteps - kNear; ++i) {
-        const auto at = static_cast<std::size_t>(i);
-        const double there = wrap_rad(change_rad + i * kTurnStep_rad);
-        if (std::abs(there) > kFarther * std::abs(change_rad)) continue;
-        if (fit[at] >= kFits * fit[0] && fit[at] >= fit[at - 1] && fit[at] >= fit[at + 1])
-          all.push_back(turned(i));
-      }
+      const auto fit = [&](const std::vector<double>& angles_rad) {
+        return fit_between(first, last, angles_rad);
+      };
+      const auto is_likely = [&](int steps) {
+        const double there = wrap_rad(change_rad + steps * kTurnStep_rad);
+        return std::abs(there) <= kFarther * std::abs(change_rad);
+      };
+      add_other_fits(all, turned, fit, is_likely);
     };
     const std::size_t views = given_.size();
     switch (found.kind) {
@@ -125,32 +121,38 @@ class AllTurns {
           add(view, view + 1, kTwoPi);
         break;
       case AngleClass::Even:
-        return spaced_elsewhere(found);
-      default:
+        add_other_fits(
+            all,
+            [&](int steps) {
+              return evenly_spaced(given_, found.as.spacing_rad + steps * kTurnStep_rad).angles_rad;
+            },
+            [&](const std::vector<double>& angles_rad) { return fits_.fit_of(angles_rad); },
+            [](int /*steps*/) { return true; });
+        break;
+      case AngleClass::Scaled:
         break;
     }
     return all;
   }
 
  private:
-  /// Other spacings of all views with which they fit.
-  [[nodiscard]] std::vector<std::vector<double>> spaced_elsewhere(
-      const ClassedAngles& found) const {
-    constexpr double kFits = 0.2;  // of the fit with the spacing found
-    constexpr int kNear = 5;       // steps
-    std::vector<std::vector<double>> spaced;
+  /// Adds the angles by steps around the circle with which views fit better than by a step more or
+  /// less, and by a share of the fit without a step at least.
+  template <class At, class Fit, class IsLikely>
+  static void add_other_fits(std::vector<std::vector<double>>& all,
+                             const At& at,
+                             const Fit& fit_of,
+                             const IsLikely& is_likely) {
+    constexpr double kFits = 0.2;
+    constexpr int kNear = 5;  // steps
     std::vector<double> fit;
-    for (int i = 0; i <= 2 * kTurnSteps; ++i) {
-      spaced.push_back(found.angles_rad);
-      for (std::size_t view = 0; view < given_.size(); ++view)
-        spaced.back()[view] += i * kTurnStep_rad * static_cast<double>(view);
-      fit.push_back(fits_.fit_of(spaced.back()));
+    for (int i = 0; i <= 2 * kTurnSteps; ++i)
+      fit.push_back(fit_of(at(i)));
+    for (int i = kNear; i <= 2 * kTurnSteps - kNear; ++i) {
+      const auto step = static_cast<std::size_t>(i);
+      if (!is_likely(i) || fit[step] < kFits * fit[0]) continue;
+      if (fit[step] >= fit[step - 1] && fit[step] >= fit[step + 1]) all.push_back(at(i));
     }
-    std::vector<std::vector<double>> all;
-    for (std::size_t i = kNear; i + kNear < fit.size(); ++i)
-      if (fit[i] >= kFits * fit[0] && fit[i] >= fit[i - 1] && fit[i] >= fit[i + 1])
-        all.push_back(spaced[i]);
-    return all;
   }
   /// Of some views with all others.
   [[nodiscard]] double fit_between(std::size_t first,

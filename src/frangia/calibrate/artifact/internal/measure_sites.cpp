@@ -1,25 +1,29 @@
-#include "frangia/calibrate/artifact/internal/measure_sites.h"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string>
 #include <utility>
 #include <variant>
+#include <vector>
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <fmt/format.h>
 
 #include "frangia/calibrate/board/board_image.h"
+#include "frangia/calibrate/board/measure_light.h"
 #include "frangia/calibrate/board/select_plane.h"
 #include "frangia/calibrate/internal/artifact_model.h"
 #include "frangia/core/angles.h"
 #include "frangia/core/error.h"
+#include "frangia/core/run.h"
 #include "frangia/dataset/read_frames.h"
+#include "frangia/dataset/scan_folder.h"
 #include "frangia/frames/noise_model.h"
 #include "frangia/geometry/fit_primitives.h"
 #include "frangia/range/laser_profile.h"
 #include "frangia/range/triangulate.h"
+#include "frangia/rig/rig.h"
 
 namespace frangia {
 namespace {
@@ -35,17 +39,20 @@ Pattern unit_pattern(const Rig& rig) {
   return pattern;
 }
 
-}  // namespace
-
-void fail_artifact(const Scan& scan, const std::string& sentence) {
+/// Throws an input error that names scan.toml.
+[[noreturn]] void fail_artifact(const Scan& scan, const std::string& sentence) {
   throw Error(ErrorKind::Input,
               fmt::format("{}: {}", (scan.folder / "scan.toml").string(), sentence));
 }
 
+/// Distance of sites, px, of which there are `sites` along the longer side of the image.
 int site_step(const CameraModel& model, int sites) {
   return std::max(1, std::max(model.width_px, model.height_px) / sites);
 }
 
+/// Windows that overlap just so far that the value of a quadratic in a window has the variance of
+/// the mean of `step_px` squared pixels: the sites together then hold the information of all
+/// pixels, and their standard deviations state it, though neighbors are correlated.
 MeasureLightOptions site_options(int step_px) {
   constexpr double kQuadratic = 1.87;  // root of the variance factor of its value, 3.5
   constexpr int kLargest_px = 12;      // beyond it the time grows, and a surface is not quadratic
@@ -58,6 +65,7 @@ MeasureLightOptions site_options(int step_px) {
   return options;
 }
 
+/// Sites of all views, measured with the same rig.
 std::vector<std::vector<LightSite>> measure_sites(const Scan& scan,
                                                   const Rig& rig,
                                                   const MeasureLightOptions& options,
@@ -70,6 +78,8 @@ std::vector<std::vector<LightSite>> measure_sites(const Scan& scan,
   }
   return views;
 }
+
+}  // namespace
 
 std::vector<Eigen::Vector3d> site_points(const std::vector<LightSite>& sites, const Rig& rig) {
   const Pattern pattern = unit_pattern(rig);

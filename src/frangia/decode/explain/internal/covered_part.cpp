@@ -97,7 +97,7 @@ class Labels {
   Eigen::Index pixels_;
 };
 
-/// Log density of pixels of which some frame, nobody knows which, shows something else.
+/// Log density of pixels at which an unknown frame shows something else.
 Eigen::ArrayXd densities_of_any(const FrameSample& sample, const FrameScore& sound) {
   // As sound ones, but for the residual, which is as large as an outlier's, and other patterns.
   const auto freedom = static_cast<double>(sample.counts.cols() - 3);
