@@ -1,8 +1,8 @@
 // Faults of the poses of views: which cause the registration names, and what remains of the error.
 // `./run figures poses` runs it on four parts.
 //
-// usage: pose_study PART SEEDS
-// Prints a JSON array with a row for each fault and size.
+// usage: pose_study PART SEEDS [-v] [FAULT]
+// Prints a JSON array with a row for each fault and size, and with -v what each seed found.
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -117,7 +117,8 @@ std::vector<StudyFault> study_faults() {
 }
 
 /// What the registration makes of one fault of one size with several seeds, as a row of JSON.
-std::string row(const StudyFault& fault, double size, const RayScene& part, int seeds) {
+std::string row(
+    const StudyFault& fault, double size, const RayScene& part, int seeds, bool verbose) {
   int right = 0;
   int wrong = 0;
   int refused = 0;
@@ -138,6 +139,20 @@ std::string row(const StudyFault& fault, double size, const RayScene& part, int 
     right += named && found.decided ? 1 : 0;
     wrong += !named && found.decided && found.best != PoseCause::AsStated ? 1 : 0;
     const bool trusted = out.report.untrusted_reason().empty();
+    if (verbose) {
+      fmt::print(stderr,
+                 "{}, {:g}, seed {}: {} ({}decided) {:.4f} mm for {:.4f}, {:.2f} sigma; {} {}\n",
+                 fault.name,
+                 size,
+                 seed,
+                 name_of(found.best),
+                 found.decided ? "" : "not ",
+                 out.error_mm,
+                 without_mm,
+                 out.error.over_sigma,
+                 found.text,
+                 out.report.untrusted_reason());
+    }
     refused += trusted ? 0 : 1;
     silent += trusted && out.error.share_beyond > 0.05 ? 1 : 0;
     left_out += out.report.outliers.size();
@@ -163,9 +178,10 @@ std::vector<std::string> rows_of(const StudyArguments& study) {
   const RayScene part(make_part(study.part));
   std::vector<std::string> rows;
   for (const StudyFault& fault : study_faults()) {
+    if (std::string(fault.name).find(study.only) == std::string::npos) continue;
     const bool sized = fault.right != PoseCause::AsStated;
     for (const double size : sized ? std::vector{2.0, 10.0, 50.0} : std::vector{0.0})
-      rows.push_back(row(fault, size, part, study.seeds));
+      rows.push_back(row(fault, size, part, study.seeds, study.verbose));
   }
   return rows;
 }

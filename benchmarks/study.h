@@ -21,17 +21,20 @@ struct StudyArguments {
   std::string part;
   int seeds = 0;
   bool verbose = false;  ///< -v: also prints the result of each seed to standard error
+  std::string only;      ///< measures the cases alone whose names contain it; empty: all
 };
 
-/// @errors   Error(Input) unless the arguments are `PART SEEDS [-v]`
+/// @errors   Error(Input) unless the arguments are `PART SEEDS [-v] [CASE]`
 inline StudyArguments study_arguments(const std::vector<std::string_view>& arguments) {
   StudyArguments study;
-  if (arguments.size() == 2 || (arguments.size() == 3 && arguments[2] == "-v")) {
+  if (arguments.size() >= 2) {
     study.part = arguments[0];
     std::from_chars(arguments[1].data(), arguments[1].data() + arguments[1].size(), study.seeds);
-    study.verbose = arguments.size() == 3;
+    study.verbose = arguments.size() > 2 && arguments[2] == "-v";
+    const std::size_t last = study.verbose ? 3 : 2;
+    if (arguments.size() > last) study.only = arguments[last];
   }
-  if (study.seeds < 1) throw Error(ErrorKind::Input, "usage: PART SEEDS [-v]");
+  if (study.seeds < 1) throw Error(ErrorKind::Input, "usage: PART SEEDS [-v] [CASE]");
   return study;
 }
 

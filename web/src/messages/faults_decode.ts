@@ -34,6 +34,21 @@ export const FAULTS_DECODE = {
     'Bild {0} ist um {1} px gegen die anderen verschoben, wie wenn die Kamera oder alles Sichtbare wackelte',
     'il fotogramma {0} è spostato di {1} px rispetto agli altri, come se la camera o tutto ciò che vede avesse vibrato',
   ],
+  'fault.lightPerFrame': [
+    'the light differs from frame to frame, from {0} to {1} of its middle, as where the camera sets its exposure by itself',
+    'das Licht ist von Bild zu Bild anders, {0} bis {1} des mittleren, wie wenn die Kamera ihre Belichtung selbst einstellt',
+    "la luce cambia da un fotogramma all'altro, da {0} a {1} di quella mediana, come se la camera regolasse l'esposizione da sola",
+  ],
+  'fault.phaseCorrected': [
+    '{0}; the phase is corrected for it; {1}',
+    '{0}; die Phase ist dafür korrigiert; {1}',
+    '{0}; la fase è corretta di conseguenza; {1}',
+  ],
+  'fault.switchOffExposure': [
+    'switch off automatic exposure and gain of the camera, and capture the frames again',
+    'automatische Belichtung und Verstärkung der Kamera ausschalten und die Bilder neu aufnehmen',
+    'disattivare esposizione e guadagno automatici della camera e riprendere i fotogrammi',
+  ],
   'fault.keepLightFree': [
     'keep everything out of the light while the frames are captured',
     'beim Aufnehmen der Bilder alles aus dem Licht halten',

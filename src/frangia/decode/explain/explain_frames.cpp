@@ -144,6 +144,8 @@ std::string remedy_of(const FrameHypothesis& hypothesis) {
       return "keep everything out of the light while the frames are captured";
     case FrameCause::Displaced:
       return "hold camera and part still while the frames are captured";
+    case FrameCause::Exposure:
+      return "switch off automatic exposure and gain of the camera, and capture the frames again";
     case FrameCause::Moved:
       return "hold the part still while it is captured, and capture the frames again";
     case FrameCause::Steps:
@@ -187,7 +189,8 @@ FrameExplanation explain_frames(const FrameStack& stack,
     broad.parameters = 1;
     candidates.push_back({broad, candidates.front().score});
     for (FrameHypothesis& one : likely_hypotheses(sample, stack.pattern)) {
-      if (!covers && one.cause != FrameCause::Exchanged) continue;
+      const bool by_others = one.cause == FrameCause::Exposure && sample.has_reference();
+      if (!covers && !by_others && one.cause != FrameCause::Exchanged) continue;
       FrameScore score = score_frames(sample, one);
       one.displacement_px = score.largest_displacement_px;
       candidates.push_back({std::move(one), std::move(score)});

@@ -73,6 +73,7 @@ std::string clause_of(FrameCause cause, std::size_t frame, const FrameHypothesis
     case FrameCause::Covered:
     case FrameCause::Displaced:
     case FrameCause::Exchanged:
+    case FrameCause::Exposure:
     case FrameCause::AsDescribed:
     case FrameCause::Unexplained:
       break;
@@ -100,6 +101,8 @@ std::string name_of(FrameCause cause) {
       return "late";
     case FrameCause::Gain:
       return "gain";
+    case FrameCause::Exposure:
+      return "exposure";
     case FrameCause::Lamp:
       return "lamp";
     case FrameCause::Moved:
@@ -191,6 +194,10 @@ std::vector<FrameHypothesis> frame_hypotheses(const Pattern& pattern) {
     for (std::size_t k = 0; k < frames; ++k)
       out.back().displaced.push_back(k);
   }
+  if (frames > 3) {
+    add(FrameCause::Exposure, 0, static_cast<int>(frames) - 1, 1);
+    out.back().frames.clear();
+  }
   add(FrameCause::Start, 0, 1, 1);
   add(FrameCause::Direction, 0, 0, 1);
   for (double& shift : out.back().shifts_rad)
@@ -218,7 +225,7 @@ std::optional<FrameHypothesis> both_of(const FrameHypothesis& a, const FrameHypo
   if (common || (ordered(a) && ordered(b))) return std::nullopt;
   for (const FrameHypothesis* one : {&a, &b})
     if (one->lamp_on || !one->path.empty() || one->has_free_steps || one->in_part ||
-        !one->displaced.empty())
+        !one->displaced.empty() || one->cause == FrameCause::Exposure)
       return std::nullopt;
   FrameHypothesis out = ordered(b) ? b : a;
   const FrameHypothesis& other = ordered(b) ? a : b;
@@ -256,6 +263,15 @@ std::string describe(const FrameHypothesis& hypothesis) {
       for (std::size_t i = 2; i < hypothesis.frames.size(); ++i)
         text += fmt::format(", and frame {} differs, too", hypothesis.frames[i]);
       return text;
+    }
+    case FrameCause::Exposure: {
+      const auto [least, most] =
+          std::minmax_element(hypothesis.gains.begin(), hypothesis.gains.end());
+      return fmt::format(
+          "the light differs from frame to frame, from {:.2f} to {:.2f} of its middle, as where "
+          "the camera sets its exposure by itself",
+          *least,
+          *most);
     }
     default:
       break;

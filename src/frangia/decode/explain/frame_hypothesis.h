@@ -20,6 +20,7 @@ enum class FrameCause {
   Exchanged,    ///< two frames show each other
   Late,         ///< the frames show the one before them, from one of them on
   Gain,         ///< a frame was taken at another gain, exposure or power of the lamp
+  Exposure,     ///< several frames were, each at its own: a camera that exposes by itself
   Lamp,         ///< another lamp was switched on or off within the set
   Moved,        ///< the part moved within the set
   Steps,        ///< the shifts differ from those of scan.toml, alike at all pixels
@@ -29,8 +30,8 @@ enum class FrameCause {
 };
 
 /// Returns the word for a cause in JSON and in the table of hypotheses: "as-described", "lost",
-/// "covered", "displaced", "repeated", "exchanged", "late", "gain", "lamp", "moved", "steps",
-/// "start", "direction" or "unexplained".
+/// "covered", "displaced", "repeated", "exchanged", "late", "gain", "exposure", "lamp",
+/// "moved", "steps", "start", "direction" or "unexplained".
 [[nodiscard]] std::string name_of(FrameCause cause);
 
 /// A generative model of the frames of one pattern: what each of them shows.

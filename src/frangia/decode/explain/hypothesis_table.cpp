@@ -17,8 +17,14 @@ std::vector<FrameHypothesis> hypotheses_of(int steps) {
   for (int k = 0; k < steps; ++k)
     pattern.shifts_rad.push_back(kTwoPi * k / steps);
   std::vector<FrameHypothesis> all = frame_hypotheses(pattern);
-  for (FrameHypothesis& one : all)
+  for (FrameHypothesis& one : all) {
     if (one.cause == FrameCause::Gain) one.gains[one.frames.front()] = kSomeGain;
+    if (one.cause == FrameCause::Exposure) {
+      double gain = 1.0;
+      for (double& each : one.gains)
+        each = gain *= kSomeGain;
+    }
+  }
   all.push_back(all.front());
   all.back().cause = FrameCause::Unexplained;
   return all;
@@ -46,6 +52,9 @@ std::vector<Words> words() {
       {FrameCause::Gain,
        "g_k differs by more than 10 %; the light of the room does not",
        "the frame is left out"},
+      {FrameCause::Exposure,
+       "g_k of two frames or more differ by more than 10 %",
+       "corrected with five frames or more, else the view is left out"},
       {FrameCause::Lamp,
        "L_k from frame j on, or in frame k alone",
        "the smaller part is left out"},

@@ -8,6 +8,8 @@
 #include <optional>
 #include <utility>
 
+#include "frangia/core/linear_algebra.h"
+#include "frangia/core/statistics.h"
 #include "frangia/decode/explain/internal/frame_design.h"
 #include "frangia/decode/explain/internal/frame_priors.h"
 #include "frangia/decode/explain/internal/score_frames.h"
@@ -62,6 +64,36 @@ bool fit_gain(const FrameMoments& moments, std::size_t frame, FrameHypothesis& h
   }
   hypothesis.gains[frame] = best;
   return std::abs(std::log(best)) > kStructuralGain;
+}
+
+/// The gains of all frames that leave the least residual; false where fewer than two of them differ
+/// by more than flicker, or one by more than exposures do.
+///
+/// Without its gains h_k = 1 / g_k a frame is one of fringes, so that the residual of all pixels is
+/// the quadratic form of h with the moments times, element by element, the projection on what no
+/// fringes show.
+bool fit_exposure(const FrameMoments& moments, FrameHypothesis& hypothesis) {
+  constexpr double kMostGain = 5.0;
+  const FrameDesign design = design_of(hypothesis);
+  const Eigen::MatrixXd residual =
+      moments.moments.cwiseProduct(product_transposed(design.rest, design.rest));
+  const Eigen::VectorXd inverse = symmetric_eigen(residual).vectors.col(0);
+  const double sign = inverse.sum() < 0.0 ? -1.0 : 1.0;
+  std::vector<double> gains;
+  for (const double one : inverse) {
+    if (sign * one <= 0.0) return false;
+    gains.push_back(sign / one);
+  }
+  std::vector<double> sorted = gains;
+  const double middle = median(sorted);
+  std::size_t structural = 0;
+  for (double& gain : gains) {
+    gain /= middle;
+    if (std::abs(std::log(gain)) > std::log(kMostGain)) return false;
+    if (std::abs(std::log(gain)) > kStructuralGain) ++structural;
+  }
+  hypothesis.gains = std::move(gains);
+  return structural > 1;
 }
 
 /// With three frames, those that remain must show the whole fringe; a part in the dark part of one
@@ -167,13 +199,13 @@ std::vector<FrameHypothesis> likeliest_of_each(const FrameSample& sample,
 }
 
 /// The hypotheses with one fault: by rough score, best first, then the likeliest lamp, movement and
-/// uneven steps, which form no pairs.
+/// uneven steps, displaced frames and exposures, which form no pairs.
 std::vector<FrameHypothesis> likely_singles(const FrameSample& sample,
                                             const FrameMoments& moments,
                                             const Pattern& pattern) {
   std::vector<std::pair<double, FrameHypothesis>> ranked;
   std::vector<FrameHypothesis> others;  // `rough_score` does not model them
-  std::vector<FrameHypothesis> displaced;
+  std::vector<FrameHypothesis> last;    // which form no pairs
   std::vector<FrameHypothesis> all = frame_hypotheses(pattern);
   const FrameHypothesis declared = all.front();
   constexpr std::size_t kFewSteps = 6;  // their residuals are those of the harmonics 2 and 3
@@ -181,8 +213,9 @@ std::vector<FrameHypothesis> likely_singles(const FrameSample& sample,
   for (FrameHypothesis& one : all) {
     if (one.cause == FrameCause::Gain && !fit_gain(moments, one.frames.front(), one)) continue;
     if (one.in_part) continue;  // `find_covered_part`
-    if (one.cause == FrameCause::Displaced) {
-      displaced.push_back(std::move(one));
+    if (one.cause == FrameCause::Exposure && !fit_exposure(moments, one)) continue;
+    if (one.cause == FrameCause::Displaced || one.cause == FrameCause::Exposure) {
+      last.push_back(std::move(one));
       continue;
     }
     if (one.cause == FrameCause::Moved || !one.path.empty() || one.has_free_steps || one.lamp_on) {
@@ -205,7 +238,7 @@ std::vector<FrameHypothesis> likely_singles(const FrameSample& sample,
   }
   for (FrameHypothesis& one : likeliest_of_each(sample, std::move(others)))
     out.push_back(std::move(one));
-  for (FrameHypothesis& one : displaced)
+  for (FrameHypothesis& one : last)
     out.push_back(std::move(one));
   return out;
 }
