@@ -299,10 +299,12 @@ void DecodedScan::finish() {
   if (untrusted_.empty() && empty_.size() == scan_.views.size())
     untrusted_.push_back(empty_.front());
   if (!untrusted_.empty()) {
-    terminal_.assess(
-        untrusted_.size() == 1
-            ? untrusted_.front()
-            : fmt::format("{} of {} views do not fit", untrusted_.size(), scan_.views.size()));
+    terminal_.assess(untrusted_.size() == 1
+                         ? untrusted_.front()
+                         : fmt::format("{} of {} views do not fit; the first: {}",
+                                       untrusted_.size(),
+                                       scan_.views.size(),
+                                       untrusted_.front()));
   }
   if (terminal_.json) {
     Json json{{"plan", json_of(plan_)},

@@ -7,7 +7,8 @@ from study import ROOT, NotAsWanted
 TITLE = "What moved between views"
 
 CASES = {part: 1 for part in ("bracket", "bust", "shaft", "ball-bar")}
-SEEDS = 5
+SEEDS = 3
+OF_RIG = ("rig not as stated", "principal point", "focal length")
 
 
 def measure(study, case, seed):
@@ -24,7 +25,9 @@ def report(text, results):
         f"points by the true rig and pose with noise of the phase, {SEEDS} seeds; RMS error of blocks of points after the best rigid fit, over that of the scan without the fault. "
         "A size is the largest motion of the fault in multiples of the noise of a pair of surfels. "
         "Refused: not trustworthy, exit code 5. "
-        "Silent: more than 5 % of the blocks off by more than 3 sigma of the poses, with exit code 0.\n"
+        "Silent: more than 5 % of the blocks off by more than 3 sigma of the poses, with exit code 0. "
+        "Where the rig is not as stated, its open parameters enter sigma when the surface is fused, which this study does not do: "
+        "`./run figures moved_parts` measures those.\n"
     )
     text.table(
         "part",
@@ -40,6 +43,7 @@ def report(text, results):
     )
     for part, (cells,) in results.items():
         for cell in cells:
+            of_poses = cell["fault"] not in OF_RIG
             text.row(
                 part,
                 cell["fault"],
@@ -48,9 +52,9 @@ def report(text, results):
                 f"{cell['wrong']}",
                 f"{cell['left_out']}",
                 f"{cell['refused']}",
-                f"{cell['silent']}",
+                f"{cell['silent']}" if of_poses else "",
                 f"{cell['ratio']:.2f}",
-                f"{cell['over_sigma']:.2f}",
+                f"{cell['over_sigma']:.2f}" if of_poses else "",
             )
     blamed = [part for part, (cells,) in results.items() for cell in cells if cell["fault"] == "none" and cell["wrong"]]
     if blamed:
