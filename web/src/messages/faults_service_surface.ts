@@ -172,6 +172,16 @@ export const FAULTS_SERVICE_SURFACE = {
     'die Oberfläche hat dieses Dreieck nicht; ein anderes wählen',
     'la superficie non ha questo triangolo; sceglierne un altro',
   ],
+  'fault.curvatureOfBoundary': [
+    'the curvature of a boundary is unknown; pick a place beside it',
+    'die Krümmung eines Rands ist unbekannt; eine Stelle daneben wählen',
+    'la curvatura di un bordo è ignota; scegliere un punto accanto',
+  ],
+  'fault.surfaceWithoutSigma': [
+    'this surface states no sigma; select by something else',
+    'diese Oberfläche nennt kein Sigma; nach etwas anderem auswählen',
+    'questa superficie non indica sigma; selezionare secondo altro',
+  ],
   'fault.nothingSelectedSelect': [
     'nothing is selected; select the surface to be fitted',
     'nichts ist ausgewählt; die einzupassende Oberfläche auswählen',
