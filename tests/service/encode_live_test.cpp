@@ -1,4 +1,5 @@
 #include <cstring>
+#include <limits>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -7,6 +8,13 @@
 
 namespace frangia {
 namespace {
+
+nlohmann::json values_of(const LiveSnapshot& snapshot) {
+  const std::string packed = encode_live(snapshot, LiveLayer::Camera, Rig{});
+  std::uint32_t length = 0;
+  std::memcpy(&length, packed.data(), sizeof length);
+  return nlohmann::json::parse(packed.substr(sizeof length, length)).at("values");
+}
 
 /// The picture of a frame of one row.
 std::vector<int> picture_of(const std::vector<std::uint16_t>& counts, int white_level) {
@@ -41,6 +49,28 @@ TEST(EncodeLive, ShowsLinearLightByTheCurveOfSrgb) {
   EXPECT_EQ(bytes[4], 254) << "not saturated";
   EXPECT_EQ(bytes[5], 255);
   EXPECT_EQ(bytes[6], 255);
+}
+
+// A part of 4 by 4 pixels in a dark room of 10 by 10: one pixel of the part in sixteen is dark.
+TEST(EncodeLive, CountsTheDarkPixelsOfThePartAlone) {
+  Image<std::uint16_t> frame(10, 10, 0);
+  LiveDecode decode;
+  decode.range.depth_mm = Image<float>(10, 10, std::numeric_limits<float>::quiet_NaN());
+  for (int y = 3; y < 7; ++y) {
+    for (int x = 2; x < 6; ++x) {
+      frame(x, y) = 2000;
+      decode.range.depth_mm(x, y) = 500.0F;
+    }
+  }
+  frame(4, 5) = 3;  // too dark to be measured
+  decode.range.depth_mm(4, 5) = std::numeric_limits<float>::quiet_NaN();
+  decode.points = 15;
+  LiveSnapshot snapshot;
+  snapshot.white_level = 4095;
+  snapshot.frame = std::make_shared<const Frame>(std::move(frame));
+  EXPECT_DOUBLE_EQ(values_of(snapshot).at("dark").get<double>(), 0.85) << "no part is known";
+  snapshot.decode = std::make_shared<const LiveDecode>(std::move(decode));
+  EXPECT_DOUBLE_EQ(values_of(snapshot).at("dark").get<double>(), 1.0 / 16.0);
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "frangia/core/angles.h"
 #include "frangia/service/internal/array_packer.h"
@@ -64,26 +65,68 @@ Bytes camera_picture(const LiveSnapshot& snapshot) {
 
 struct LightShares {
   std::vector<std::uint32_t> histogram = std::vector<std::uint32_t>(kBins);
-  double saturated = 0.0;
-  double dark = 0.0;
+  double saturated = 0.0;  ///< of all pixels
+  double dark = 0.0;       ///< of those of the part; of all where it is not known
 };
+
+/// The part: pixels that lie between measured ones, both in their row and in their column. Empty
+/// where nothing is measured, or where the frame has another size.
+Image<std::uint8_t> part_in(const LiveSnapshot& snapshot) {
+  if (!snapshot.decode || snapshot.decode->points == 0) return {};
+  const Image<float>& depth = snapshot.decode->range.depth_mm;
+  const int width = depth.width();
+  const int height = depth.height();
+  struct Span {
+    int first = std::numeric_limits<int>::max();
+    int last = -1;
+    void take(int at) {
+      first = std::min(first, at);
+      last = std::max(last, at);
+    }
+    [[nodiscard]] bool holds(int at) const { return first <= at && at <= last; }
+  };
+  std::vector<Span> of_row(static_cast<std::size_t>(height));
+  std::vector<Span> of_column(static_cast<std::size_t>(width));
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      if (std::isnan(depth(x, y))) continue;
+      of_row[static_cast<std::size_t>(y)].take(x);
+      of_column[static_cast<std::size_t>(x)].take(y);
+    }
+  }
+  Image<std::uint8_t> part(width, height, 0);
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      const bool inside = of_row[static_cast<std::size_t>(y)].holds(x) &&
+                          of_column[static_cast<std::size_t>(x)].holds(y);
+      part(x, y) = inside ? 1 : 0;
+    }
+  }
+  return part;
+}
 
 LightShares light_of(const LiveSnapshot& snapshot) {
   LightShares light;
+  const Image<std::uint8_t> part = part_in(snapshot);
   std::visit(
       [&](const auto& image) {
+        const bool part_known = part.width() == image.width() && part.height() == image.height();
         const auto white = static_cast<std::size_t>(snapshot.white_level);
         std::size_t saturated = 0;
         std::size_t dark = 0;
-        for (const auto counts : image.pixels()) {
-          const std::size_t value = counts;
+        std::size_t lit = 0;
+        const auto pixels = image.pixels();
+        for (std::size_t i = 0; i < pixels.size(); ++i) {
+          const std::size_t value = pixels[i];
           ++light.histogram[std::min(kBins - 1, value * kBins / (white + 1))];
           saturated += value >= white ? 1 : 0;
+          if (part_known && part.pixels()[i] == 0) continue;
+          ++lit;
           dark += value * 100 < white ? 1 : 0;  // below a hundredth of white
         }
         const auto all = static_cast<double>(std::max<std::size_t>(1, image.pixels().size()));
         light.saturated = static_cast<double>(saturated) / all;
-        light.dark = static_cast<double>(dark) / all;
+        light.dark = static_cast<double>(dark) / static_cast<double>(std::max<std::size_t>(1, lit));
       },
       *snapshot.frame);
   return light;
