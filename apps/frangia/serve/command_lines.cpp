@@ -101,6 +101,11 @@ CommandLines command_lines(const ProjectProgress& project) {
                             folder.scan.string(),
                             "-o",
                             (folder.exports() / (folder.name + ".ply")).string()};
+    if (project.build.voxel_mm > 0.0) {
+      lines["reconstruct"].insert(lines["reconstruct"].end(),
+                                  {"--voxel", fmt::format("{:g}mm", project.build.voxel_mm)});
+    }
+    if (project.build.watertight) lines["reconstruct"].emplace_back("--watertight");
     if (project.capture.algorithm != "auto") {
       lines["reconstruct"].insert(lines["reconstruct"].end(),
                                   {"--algorithm", project.capture.algorithm});

@@ -98,6 +98,7 @@ std::string Service::Implementation::command(const std::string& name, const std:
       {"certificate", &Implementation::start_certificate},
       {"estimate-export", &Implementation::estimate_export},
       {"select-component-of", &Implementation::start_select_component},
+      {"select-like", &Implementation::start_select_like},
       {"undo", &Implementation::start_undo},
       {"redo", &Implementation::start_redo},
       {"fit", &Implementation::start_fit},

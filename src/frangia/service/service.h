@@ -42,6 +42,12 @@ struct ProgressOfCalibration {
   bool solved = false;          ///< the rig is calibrated from them
 };
 
+/// How a surface is built from the scan.
+struct BuildSettings {
+  double voxel_mm = 0.0;    ///< sampling distance; 0: chosen from the data
+  bool watertight = false;  ///< closes all holes
+};
+
 /// How far a project has come, for those who describe it in their own words.
 struct ProjectProgress {
   ProjectFolder folder;                              ///< where its files are
@@ -53,6 +59,7 @@ struct ProjectProgress {
   std::filesystem::path surface{};                   ///< its file, before edits
   std::vector<EditStep> steps;                       ///< applied edits
   CaptureSettings capture;                           ///< of the scan
+  BuildSettings build{};                             ///< as the surface was last built
   std::optional<ProgressOfInspection> inspection{};  ///< of the present surface
   std::optional<ProgressOfCalibration> calibration{};  ///< since the project was opened
 };

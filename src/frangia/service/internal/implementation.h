@@ -122,6 +122,7 @@ class Service::Implementation {
                   const Run& run) const;
   Json estimate_export(CommandArguments& arguments);
   Json start_select_component(CommandArguments& arguments);
+  Json start_select_like(CommandArguments& arguments);
   Json start_undo(CommandArguments& arguments);
   Json start_redo(CommandArguments& arguments);
   Json start_fit(CommandArguments& arguments);

@@ -225,6 +225,7 @@ ProjectProgress progress_of(const OpenProject& project) {
       }));
   progress.scan_complete = project.scan_complete;
   progress.capture = project.capture;
+  progress.build = project.build;
   if (project.wizard) {
     const WizardState state = project.wizard->state();
     if (state.board.columns > 0) {  // otherwise it has not said yet which it is

@@ -66,6 +66,7 @@ struct OpenProject {
   bool scan_complete = false;        ///< scan.toml exists
   bool scan_begun = false;           ///< it has frames, captured or opened: settings are fixed
   CaptureSettings capture;
+  BuildSettings build;           ///< since the project was opened
   std::optional<Rig> rig;        ///< a calibrated one
   std::optional<Rig> start;      ///< of one that is not calibrated: what is known before
   std::string rig_fault;         ///< why there is no calibrated rig

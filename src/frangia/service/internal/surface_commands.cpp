@@ -7,6 +7,7 @@
 
 #include "frangia/core/durable_file.h"
 #include "frangia/core/error.h"
+#include "frangia/editor/step_like.h"
 #include "frangia/service/internal/implementation.h"
 #include "frangia/service/internal/project_names.h"
 #include "frangia/service/internal/surface_build.h"
@@ -58,8 +59,12 @@ nlohmann::ordered_json Service::Implementation::started_view(const char* kind, S
 
 nlohmann::ordered_json Service::Implementation::start_reconstruct(CommandArguments& arguments) {
   ReconstructOptions options;
-  options.fusion.voxel_mm = arguments.positive("voxel_mm").value_or(options.fusion.voxel_mm);
+  const BuildSettings settings{.voxel_mm = arguments.positive("voxel_mm").value_or(0.0),
+                               .watertight = arguments.flag("watertight")};
   arguments.check_all_read();
+  if (settings.voxel_mm > 0.0) options.fusion.voxel_mm = settings.voxel_mm;
+  options.finish.watertight = settings.watertight;
+  change([&](OpenProject& now) { now.build = settings; });
   options.decode = decode_options_of(opened().capture);
   options.keep_points_of_setups = kPointsOfSetup;
   return started(
@@ -341,6 +346,16 @@ nlohmann::ordered_json Service::Implementation::start_select_component(
                         [triangle](const SurfaceModel& model, int revision, const Run& run) {
                           return model.with_component_of(triangle, revision, run);
                         });
+}
+nlohmann::ordered_json Service::Implementation::start_select_like(CommandArguments& arguments) {
+  const std::size_t triangle = arguments.whole("triangle", 0, UINT32_MAX);
+  const auto likeness = arguments.named<Likeness>("by");
+  arguments.check_all_read();
+  return started_change(
+      arguments.key(),
+      [triangle, likeness](const SurfaceModel& model, int revision, const Run& run) {
+        return model.applied(step_like(model.mesh(), triangle, likeness), revision, run);
+      });
 }
 nlohmann::ordered_json Service::Implementation::start_undo(CommandArguments& arguments) {
   arguments.check_all_read();
