@@ -7,7 +7,7 @@ import { dialogs, footer, header, picture } from './frame_parts';
 import { onKey } from './keyboard';
 import { MeshSource } from './mesh_source';
 import { type Language, setLanguage, t } from './messages';
-import { App } from './parts';
+import { App, type BuildSettings } from './parts';
 import { applyPreferences } from './preferences';
 import { blankPage, notices } from './shell';
 import { acts } from './ui';
@@ -39,7 +39,7 @@ export class FrangiaApp extends App {
         void { measure: this.measuring, section: this.sectioning, pair: this.pairing }[tool].picked(hit),
       outlined: (outline, through, keys) =>
         void this.editing.selectBy(through ? 'select-outline-through' : 'select-outline', outline, keys),
-      partPicked: (triangle, keys) => void this.editing.selectPart(triangle, keys),
+      trianglePicked: (tool, triangle, keys) => void this.editing.selectByTriangle(tool, triangle, keys),
       picked: (tool, points, keys) => {
         const [at] = points;
         if (tool === 'feature' && at) this.inspecting.picked(at);
@@ -102,8 +102,8 @@ export class FrangiaApp extends App {
     this.viewer.frame([0.9, -1.1, 0.6]);
   }
 
-  override async build(): Promise<void> {
-    this.wantSurface = await this.command('reconstruct');
+  override async build(settings: Partial<BuildSettings> = {}): Promise<void> {
+    this.wantSurface = await this.command('reconstruct', settings);
   }
   /** Goes to the surface when it has been built here. */
   private showWantedSurface(): void {

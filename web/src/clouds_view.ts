@@ -57,6 +57,14 @@ export class CloudsView {
     this.group.add(points);
   }
 
+  /** The first point that is shown within a distance of a ray, or that of the coarse surface on it. */
+  pointOn(ray: THREE.Ray, distance: number): THREE.Vector3 | null {
+    const caster = new THREE.Raycaster(ray.origin, ray.direction);
+    caster.params.Points.threshold = distance;
+    const shown = this.group.visible ? this.group.children.filter((one) => one.visible) : [];
+    return caster.intersectObjects(shown, false)[0]?.point ?? null;
+  }
+
   clear(): void {
     this.setGrown(null, []);
     for (const child of [...this.group.children]) this.set(Number(child.name), null);

@@ -10,9 +10,16 @@ const NO_KEYS: ModifierKeys = { shift: false, ctrl: false };
 
 const round = (value: number): string => String(Math.round(value * 1000) / 1000);
 
+/** What is alike where the selection takes what is like a triangle. */
+export const LIKENESSES = ['normal', 'curvature', 'sigma', 'mark'] as const;
+export type Likeness = (typeof LIKENESSES)[number];
+/** Radius of the brush, pixels. */
+const BRUSH = { least: 4, most: 120, step: 1.25 };
+
 /** Selections, edits and their previews, as the step Edit asks for them. */
 export class Editing {
   combine: Combine = 'replace';
+  likeness: Likeness = 'normal';
   /** Holes that were chosen, by number, of the mesh of a revision. */
   private chosen = { revision: -1, holes: new Set<number>() };
   private previewFocused = -1;
@@ -25,6 +32,18 @@ export class Editing {
   setCombine(combine: Combine): void {
     this.combine = combine;
     this.app.requestUpdate();
+  }
+  setLikeness(likeness: Likeness): void {
+    this.likeness = likeness;
+    this.app.requestUpdate();
+  }
+  setBrush(radius: number): void {
+    this.app.viewer.brush = Math.round(Math.min(BRUSH.most, Math.max(BRUSH.least, radius)));
+    this.app.requestUpdate();
+  }
+  /** A key makes the brush larger or smaller. */
+  growBrush(larger: boolean): void {
+    this.setBrush(this.app.viewer.brush * (larger ? BRUSH.step : 1 / BRUSH.step));
   }
   get chosenHoles(): Set<number> {
     const revision = this.app.project.surface?.mesh_revision ?? -1;
@@ -71,8 +90,11 @@ export class Editing {
   async selectBy(operation: string, value: string, keys = NO_KEYS): Promise<void> {
     if (await this.prepareCombination(keys)) this.run(operation, value);
   }
-  async selectPart(triangle: number, keys: ModifierKeys): Promise<void> {
-    if (await this.prepareCombination(keys)) await this.app.command('select-component-of', { triangle });
+  /** Selects the connected part that holds a triangle, or all that is like it. */
+  async selectByTriangle(tool: 'part' | 'like', triangle: number, keys: ModifierKeys): Promise<void> {
+    if (!(await this.prepareCombination(keys))) return;
+    if (tool === 'part') await this.app.command('select-component-of', { triangle });
+    else await this.app.command('select-like', { triangle, by: this.likeness });
   }
   /** Shift adds, Ctrl takes out, both intersect, whatever is chosen in the panel. */
   private combineOf({ shift, ctrl }: ModifierKeys): Combine {

@@ -135,6 +135,8 @@ export function footer(app: App): TemplateResult {
 /** The scene or the camera, and what floats on it. */
 export function picture(app: App): TemplateResult {
   const { viewer } = app;
+  viewer.canvas.setAttribute('role', 'application');
+  viewer.canvas.setAttribute('aria-label', t('app.viewKeys'));
   return html`<div
     class="stage ${app.showsCamera || app.showsResiduals ? 'with-camera' : ''}"
     role="region"

@@ -2,7 +2,7 @@ import { STEPS, stepNamed } from './all_steps';
 import type { MessageKey } from './messages';
 import type { App } from './parts';
 import { toggleTheme } from './preferences';
-import { VIEWS } from './view_tools';
+import { toggleParallel, VIEWS } from './view_tools';
 
 type Shortcut = readonly [MessageKey, string];
 
@@ -11,6 +11,11 @@ export const shortcuts = (): readonly Shortcut[] => [
   ['keys.steps', `1 – ${STEPS.length}`],
   ['app.frame', 'F'],
   ['app.views', 'Shift 1 – 7'],
+  ['app.parallel', 'O'],
+  ['keys.turn', '← ↑ → ↓'],
+  ['keys.pan', 'Shift ← ↑ → ↓'],
+  ['keys.zoom', 'PgUp PgDn'],
+  ['keys.use', 'Enter'],
   ...STEPS.flatMap((step) => step.shortcuts ?? []),
   ['measure.distance', 'M'],
   ['measure.angle', 'A'],
@@ -47,6 +52,7 @@ export function onKey(app: App, event: KeyboardEvent): void {
   } else if (key === '?') app.dialog('keys').showModal();
   else if (key === 'd') toggleTheme();
   else if (key === 'f') app.viewer.frame();
+  else if (key === 'o' && app.viewer.supported) toggleParallel(app);
   else if (stepNamed(app.step).keys?.(app, key, event)) return;
   else if (key === 'escape' && app.viewer.tool === 'measure' && app.measuring.cancel()) return;
   else if (key === 'escape') app.setTool('orbit');

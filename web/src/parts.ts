@@ -12,6 +12,12 @@ import { Sectioning } from './sectioning';
 import { Setups } from './setups';
 import { Store } from './store';
 
+/** How the surface is built from the scan. */
+export interface BuildSettings {
+  voxel_mm: number;
+  watertight: boolean;
+}
+
 /** The window as its panels see it: the store, and what the parts of the window keep and do. */
 export abstract class App extends Store {
   readonly projects = new Projects(this);
@@ -29,7 +35,7 @@ export abstract class App extends Store {
   /** Whether the picture is the surface. */
   abstract get onSurface(): boolean;
   protected abstract chooseClouds(): void;
-  abstract build(): Promise<void>;
+  abstract build(settings?: Partial<BuildSettings>): Promise<void>;
   abstract changeLanguage(language: Language): void;
   /** Whether the stage shows the camera instead of the scene. */
   get showsCamera(): boolean {

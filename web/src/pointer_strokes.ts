@@ -1,10 +1,30 @@
 import { brushOutline, type Point } from './strokes';
 
 export type Tool =
-  'orbit' | 'measure' | 'section' | 'pair' | 'brush' | 'lasso' | 'rectangle' | 'part' | 'loop' | 'align' | 'feature';
+  | 'orbit'
+  | 'measure'
+  | 'section'
+  | 'pair'
+  | 'brush'
+  | 'lasso'
+  | 'rectangle'
+  | 'part'
+  | 'like'
+  | 'loop'
+  | 'align'
+  | 'feature';
 
 export const DRAWING: ReadonlySet<Tool> = new Set(['lasso', 'rectangle', 'brush']);
-const CLICKING: ReadonlySet<Tool> = new Set(['measure', 'section', 'pair', 'part', 'loop', 'align', 'feature']);
+export const CLICKING: ReadonlySet<Tool> = new Set([
+  'measure',
+  'section',
+  'pair',
+  'part',
+  'like',
+  'loop',
+  'align',
+  'feature',
+]);
 
 /** Tools whose clicks are places of the surface. */
 const PLACING = ['measure', 'section', 'pair'] as const satisfies readonly Tool[];
@@ -30,6 +50,7 @@ export class PointerStrokes {
   private down: Point | null = null;
   private held: ModifierKeys = { shift: false, ctrl: false };
   private readonly fingers = new Set<number>();
+  private readonly ring = document.createElementNS('http://www.w3.org/2000/svg', 'circle');
 
   constructor(
     canvas: HTMLCanvasElement,
@@ -53,6 +74,7 @@ export class PointerStrokes {
       this.stroke = [this.down];
     });
     canvas.addEventListener('pointermove', (event) => {
+      this.showRing(event.pointerType === 'mouse' && settings.tool === 'brush' ? at(event) : null);
       if (this.stroke.length === 0) return;
       this.extend(at(event));
       this.sketch();
@@ -70,10 +92,20 @@ export class PointerStrokes {
       if (DRAWING.has(settings.tool) && outline.length >= 3) return events.outlined(outline, this.held);
       if (still && CLICKING.has(settings.tool)) events.clicked(point, this.held);
     });
+    canvas.addEventListener('pointerleave', () => this.showRing(null));
     canvas.addEventListener('pointercancel', (event) => {
       this.fingers.delete(event.pointerId);
       this.drop();
     });
+  }
+
+  /** What the brush would cover, around the pointer. */
+  private showRing(at: Point | null): void {
+    if (!at) return this.ring.remove();
+    this.ring.setAttribute('cx', String(at[0]));
+    this.ring.setAttribute('cy', String(at[1]));
+    this.ring.setAttribute('r', String(this.settings.brush));
+    if (!this.ring.parentNode) this.overlay.append(this.ring);
   }
 
   private drop(): void {
@@ -93,8 +125,8 @@ export class PointerStrokes {
     const points = this.stroke.map(([x, y]) => `${x.toFixed(1)},${y.toFixed(1)}`).join(' ');
     const brush = this.settings.tool === 'brush';
     const name = brush ? 'polyline' : 'polygon';
-    let line = this.overlay.querySelector(name);
-    if (!points) return this.overlay.replaceChildren();
+    let line = this.overlay.querySelector('polyline, polygon');
+    if (!points) return line?.remove();
     if (!line) {
       line = document.createElementNS('http://www.w3.org/2000/svg', name);
       if (brush) line.setAttribute('stroke-width', String(2 * this.settings.brush));

@@ -41,6 +41,8 @@ export function stepWords({ operation, value, change }: Step): string {
   if (operation === 'grow' || operation === 'shrink') return count(`did.${operation}`);
   if (operation === 'add' || operation === 'within' || operation === 'without') return count(`did.${operation}`);
   if (operation === 'select-sigma') return count('did.selectSigma');
+  if (operation === 'select-normal') return count('did.selectNormal');
+  if (operation === 'select-curvature') return count('did.selectCurvature');
   if (operation === 'select-plane') return count('did.selectPlane');
   if (operation === 'select-component') return count('did.selectPart');
   if (operation === 'select-loop') return count('did.selectLoop');

@@ -1,13 +1,20 @@
 import * as THREE from 'three';
 
+import { svgElement } from './svg_element';
+import type { Triple } from './types';
+import { HALF, ViewCube } from './view_cube';
+
 const AXES = [
   ['x', new THREE.Vector3(1, 0, 0)],
   ['y', new THREE.Vector3(0, 1, 0)],
   ['z', new THREE.Vector3(0, 0, 1)],
 ] as const;
-const ARM = 26;
-const CENTER = 40;
+/** Length of an axis: it ends outside of the cube. */
+const ARM = 40;
+const CENTER = 58;
 const WIDEST_BAR_PX = 150;
+/** Where the bar begins, right of the cube, and its height, pixels. */
+const BAR = [128, 92] as const;
 
 /** The largest of 1, 2 and 5 times a power of ten that is not above a length. */
 export function roundLength(most: number): number {
@@ -17,36 +24,40 @@ export function roundLength(most: number): number {
 
 const length = (mm: number): string => (mm < 1 ? `${Number((1000 * mm).toPrecision(1))} µm` : `${mm} mm`);
 
-const element = (name: string, attributes: Record<string, string>): SVGElement => {
-  const one = document.createElementNS('http://www.w3.org/2000/svg', name);
-  for (const [key, value] of Object.entries(attributes)) one.setAttribute(key, value);
-  return one;
-};
-
-/** What stands on the 3D picture and follows the eye: the axes of the object, and a bar of known length. */
+/** What stands on the 3D picture and follows the eye: a cube with the axes of the object, and a bar of known length. */
 export class ViewMarks {
-  readonly element = element('svg', { class: 'view-marks', 'aria-hidden': 'true' });
+  readonly element = svgElement('svg', { class: 'view-marks', 'aria-hidden': 'true' });
   private readonly arms = AXES.map(([name]) => {
-    const line = element('line', { class: `axis ${name}`, x1: String(CENTER), y1: String(CENTER) });
-    const text = element('text', { class: `axis ${name}` });
+    const line = svgElement('line', { class: `axis ${name}` });
+    const text = svgElement('text', { class: `axis ${name}` });
     text.textContent = name;
     return { line, text };
   });
-  private readonly bar = element('path', { class: 'bar' });
-  private readonly label = element('text', { class: 'bar', x: '92', y: '52' });
+  private readonly bar = svgElement('path', { class: 'bar' });
+  private readonly label = svgElement('text', { class: 'bar', x: String(BAR[0]), y: String(BAR[1] - 8) });
+  private readonly cube: ViewCube;
+  private readonly behind = svgElement('g', {});
+  private readonly before = svgElement('g', {});
 
-  constructor() {
-    this.element.append(...this.arms.flatMap(({ line, text }) => [line, text]), this.bar, this.label);
+  /** `looked` is called with where the eye is to stand. */
+  constructor(looked: (from: Triple) => void) {
+    this.cube = new ViewCube(CENTER, looked);
+    const names = this.arms.map(({ text }) => text);
+    this.element.append(this.behind, this.cube.group, this.before, ...names, this.bar, this.label);
   }
 
   update(camera: THREE.Camera, mmPerPixel: number): void {
     const turn = camera.quaternion.clone().invert();
     const seen = AXES.map(([, axis]) => axis.clone().applyQuaternion(turn));
-    // What points to the eye is drawn over the others.
-    const order = [0, 1, 2].sort((a, b) => (seen[a] as THREE.Vector3).z - (seen[b] as THREE.Vector3).z);
-    for (const i of order) {
-      const { x, y } = seen[i] as THREE.Vector3;
+    this.cube.update(turn);
+    for (const [i, { x, y, z }] of seen.entries()) {
       const { line, text } = this.arms[i] as { line: SVGElement; text: SVGElement };
+      // The cube covers what points away from the eye.
+      const group = z > 0 ? this.before : this.behind;
+      if (line.parentNode !== group) group.append(line);
+      const begin = z > 0 ? HALF : 0;
+      line.setAttribute('x1', (CENTER + begin * x).toFixed(1));
+      line.setAttribute('y1', (CENTER - begin * y).toFixed(1));
       line.setAttribute('x2', (CENTER + ARM * x).toFixed(1));
       line.setAttribute('y2', (CENTER - ARM * y).toFixed(1));
       text.setAttribute('x', (CENTER + (ARM + 9) * x).toFixed(1));
@@ -54,7 +65,7 @@ export class ViewMarks {
     }
     const mm = roundLength(mmPerPixel * WIDEST_BAR_PX);
     const width = mm / mmPerPixel;
-    this.bar.setAttribute('d', `M92 60v6h${width.toFixed(1)}v-6`);
+    this.bar.setAttribute('d', `M${BAR[0]} ${BAR[1]}v6h${width.toFixed(1)}v-6`);
     this.label.textContent = length(mm);
   }
 }

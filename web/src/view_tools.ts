@@ -2,8 +2,9 @@ import { html, type TemplateResult } from 'lit';
 import type { App } from './parts';
 import { icon } from './icons';
 import { surfaceLegend } from './legend';
-import { type MessageKey, t } from './messages';
+import { type MessageKey, number, t } from './messages';
 import { previewBar } from './preview_bar';
+import { standAtStation } from './station_view';
 
 /** Where the eye of each standard view is, and the key that takes it there, with Shift. Slightly off the poles, where up has no direction. */
 export const VIEWS = [
@@ -15,6 +16,42 @@ export const VIEWS = [
   ['bottom', [0, -0.001, -1]],
   ['iso', [1, -1, 0.816]],
 ] as const satisfies readonly (readonly [string, readonly [number, number, number]])[];
+
+/** The cameras of the stations of the first setup, in whose pose the part stands in the picture. */
+function stationViews(app: App): TemplateResult | string {
+  const { rig, stations } = app.project;
+  const own = stations.filter((station) => station.setup === 0);
+  if (!rig?.turntable || own.length === 0 || !(app.onSurface || app.step === 'scan')) return '';
+  const stand = (event: Event) => {
+    const select = event.target as HTMLSelectElement;
+    const station = own[Number(select.value)];
+    select.value = '';
+    if (station) standAtStation(app.viewer, rig, station.angle_deg);
+  };
+  return html`<select class="stand" aria-label=${t('app.stand')} title=${t('app.stand')} @change=${stand}>
+    <option value="" selected>${t('table.camera')}</option>
+    ${own.map((station, i) => html`<option value=${i}>${i + 1}: ${number(station.angle_deg, 0)}°</option>`)}
+  </select>`;
+}
+
+function parallelButton(app: App): TemplateResult {
+  const { view } = app.viewer;
+  return html`<button
+    class="icon-btn"
+    id="parallel"
+    title="${t('app.parallel')} (O)"
+    aria-label=${t('app.parallel')}
+    aria-pressed=${view.isParallel}
+    @click=${() => toggleParallel(app)}
+  >
+    ${icon('parallel')}
+  </button>`;
+}
+export function toggleParallel(app: App): void {
+  app.viewer.view.setParallel(!app.viewer.view.isParallel);
+  app.viewer.draw();
+  app.requestUpdate();
+}
 
 const viewButtons = (app: App): TemplateResult =>
   html`<div class="view-tools" role="group" aria-label=${t('app.views')}>
@@ -29,6 +66,7 @@ const viewButtons = (app: App): TemplateResult =>
           ${t(`app.${name}` as MessageKey)}
         </button>`,
     )}
+    ${stationViews(app)} ${parallelButton(app)}
     <button
       class="icon-btn"
       title="${t('app.frame')} (F)"

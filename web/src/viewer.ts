@@ -3,22 +3,25 @@ import * as THREE from 'three';
 
 import type { MeshArrays } from './arrays';
 import { CloudsView } from './clouds_view';
-import type { Coloring, Legend } from './mesh_colors';
+import type { Coloring, Ends, Legend } from './mesh_colors';
 import { EditPreview } from './edit_preview';
 import { HoleMarks, type Marked } from './hole_marks';
 import { type Drawn, Ruler } from './ruler';
 import { RigModel } from './rig_model';
 import { addLights, addTable } from './stage_props';
 import { Smoothing } from './smoothing';
-import type { Hit, Ray, ViewerEvents } from './viewer_events';
+import type { Ray, ViewerEvents } from './viewer_events';
 import { ReferenceView } from './reference_view';
 import { SectionView } from './section_view';
-import { DRAWING, type ModifierKeys, places, PointerStrokes, type Tool } from './pointer_strokes';
+import { CLICKING, DRAWING, PointerStrokes, type ModifierKeys, type Tool } from './pointer_strokes';
 import { smallPicture } from './small_picture';
+import type { Point } from './strokes';
 import { type SectionLook, type Shading, SurfaceView } from './surface_view';
 import type { RigGeometry, Section, Triple } from './types';
 import { ViewCamera } from './view_camera';
+import { listenToKeys } from './view_keys';
 import { ViewMarks } from './view_marks';
+import { ViewPicks } from './view_picks';
 
 export type { ModifierKeys, Tool } from './pointer_strokes';
 export type { Hit, Ray } from './viewer_events';
@@ -27,6 +30,8 @@ export type { SectionAxis, SectionLook, Shading } from './surface_view';
 /** After a move, until the finest level is drawn, ms: later where it takes long and would hold up the next move. */
 const REST_MS = 160;
 const REST_IN_SOFTWARE_MS = 400;
+/** A point of a cloud is hit within this distance. */
+const NEAR_PX = 6;
 
 /** The 3D picture. It draws when something changes, not all the time. */
 export class Viewer {
@@ -40,8 +45,9 @@ export class Viewer {
 
   private renderer!: THREE.WebGLRenderer;
   private smoothing!: Smoothing;
-  private view!: ViewCamera;
-  private readonly marks = new ViewMarks();
+  view!: ViewCamera;
+  private readonly marks = new ViewMarks((from) => this.frame(from));
+  private readonly picks: ViewPicks;
   private readonly scene = new THREE.Scene();
   private readonly lights = new THREE.Group();
   readonly clouds = new CloudsView();
@@ -56,8 +62,6 @@ export class Viewer {
   private rigShown = 'null';
   private tableKnown = true;
   private wanted = true;
-  private picks: Triple[] = [];
-  private answered = Promise.resolve();
   private due = false;
   private resting = 0;
   private held = false;
@@ -66,10 +70,12 @@ export class Viewer {
 
   constructor(
     private readonly host: HTMLElement,
-    private readonly events: ViewerEvents,
+    events: ViewerEvents,
   ) {
+    this.picks = new ViewPicks(this, events);
     this.canvas = document.createElement('canvas');
     this.canvas.className = 'view-canvas';
+    this.canvas.tabIndex = 0;
     this.overlay = document.createElementNS('http://www.w3.org/2000/svg', 'svg');
     this.overlay.setAttribute('class', 'view-overlay');
     this.overlay.setAttribute('aria-hidden', 'true');
@@ -111,18 +117,14 @@ export class Viewer {
     addLights(this.lights);
     addTable(this.table);
     new ResizeObserver(() => this.resize()).observe(host);
-    new PointerStrokes(this.canvas, this.overlay, this, {
-      outlined: (stroke, keys) => this.events.outlined(this.view.outlineOf(stroke), this.through, keys),
-      clicked: (point, keys) => {
-        const { tool } = this;
-        const asked = this.events.pick(this.pickRay(point));
-        // In the order of the clicks, whichever is answered first.
-        this.answered = this.answered.then(async () => {
-          const hit = await asked;
-          if (hit && tool === this.tool) this.onHit(hit, keys);
-        });
-      },
-    });
+    const acts = {
+      outlined: (stroke: Point[], keys: ModifierKeys) =>
+        events.outlined(this.view.outlineOf(stroke), this.through, keys),
+      clicked: (point: Point, keys: ModifierKeys) => this.picks.clicked(point, keys),
+    };
+    new PointerStrokes(this.canvas, this.overlay, this, acts);
+    listenToKeys(this.canvas, this.view, this, { ...acts, moved: () => this.move() });
+    this.canvas.addEventListener('dblclick', ({ offsetX, offsetY }) => this.approach([offsetX, offsetY]));
     this.resize();
   }
 
@@ -289,6 +291,14 @@ export class Viewer {
   get legend(): Legend | null {
     return this.surface.legend;
   }
+  /** Chooses the ends of the scale of colours; null takes the usual ones again. */
+  setEnds(ends: Ends | null): void {
+    this.surface.setEnds(ends);
+    this.draw();
+  }
+  get hasOwnEnds(): boolean {
+    return this.surface.hasOwnEnds;
+  }
   /** Shows the reference in place of the surface; null shows the surface again. */
   setReference(arrays: MeshArrays | null): void {
     if (!arrays && !this.showsReference) return;
@@ -313,6 +323,14 @@ export class Viewer {
     return this.surface.size;
   }
 
+  /** Brings what is seen at a pixel to the middle, nearer; a tool that clicks takes both clicks itself. */
+  private approach(at: Point): void {
+    if (CLICKING.has(this.tool)) return;
+    if (this.wanted && this.shown)
+      return this.picks.ask(at, ({ point_mm }) => this.view.approach(new THREE.Vector3(...point_mm)));
+    const point = this.clouds.pointOn(this.view.rayAt(at), NEAR_PX * this.view.mmPerPixel);
+    if (point) this.view.approach(point);
+  }
   /** Puts the object in the middle of the picture. */
   frame(direction?: [number, number, number]): void {
     if (!this.supported) return;
@@ -332,9 +350,7 @@ export class Viewer {
 
   /** Drops points that were clicked and make nothing yet. */
   clearMeasurement(): void {
-    this.showPending([]);
-    this.picks = [];
-    this.draw();
+    this.picks.forget();
   }
   showMeasurements(list: readonly Drawn[]): void {
     this.ruler.show(list, this.size.length() / 260);
@@ -349,19 +365,8 @@ export class Viewer {
     this.draw();
   }
 
-  private onHit(hit: Hit, keys: ModifierKeys): void {
-    if (this.tool === 'part') return this.events.partPicked(hit.triangle, keys);
-    if (this.tool === 'loop' || this.tool === 'feature') return this.events.picked(this.tool, [hit.point_mm], keys);
-    if (places(this.tool)) return this.events.placed(this.tool, hit);
-    if (this.tool !== 'align') return;
-    this.picks.push(hit.point_mm);
-    this.showPending(this.picks);
-    if (this.picks.length < 3) return;
-    this.events.picked('align', this.picks, keys);
-    this.clearMeasurement();
-  }
-
-  private pickRay(point: [number, number]): Ray {
+  /** The ray of the eye through a pixel. */
+  rayThrough(point: Point): Ray {
     const { origin, direction } = this.view.rayAt(point);
     const { kept } = this.surface;
     const of = this.showsReference ? { reference: true as const } : kept ? { section: kept } : {};

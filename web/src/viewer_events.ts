@@ -23,7 +23,8 @@ export interface ViewerEvents {
   /** A place of the surface to measure from, or to put a plane through. */
   placed(tool: PlacingTool, hit: Hit): void;
   outlined(outline: Outline, through: boolean, keys: ModifierKeys): void;
-  partPicked(triangle: number, keys: ModifierKeys): void;
+  /** A triangle of the connected part, or of what is alike, that is to be selected. */
+  trianglePicked(tool: 'part' | 'like', triangle: number, keys: ModifierKeys): void;
   /** A point of the surface, or three of them for an alignment. */
   picked(tool: Tool, points: [number, number, number][], keys: ModifierKeys): void;
 }

@@ -23,6 +23,17 @@ export const EDIT = {
   'edit.rectangle': ['Rectangle', 'Rechteck', 'Rettangolo'],
   'edit.part': ['Part', 'Teil', 'Parte'],
   'edit.brush': ['Brush', 'Pinsel', 'Pennello'],
+  'edit.brushSize': ['Size of the brush', 'Größe des Pinsels', 'Grandezza del pennello'],
+  'edit.like': ['Like this', 'Ähnliche', 'Simili'],
+  'edit.like.normal': ['Normal', 'Normale', 'Normale'],
+  'edit.like.curvature': ['Curvature', 'Krümmung', 'Curvatura'],
+  'edit.like.sigma': ['Sigma', 'Sigma', 'Sigma'],
+  'edit.like.mark': ['Mark', 'Herkunft', 'Origine'],
+  'edit.likeHint': [
+    'Click the surface: what faces the same way to 15°, is curved or as uncertain at least as much, or has the same mark, is selected.',
+    'Auf die Fläche klicken: Gewählt wird, was bis auf 15° gleich gerichtet, mindestens so gekrümmt oder so unsicher ist oder dieselbe Herkunft hat.',
+    'Fare clic sulla superficie: si seleziona ciò che è orientato allo stesso modo entro 15°, almeno altrettanto curvo o incerto, o della stessa origine.',
+  ],
   'edit.loop': ['Boundary', 'Rand', 'Bordo'],
   'edit.loopHint': [
     'Click near a hole to select its boundary.',
@@ -84,6 +95,7 @@ export const EDIT = {
   'edit.islands': ['Keep the largest part', 'Größtes Teil behalten', 'Tieni la parte maggiore'],
   'edit.decimate': ['Reduce', 'Reduzieren', 'Riduci'],
   'edit.within_mm': ['Surface stays within', 'Fläche bleibt innerhalb', 'La superficie resta entro'],
+  'edit.mostTriangles': ['Triangles at most', 'Dreiecke höchstens', 'Triangoli al massimo'],
   'edit.history': ['History', 'Verlauf', 'Cronologia'],
   'edit.noHistory': [
     'Every step appears here and can be undone.',

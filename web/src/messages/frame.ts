@@ -111,6 +111,16 @@ export const FRAME = {
     '{selected} Dreiecke mit Sigma über {value} ausgewählt',
     '{selected} triangoli con sigma sopra {value} selezionati',
   ],
+  'did.selectNormal': [
+    'Selected {selected} triangles that face the same way',
+    '{selected} gleich gerichtete Dreiecke ausgewählt',
+    '{selected} triangoli orientati allo stesso modo selezionati',
+  ],
+  'did.selectCurvature': [
+    'Selected {selected} triangles of stronger curvature',
+    '{selected} stärker gekrümmte Dreiecke ausgewählt',
+    '{selected} triangoli più curvi selezionati',
+  ],
   'did.selectPlane': [
     'Selected {selected} triangles beyond a plane',
     '{selected} Dreiecke jenseits einer Ebene ausgewählt',
@@ -231,6 +241,7 @@ export const FRAME = {
     'Un altro browser comanda lo scanner; questo guarda.',
   ],
   'app.takeOver': ['Take over', 'Übernehmen', 'Prendi il comando'],
+  'term.ask': ['What is {term}?', 'Was heißt {term}?', 'Che cosa significa {term}?'],
   'app.close': ['Close', 'Schließen', 'Chiudi'],
   'app.frame': ['Fit the view', 'Ansicht einpassen', 'Adatta la vista'],
   'app.front': ['Front', 'Vorn', 'Fronte'],
@@ -280,5 +291,28 @@ export const FRAME = {
   'app.right': ['Right', 'Rechts', 'Destra'],
   'app.bottom': ['Bottom', 'Unten', 'Sotto'],
   'app.iso': ['Isometric', 'Isometrisch', 'Isometrica'],
+  'app.parallel': ['Parallel projection', 'Parallelprojektion', 'Proiezione parallela'],
+  'app.stand': [
+    'Look from the camera of a station',
+    'Von der Kamera einer Station aus sehen',
+    'Guarda dalla camera di una stazione',
+  ],
+  'keys.turn': ['On the picture: turn it', 'Im Bild: drehen', "Nell'immagine: girarla"],
+  'keys.pan': ['On the picture: move it', 'Im Bild: verschieben', "Nell'immagine: spostarla"],
+  'keys.zoom': [
+    'On the picture: nearer, farther',
+    'Im Bild: näher, weiter weg',
+    "Nell'immagine: più vicino, più lontano",
+  ],
+  'keys.use': [
+    'On the picture: use the tool in its middle',
+    'Im Bild: Werkzeug in der Mitte benutzen',
+    "Nell'immagine: usa lo strumento al centro",
+  ],
+  'app.viewKeys': [
+    'Arrow keys turn the picture, with Shift they move it; Page up and down zoom; Enter uses the tool in its middle.',
+    'Pfeiltasten drehen das Bild, mit Umschalt verschieben sie es; Bild auf und ab zoomen; Enter benutzt das Werkzeug in der Mitte.',
+    "Le frecce girano l'immagine, con Maiusc la spostano; Pagina su e giù ingrandiscono; Invio usa lo strumento al centro.",
+  ],
   'app.views': ['Standard views', 'Standardansichten', 'Viste standard'],
 } as const satisfies Rows;

@@ -3,7 +3,7 @@ import type { App } from '../../parts';
 import { onButton, type Step } from '../../step';
 import { editStep } from './panel';
 
-const TOOLS = { l: 'lasso', b: 'brush', r: 'rectangle', p: 'part' } as const;
+const TOOLS = { l: 'lasso', b: 'brush', r: 'rectangle', p: 'part', k: 'like' } as const;
 
 function keys(app: App, key: string, event: KeyboardEvent): boolean {
   const surface = app.state.project?.surface;
@@ -12,6 +12,7 @@ function keys(app: App, key: string, event: KeyboardEvent): boolean {
     app.editing.applyPreview();
   else if (!surface) return false;
   else if (key in TOOLS) app.setTool(TOOLS[key as keyof typeof TOOLS]);
+  else if (key === '[' || key === ']') app.editing.growBrush(key === ']');
   else if (key === 'i') app.editing.run('invert');
   else if ((key === 'delete' || key === 'backspace') && surface.selected) app.editing.run('delete');
   else return false;
@@ -33,6 +34,8 @@ export const step: Step = {
     ['edit.lasso', 'L'],
     ['edit.rectangle', 'R'],
     ['edit.part', 'P'],
+    ['edit.like', 'K'],
+    ['edit.brushSize', '[ ]'],
     ['edit.delete', 'Del'],
     ['edit.invert', 'I'],
   ],

@@ -1,18 +1,40 @@
 import { html, type TemplateResult } from 'lit';
-import type { Combine } from '../../editing';
+import { type Combine, type Likeness, LIKENESSES } from '../../editing';
 import type { App } from '../../parts';
 import { icon, type IconName } from '../../icons';
 import { type MessageKey, number, t } from '../../messages';
-import { choice } from '../../ui';
+import { choice, numberForm } from '../../ui';
 import { stepWords } from '../../step_words';
 import type { Tool } from '../../viewer';
 import { fitting, selectingByValue, shaping } from './more';
 
 const SHOWN_HOLES = 6;
 
-/** An icon whose name shows when it is pointed at. */
-const tip = (name: IconName, key: MessageKey): TemplateResult =>
-  html`<span class="tip" title=${t(key)}>${icon(name)}<span class="sr">${t(key)}</span></span>`;
+const tool = (name: IconName, key: MessageKey): TemplateResult => html`${icon(name)}<span>${t(key)}</span>`;
+
+/** What the present tool needs to know. */
+function toolSettings(app: App): TemplateResult | string {
+  const { viewer, editing } = app;
+  if (viewer.tool === 'brush')
+    return html`<label class="slider"
+      ><span>${t('edit.brushSize')}</span><b class="num">${number(2 * viewer.brush)} px</b>
+      <input
+        id="brush-size"
+        type="range"
+        min="4"
+        max="120"
+        .value=${String(viewer.brush)}
+        @input=${(event: Event) => editing.setBrush((event.target as HTMLInputElement).valueAsNumber)}
+    /></label>`;
+  if (viewer.tool !== 'like') return '';
+  return html`${choice<Likeness>(
+      t('edit.like'),
+      editing.likeness,
+      LIKENESSES.map((one) => [one, t(`edit.like.${one}`)] as const),
+      (one) => editing.setLikeness(one),
+    )}
+    <p class="quiet">${t('edit.likeHint')}</p>`;
+}
 
 function selecting(app: App): TemplateResult {
   const surface = app.project.surface;
@@ -24,19 +46,23 @@ function selecting(app: App): TemplateResult {
         >${selected ? t('edit.selected', { count: number(selected) }) : t('edit.nothing')}</small
       >
     </h2>
-    ${choice<Tool>(
-      t('edit.select'),
-      app.viewer.tool,
-      [
-        ['orbit', tip('orbit', 'edit.orbit')],
-        ['brush', tip('brush', 'edit.brush')],
-        ['lasso', tip('lasso', 'edit.lasso')],
-        ['rectangle', tip('rectangle', 'edit.rectangle')],
-        ['part', tip('part', 'edit.part')],
-        ['loop', tip('loop', 'edit.loop')],
-      ],
-      (tool) => app.setTool(tool),
-    )}
+    <div class="tools-of">
+      ${choice<Tool>(
+        t('edit.select'),
+        app.viewer.tool,
+        [
+          ['orbit', tool('orbit', 'edit.orbit')],
+          ['brush', tool('brush', 'edit.brush')],
+          ['lasso', tool('lasso', 'edit.lasso')],
+          ['rectangle', tool('rectangle', 'edit.rectangle')],
+          ['part', tool('part', 'edit.part')],
+          ['like', tool('like', 'edit.like')],
+          ['loop', tool('loop', 'edit.loop')],
+        ],
+        (tool) => app.setTool(tool),
+      )}
+    </div>
+    ${toolSettings(app)}
     ${choice<Combine>(
       t('edit.mode'),
       app.editing.combine,
@@ -169,8 +195,15 @@ function repairing(app: App): TemplateResult {
         /></label>
         <button class="btn" id="decimate" ?disabled=${app.busy}>${t('edit.decimate')}</button>
       </form>
+      ${reducing(app, surface.triangles)}
     </section>`;
 }
+
+/** Reduces the mesh to at most a number of triangles, as other programs ask for. */
+const reducing = (app: App, triangles: number): TemplateResult =>
+  numberForm('decimate-to', t('edit.mostTriangles'), Math.ceil(triangles / 2), t('edit.decimate'), app.busy, (value) =>
+    app.editing.preview('decimate-to', String(Math.max(4, Math.round(value)))),
+  );
 
 export function editStep(app: App): TemplateResult {
   const surface = app.project.surface;
