@@ -18,6 +18,7 @@ packages('esbuild').buildSync({
     contents: `export { worded, faultOf } from './src/faults';
       export { stepOf } from './src/fault_steps';
       export { FAULTS } from './src/messages/faults';
+      export { TERMS } from './src/messages/terms';
       export { LANGUAGES, setLanguage } from './src/messages';`,
     resolveDir: web,
   },
@@ -27,7 +28,7 @@ const kept = new Map();
 globalThis.localStorage = { getItem: (key) => kept.get(key) ?? null, setItem: (key, value) => kept.set(key, value) };
 globalThis.document = { documentElement: {} };
 globalThis.navigator ??= { language: 'en' };
-const { worded, faultOf, stepOf, FAULTS, LANGUAGES, setLanguage } = await import(pathToFileURL(bundle).href);
+const { worded, faultOf, stepOf, FAULTS, TERMS, LANGUAGES, setLanguage } = await import(pathToFileURL(bundle).href);
 
 /** Values as they come: numbers and names, which no language changes. */
 const VALUES = ['7.25', 'x-19', '31', '0.4', '58', '6.75', '12', '93', 'q7', '2'];
@@ -79,6 +80,13 @@ for (const [language] of LANGUAGES) {
     ['an unheard-of sentence', undefined],
   ])
     if (stepOf(sentence) !== step) fail(`"${sentence}" leads to ${stepOf(sentence)} instead of ${step}`);
+}
+// The English entry of each term is the beginning of that of docs/terms.md.
+const entries = new Map([...fs.readFileSync(path.join(web, '../docs/terms.md'), 'utf8').matchAll(/^\| (.+?) \| (.+) \|$/gm)].map(([, term, meaning]) => [term, meaning]));
+for (const [key, [word]] of Object.entries(TERMS)) {
+  if (!key.startsWith('term.')) continue;
+  const [meaning] = TERMS[key.replace('term.', 'means.')] ?? [''];
+  if (!meaning || !entries.get(word)?.startsWith(meaning)) fail(`${word}: the page says "${meaning}", docs/terms.md "${entries.get(word)}"`);
 }
 passed(`${Object.keys(FAULTS).length} sentences in ${LANGUAGES.length} languages`);
 for (const problem of problems) console.error(problem);

@@ -11,6 +11,7 @@ import { RIG } from './messages/rig';
 import { SCAN } from './messages/scan';
 import type { Rows } from './messages/rows';
 import { SURFACE } from './messages/surface';
+import { TERMS } from './messages/terms';
 import { VERDICT } from './messages/verdict';
 
 /** The message catalogue, put together from its areas. */
@@ -27,6 +28,7 @@ const CATALOGUE = {
   ...INSPECT,
   ...ACCEPT,
   ...VERDICT,
+  ...TERMS,
   ...FAULTS,
 } as const;
 
