@@ -41,10 +41,14 @@ export function viridis(share: number): Rgb {
 }
 
 /**
- * Deviations: green within the tolerance, to blue below and to red above it. The order is that of metrology's usual
+ * Deviations: green within the tolerance, to blue below and to red above it, up to the ends of the scale. The order is that of metrology's usual
  * legends; lightness falls to both sides, so that it is read without colour vision as well.
  */
-export function deviationColor(value: number, [lower, upper]: [number, number], reach: number): Rgb {
+export function deviationColor(
+  value: number,
+  [lower, upper]: readonly [number, number],
+  [low, high]: readonly [number, number],
+): Rgb {
   const ramp = (share: number, colors: readonly Rgb[]): Rgb => {
     const at = Math.min(1, Math.max(0, share)) * (colors.length - 1);
     const low = Math.min(colors.length - 2, Math.floor(at));
@@ -52,13 +56,13 @@ export function deviationColor(value: number, [lower, upper]: [number, number], 
     return [0, 1, 2].map((i) => (a[i] as number) + ((b[i] as number) - (a[i] as number)) * (at - low)) as Rgb;
   };
   if (value > upper)
-    return ramp((value - upper) / (reach - upper || 1), [
+    return ramp((value - upper) / (high - upper || 1), [
       [250, 214, 92],
       [240, 134, 55],
       [190, 35, 45],
     ]);
   if (value < lower)
-    return ramp((lower - value) / (reach + lower || 1), [
+    return ramp((lower - value) / (lower - low || 1), [
       [120, 214, 226],
       [62, 138, 214],
       [44, 52, 150],

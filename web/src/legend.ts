@@ -1,11 +1,35 @@
 import { html, svg, type TemplateResult } from 'lit';
 import type { Store } from './store';
 import { css, MARK_COLORS, type Rgb, SEVERAL_SETUPS, setupColor } from './colors';
+import { icon } from './icons';
 import { number, t } from './messages';
 import { type Legend, shade } from './mesh_colors';
 
-/** A colour scale whose histogram stands on it. */
-function legend(title: string, scale: Legend, factor: number, digits: number): TemplateResult {
+/** An end of the scale, which can be written over; `factor` is from the unit of the mesh to that of the legend. */
+function end(app: Store, scale: Legend, at: 0 | 1, factor: number, digits: number): TemplateResult {
+  const ends: [number, number] = [scale.low, scale.high];
+  const set = (event: Event) => {
+    const input = event.target as HTMLInputElement;
+    const value = input.valueAsNumber / factor;
+    const wanted: [number, number] = at === 0 ? [value, ends[1]] : [ends[0], value];
+    if (wanted[0] < wanted[1]) app.viewer.setEnds(wanted);
+    app.requestUpdate();
+    input.value = ((wanted[0] < wanted[1] ? value : ends[at]) * factor).toFixed(digits);
+  };
+  return html`<input
+    class="num"
+    name=${at === 0 ? 'legend-low' : 'legend-high'}
+    type="number"
+    step="any"
+    aria-label=${t(at === 0 ? 'legend.low' : 'legend.high')}
+    title=${t(at === 0 ? 'legend.low' : 'legend.high')}
+    .value=${(ends[at] * factor).toFixed(digits)}
+    @change=${set}
+  />`;
+}
+
+/** A colour scale whose histogram stands on it, and whose ends can be chosen. */
+function legend(app: Store, title: string, scale: Legend, factor: number, digits: number): TemplateResult {
   const most = Math.max(1, ...scale.counts);
   const bins = scale.counts.length;
   const width = 280 / bins;
@@ -24,9 +48,24 @@ function legend(title: string, scale: Legend, factor: number, digits: number): T
       })}
     </svg>
     <div class="legend-range num">
-      <span>${number(scale.low * factor, digits)}</span>
-      <span>${number(((scale.low + scale.high) / 2) * factor, digits)}</span>
-      <span>${number(scale.high * factor, digits)}</span>
+      ${end(app, scale, 0, factor, digits)}
+      ${
+        app.viewer.hasOwnEnds
+          ? html`<button
+              class="icon-btn"
+              id="usual-ends"
+              title=${t('legend.usual')}
+              aria-label=${t('legend.usual')}
+              @click=${() => {
+                app.viewer.setEnds(null);
+                app.requestUpdate();
+              }}
+            >
+              ${icon('again')}
+            </button>`
+          : html`<span>${number(((scale.low + scale.high) / 2) * factor, digits)}</span>`
+      }
+      ${end(app, scale, 1, factor, digits)}
     </div>
     ${scale.beyond > 0.001 ? html`<p class="quiet">${t('surface.beyond', { share: number(100 * scale.beyond, 1) })}</p>` : ''}
   </figure>`;
@@ -61,9 +100,10 @@ export function surfaceLegend(app: Store): TemplateResult | string {
       )}
     </div>`;
   if (!scale) return '';
-  if (coloring === 'sigma') return html`<div class="chip">${legend(t('surface.sigmaLegend'), scale, 1000, 1)}</div>`;
-  if (coloring === 'views') return html`<div class="chip">${legend(t('surface.viewsLegend'), scale, 1, 0)}</div>`;
+  if (coloring === 'sigma')
+    return html`<div class="chip">${legend(app, t('surface.sigmaLegend'), scale, 1000, 1)}</div>`;
+  if (coloring === 'views') return html`<div class="chip">${legend(app, t('surface.viewsLegend'), scale, 1, 0)}</div>`;
   if (coloring === 'deviation')
-    return html`<div class="chip">${legend(t('surface.deviationLegend'), scale, 1, 2)}</div>`;
+    return html`<div class="chip">${legend(app, t('surface.deviationLegend'), scale, 1, 2)}</div>`;
   return '';
 }

@@ -1,5 +1,6 @@
 import { unpack, valuesOf } from './arrays';
 import { type Rgb, viridis } from './colors';
+import { type Ends, endsOfHeights } from './mesh_colors';
 import type { Layer } from './session';
 
 /** The figures that arrive with a live picture. */
@@ -52,7 +53,7 @@ const STRIPED = table((value) =>
 );
 
 /** A cyclic scale: -pi and pi look alike. */
-function cyclic(share: number): Rgb {
+export function cyclic(share: number): Rgb {
   const at = (shift: number) => Math.round(128 + 105 * Math.cos(2 * Math.PI * (share - shift)));
   return [at(0), at(1 / 3), at(2 / 3)];
 }
@@ -81,6 +82,8 @@ export class LiveView {
   figures: LiveFigures | null = null;
   histogram = new Uint32Array(64);
   positions: Float32Array | null = null;
+  /** The lowest and the highest of the points, mm above the table. */
+  heights: Ends = [0, 0];
   /** Whether the dark and the saturated pixels are marked. */
   marks = true;
   /** Whether the picture is enlarged until its pixels are seen. */
@@ -101,7 +104,10 @@ export class LiveView {
     this.figures = valuesOf<LiveFigures>(message);
     this.histogram = arrays.get('histogram') as Uint32Array<ArrayBuffer>;
     this.positions = (arrays.get('positions') as Float32Array | undefined) ?? null;
-    if (this.positions) return true;
+    if (this.positions) {
+      this.heights = endsOfHeights(this.positions);
+      return true;
+    }
     const { width, height, layer } = this.figures;
     const picture = arrays.get('picture') as Uint8Array;
     if (layer === 'none' || layer === 'points' || width === 0) return false;

@@ -1,6 +1,7 @@
 import { html, type TemplateResult } from 'lit';
 import type { Exporting } from './exporting';
 import type { Store } from './store';
+import { term } from './terms';
 import { icon } from './icons';
 import { number, t } from './messages';
 import type { HandMeasurement, Quantity, Triple } from './types';
@@ -158,7 +159,7 @@ export class Measuring {
     const off = app.session.watches;
     const chooses = active && (this.quantity === 'distance' || this.quantity === 'angle');
     return html`<section class="group" id="measuring">
-      <h2>${t('measure.title')}</h2>
+      <h2><span>${t('measure.title')}${term('U95')}</span></h2>
       <div class="quantities">
         ${QUANTITIES.map(
           (quantity) =>

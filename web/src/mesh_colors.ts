@@ -23,15 +23,29 @@ function valuesFor(arrays: MeshArrays, coloring: Coloring): ArrayLike<number> | 
   return coloring === 'deviation' ? arrays.deviation : null;
 }
 
-/** The scale of a colouring and its histogram; null where colours are no scale. */
-export function scaleOf(arrays: MeshArrays, coloring: Coloring, band: [number, number] | null): Legend | null {
+/** The values at the ends of a scale, in the unit of the arrays. */
+export type Ends = readonly [number, number];
+
+/** What a colouring shows where nobody chose its ends. */
+function usualEnds(values: ArrayLike<number>, coloring: Coloring, band: [number, number] | null): Ends {
+  const reach = band && 2 * Math.max(Math.abs(band[0]), Math.abs(band[1]));
+  if (coloring === 'deviation' && reach) return [-reach, reach];
+  if (coloring === 'views') return [0, Math.max(1, quantile(values, 1))];
+  return [quantile(values, 0.02), quantile(values, 0.95)];
+}
+
+/** The scale of a colouring and its histogram, with the ends that were chosen; null where colours are no scale. */
+export function scaleOf(
+  arrays: MeshArrays,
+  coloring: Coloring,
+  band: [number, number] | null,
+  ends: Ends | null = null,
+): Legend | null {
   const values = valuesFor(arrays, coloring);
   if (!values || values.length === 0) return null;
-  const whole = coloring === 'views';
+  const whole = coloring === 'views' && !ends;
   const deviates = coloring === 'deviation';
-  const reach = band && 2 * Math.max(Math.abs(band[0]), Math.abs(band[1]));
-  const low = deviates && reach ? -reach : whole ? 0 : quantile(values, 0.02);
-  const high = deviates && reach ? reach : whole ? Math.max(1, quantile(values, 1)) : quantile(values, 0.95);
+  const [low, high] = ends ?? usualEnds(values, coloring, band);
   const counts = new Array<number>(whole ? Math.min(BINS, high + 1) : BINS).fill(0);
   let beyond = 0;
   for (let v = 0; v < values.length; v++) {
@@ -53,7 +67,7 @@ const linear = (color: Rgb): THREE.Color =>
 /** The colour at a share of a scale. */
 export function shade(scale: Legend, share: number): Rgb {
   return scale.band
-    ? deviationColor(scale.low + share * (scale.high - scale.low), scale.band, scale.high)
+    ? deviationColor(scale.low + share * (scale.high - scale.low), scale.band, [scale.low, scale.high])
     : viridis(share);
 }
 
@@ -109,13 +123,22 @@ export function vertexColors(arrays: MeshArrays, coloring: Coloring, scale: Lege
   return colors;
 }
 
+const heightsOf = (positions: Float32Array): Float32Array => positions.filter((_, i) => i % 3 === 2);
+/** The heights at the ends of the scale of points. */
+export function endsOfHeights(positions: Float32Array): Ends {
+  const heights = heightsOf(positions);
+  return [quantile(heights, 0), quantile(heights, 1)];
+}
+/** The colour at a share of that scale: its dark end would not be seen on the dark picture. */
+export const heightColor = (share: number): Rgb => viridis(0.25 + 0.7 * share);
+
 /** Colours points by their height above the turntable. */
 export function colorByHeight(geometry: THREE.BufferGeometry, positions: Float32Array): void {
-  const heights = positions.filter((_, i) => i % 3 === 2);
-  const [low, high] = [quantile(heights, 0), quantile(heights, 1)];
+  const heights = heightsOf(positions);
+  const [low, high] = endsOfHeights(positions);
   const colors = new Float32Array(positions.length);
   heights.forEach((height, i) => {
-    linear(viridis(0.25 + (0.7 * (height - low)) / (high - low || 1))).toArray(colors, 3 * i);
+    linear(heightColor((height - low) / (high - low || 1))).toArray(colors, 3 * i);
   });
   geometry.setAttribute('color', new THREE.BufferAttribute(colors, 3));
 }

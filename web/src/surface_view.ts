@@ -1,7 +1,7 @@
 import * as THREE from 'three';
 
 import type { MeshArrays } from './arrays';
-import { type Coloring, type Legend, scaleOf } from './mesh_colors';
+import { type Coloring, type Ends, type Legend, scaleOf } from './mesh_colors';
 import { MeshLevel } from './mesh_level';
 import { setupsAt } from './setup_cells';
 import type { Triple } from './types';
@@ -47,6 +47,8 @@ export class SurfaceView {
   whole = false;
   private shading: Shading = 'smooth';
   private coloring: Coloring = 'plain';
+  /** The ends of scales that were chosen. */
+  private readonly ends = new Map<Coloring, Ends>();
   private setups: readonly Float32Array[] = [];
   private band: [number, number] | null = null;
 
@@ -209,10 +211,19 @@ export class SurfaceView {
     this.coloring = coloring;
     this.colorAll();
   }
+  /** Chooses the ends of the present scale; null takes the usual ones again. */
+  setEnds(ends: Ends | null): void {
+    if (ends) this.ends.set(this.coloring, ends);
+    else this.ends.delete(this.coloring);
+    this.colorAll();
+  }
+  get hasOwnEnds(): boolean {
+    return this.ends.has(this.coloring);
+  }
   /** All levels share the scale of the finest one. */
   private colorAll(): void {
     const finest = this.levels.at(-1);
-    this.legend = finest ? scaleOf(finest.arrays, this.coloring, this.band) : null;
+    this.legend = finest ? scaleOf(finest.arrays, this.coloring, this.band, this.ends.get(this.coloring)) : null;
     for (const { arrays } of this.levels)
       if (this.coloring === 'setup' && this.setups.length > 0)
         arrays.setups ??= setupsAt(arrays.positions, arrays.triangles, this.setups);

@@ -9,6 +9,7 @@ export const LIVE = {
   'live.status': ['Status', 'Status', 'Stato'],
   'live.depth': ['Depth', 'Tiefe', 'Profondità'],
   'live.points': ['Points', 'Punkte', 'Punti'],
+  'live.height': ['mm above the table', 'mm über dem Tisch', 'mm sopra la tavola'],
   'live.waiting': ['Waiting for the first picture', 'Warten auf das erste Bild', 'In attesa della prima immagine'],
   'live.rate': [
     '{frames} frames/s, {decodes} decoded/s',
@@ -19,6 +20,7 @@ export const LIVE = {
   'live.histogram': ['Brightness of the frame', 'Helligkeit des Bildes', "Luminosità dell'immagine"],
   'live.saturated': ['Saturated', 'Übersteuert', 'Saturi'],
   'live.dark': ['Dark', 'Dunkel', 'Scuri'],
+  'live.darkPart': ['Dark, of the part', 'Dunkel, vom Teil', 'Scuri, del pezzo'],
   'live.contrast': ['Fringe contrast', 'Streifenkontrast', 'Contrasto delle frange'],
   'live.focus': [
     'Focus: contrast {contrast}, at best {peak}',

@@ -3,6 +3,13 @@ import type { Rows } from './rows';
 /** Texts of the step Surface. */
 export const SURFACE = {
   'surface.build': ['Build again', 'Neu berechnen', 'Calcola di nuovo'],
+  'surface.voxel': ['Resolution, mm', 'Auflösung, mm', 'Risoluzione, mm'],
+  'surface.voxelAuto': ['chosen from the data', 'nach den Daten gewählt', 'scelta dai dati'],
+  'surface.watertight': [
+    'Close all holes (synthesized)',
+    'Alle Löcher schließen (ergänzt)',
+    'Chiudi tutti i fori (aggiunti)',
+  ],
   'surface.unread': [
     'The surface was not read.',
     'Die Fläche wurde nicht gelesen.',
@@ -91,6 +98,9 @@ export const SURFACE = {
     "L'asse è stato spostato di {moved} mm e inclinato di {turned}°, gli angoli corretti fino a {angles}°.",
   ],
   'surface.sigmaLegend': ['Standard uncertainty, µm', 'Standardunsicherheit, µm', 'Incertezza tipo, µm'],
+  'legend.low': ['Lower end of the scale', 'Unteres Ende der Skala', 'Estremo inferiore della scala'],
+  'legend.high': ['Upper end of the scale', 'Oberes Ende der Skala', 'Estremo superiore della scala'],
+  'legend.usual': ['The usual ends again', 'Wieder die üblichen Enden', 'Di nuovo gli estremi soliti'],
   'surface.viewsLegend': [
     'Views that measured a point',
     'Ansichten, die einen Punkt maßen',

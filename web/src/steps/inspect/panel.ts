@@ -7,6 +7,7 @@ import { number, t } from '../../messages';
 import type { Plan } from '../../inspection_types';
 import type { Comparison, Inspection, MeasuredRow } from '../../types';
 import { choice, nextStep } from '../../ui';
+import { type Term, term } from '../../terms';
 import { verdictSentence } from '../../verdict_words';
 import { accepting } from './accept';
 import { planned } from './plan';
@@ -116,7 +117,7 @@ function rows(found: Inspection): TemplateResult | string {
           <th>${t('inspect.characteristic')}</th>
           <th>${t('inspect.measured')}</th>
           <th>${t('inspect.deviation')}</th>
-          <th>U95</th>
+          <th>U95${term('U95')}</th>
         </tr>
       </thead>
       <tbody class="num">
@@ -158,8 +159,8 @@ function poses(app: App, found: Comparison): TemplateResult | string {
 }
 
 function deviations(app: App, found: Comparison): TemplateResult {
-  const row = (key: Parameters<typeof t>[0], value: string, unit: string) =>
-    html`<dt>${t(key)}</dt>
+  const row = (key: Parameters<typeof t>[0], value: string, unit: string, of?: Term) =>
+    html`<dt>${t(key)}${of ? term(of) : ''}</dt>
       <dd class="num">${value}<span>${unit}</span></dd>`;
   return html`<section class="group">
     <h2>${t('inspect.surface')}</h2>
@@ -180,7 +181,7 @@ function deviations(app: App, found: Comparison): TemplateResult {
     <dl class="figures">
       ${row('inspect.inShare', percent(found.in_share), '%')} ${row('inspect.outShare', percent(found.out_share), '%')}
       ${row('inspect.openShare', percent(found.undecided_share), '%')}
-      ${row('inspect.notMeasured', percent(found.not_measured_share), '%')}
+      ${row('inspect.notMeasured', percent(found.not_measured_share), '%', 'coverage')}
       ${row('inspect.range', `${signed(found.min_mm)} … ${signed(found.max_mm)}`, 'mm')}
       ${row('inspect.mean', signed(found.mean_mm), 'mm')}
       ${row('inspect.rms', found.rms_mm === null ? '·' : number(found.rms_mm, 3), 'mm')}
@@ -201,7 +202,7 @@ function datums(app: App, plan: Plan): TemplateResult {
     ${['A', 'B', 'C'].map(
       (letter, i) =>
         html`<label class="field grow"
-          ><span>${letter}</span>
+          ><span>${letter}${i === 0 ? term('datum') : ''}</span>
           <select
             ?disabled=${app.occupied || app.session.watches || i > (plan.datums ?? []).length}
             @change=${(event: Event) => set(i, (event.target as HTMLSelectElement).value)}
@@ -304,7 +305,7 @@ function rule(app: App): TemplateResult {
   };
   const input = (name: 'patch' | 'edge' | 'coverage' | 'gap', value: number | null | undefined, usual: string) =>
     html`<label class="field"
-      ><span>${t(`inspect.rule.${name}`)}</span
+      ><span>${t(`inspect.rule.${name}`)}${name === 'patch' || name === 'gap' ? term(name) : ''}</span
       ><input
         class="num"
         name=${name}

@@ -1,12 +1,14 @@
 import { html, svg, type TemplateResult } from 'lit';
 import { LAYERS, type LiveLayer } from '../../live_stage';
 import type { App } from '../../parts';
-import { css, viridis } from '../../colors';
+import { css, type Rgb, viridis } from '../../colors';
 import { histogram } from '../../histogram';
 import { icon } from '../../icons';
-import { STATUS_COLORS } from '../../live_view';
+import { cyclic, STATUS_COLORS } from '../../live_view';
+import { heightColor } from '../../mesh_colors';
 import { number, t } from '../../messages';
 import type { LivePattern } from '../../types';
+import { term } from '../../terms';
 import { choice, nextStep, plain } from '../../ui';
 import { hasTable } from '../../rig_facts';
 
@@ -44,7 +46,7 @@ export function liveOverlay(app: App): TemplateResult {
     ${
       figures
         ? html`<div class="live-foot">
-            ${scale(app.live.layer, figures.low, figures.high)}
+            ${scale(app, app.live.layer, figures.low, figures.high)}
             <span class="num"
               >${t('live.rate', { frames: number(figures.frames_per_s, 1), decodes: number(figures.decodes_per_s, 1) })}</span
             >
@@ -53,7 +55,7 @@ export function liveOverlay(app: App): TemplateResult {
     }`;
 }
 
-function scale(layer: LiveLayer, low: number, high: number): TemplateResult | string {
+function scale(app: App, layer: LiveLayer, low: number, high: number): TemplateResult | string {
   if (layer === 'status')
     return html`<span class="status-key all"
       >${STATUSES.map(
@@ -75,17 +77,22 @@ function scale(layer: LiveLayer, low: number, high: number): TemplateResult | st
         >${t('live.dark')}</span
       ></span
     >`;
-  if (layer === 'phase') return html`<span class="num">−π … π</span>`;
-  if (layer === 'points') return '';
+  const { heights } = app.live.view;
+  if (layer === 'phase') return ramp('−π', cyclic, 'π', 'rad');
+  if (layer === 'points') return ramp(number(heights[0], 1), heightColor, number(heights[1], 1), t('live.height'));
+  if (layer === 'depth') return ramp(number(low, 1), (share) => viridis(1 - share), number(high, 1), 'mm');
+  return ramp(number(low), viridis, number(high), t('live.counts'));
+}
+
+/** A scale of colours with its ends and its unit. */
+function ramp(low: string, color: (share: number) => Rgb, high: string, unit: string): TemplateResult {
+  const STEPS = 24;
   const stops = Array.from(
-    { length: 24 },
-    (_, i) =>
-      svg`<rect x=${i * 5} width="5.2" height="8" fill=${css(viridis(layer === 'depth' ? 1 - i / 23 : i / 23))} />`,
+    { length: STEPS },
+    (_, i) => svg`<rect x=${i * 5} width="5.2" height="8" fill=${css(color(i / (STEPS - 1)))} />`,
   );
-  const unit = layer === 'depth' ? 'mm' : t('live.counts');
   return html`<span class="ramp num"
-    >${number(low, layer === 'depth' ? 1 : 0)}<svg viewBox="0 0 120 8" aria-hidden="true">${stops}</svg
-    >${number(high, layer === 'depth' ? 1 : 0)} ${unit}</span
+    >${low}<svg viewBox="0 0 120 8" preserveAspectRatio="none" aria-hidden="true">${stops}</svg>${high} ${unit}</span
   >`;
 }
 
@@ -129,9 +136,9 @@ function light(app: App): TemplateResult {
     <dl class="figures">
       <dt><i class="key saturated"></i>${t('live.saturated')}</dt>
       <dd class="num ${figures && figures.saturated > 0.005 ? 'bad' : ''}">${share(figures?.saturated)}</dd>
-      <dt><i class="key dark"></i>${t('live.dark')}</dt>
+      <dt><i class="key dark"></i>${t('live.darkPart')}</dt>
       <dd class="num">${share(figures?.dark)}</dd>
-      <dt>${t('live.contrast')}</dt>
+      <dt>${t('live.contrast')}${term('contrast')}</dt>
       <dd class="num" id="contrast">${contrast > 0 ? number(contrast, 2) : '·'}</dd>
       <dt>${t('scan.points')}</dt>
       <dd class="num" id="live-points">${figures ? number(figures.points) : '·'}</dd>
@@ -229,7 +236,7 @@ function exposures(app: App, several: boolean, fixed: boolean): TemplateResult {
     else void app.command('set-capture', { exposures_ms: values });
   };
   return html`<label class="field"
-    ><span>${t('live.exposures')}</span
+    ><span>${t('live.exposures')}${term('exposure bracket')}</span
     ><input
       id="exposures"
       class="num"

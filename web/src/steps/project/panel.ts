@@ -6,6 +6,7 @@ import { isMessage, type MessageKey, moment, number, t } from '../../messages';
 import { freeName, type Source, SOURCES } from '../../projects';
 import type { ProjectEntry } from '../../types';
 import { acts, choice } from '../../ui';
+import { term } from '../../terms';
 import { rigWords } from '../../rig_facts';
 
 const FRINGES = fringePaths(720, 420);
@@ -109,7 +110,7 @@ function newProject(app: App): TemplateResult {
         ><span>${t('home.name')}</span><input name="name" required maxlength="60" autocomplete="off"
       /></label>
       <label class="field"
-        ><span>${t('home.stations')}</span
+        ><span>${t('home.stations')}${term('station')}</span
         ><input name="stations" class="num" type="number" min="2" max="360" value="8" required
       /></label>
     </div>

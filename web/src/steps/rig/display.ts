@@ -2,6 +2,7 @@ import { html, type TemplateResult } from 'lit';
 import type { App } from '../../parts';
 import { number, t } from '../../messages';
 import type { DisplayFigures } from '../../types';
+import { term } from '../../terms';
 import { plain } from '../../ui';
 import type { RigStage } from './stages';
 
@@ -13,7 +14,7 @@ const SHARP = 0.4;
 function figures(found: DisplayFigures): TemplateResult {
   const ms = (seconds: number) => number(1000 * seconds);
   return html`<dl class="figures">
-      <dt>${t('display.latency')}</dt>
+      <dt>${t('display.latency')}${term('latency')}</dt>
       <dd class="num">${ms(found.latency_s)}<span>ms</span></dd>
       <dt>${t('display.delay')}</dt>
       <dd class="num">${ms(found.delay_s)}<span>ms</span></dd>
@@ -31,7 +32,7 @@ function figures(found: DisplayFigures): TemplateResult {
       <dd class="num">
         ${found.exposure_step_ms ? html`${number(found.exposure_step_ms, 1)}<span>ms</span>` : t('display.any')}
       </dd>
-      <dt>${t('display.half')}</dt>
+      <dt>${t('display.half')}${term('response')}</dt>
       <dd class="num">${found.half_light === null ? '–' : `${number(100 * found.half_light, 1)} %`}</dd>
       <dt>${t('display.white')}</dt>
       <dd class="num">${number(found.white_level)}</dd>

@@ -5,6 +5,7 @@ import { icon } from '../../icons';
 import { number, t, type MessageKey } from '../../messages';
 import { poseTable } from '../../residuals';
 import type { Calibration, RigGeometry } from '../../types';
+import { term } from '../../terms';
 import { nextStep, plain } from '../../ui';
 import { axisStage } from './axis';
 import { boardOf, boardPrints, calibrationFields } from './board';
@@ -109,9 +110,9 @@ function verdict(state: Calibration): TemplateResult | string {
     <dl class="figures">
       <dt>${t('rig.spread')}</dt>
       <dd class="num">${number(found.spread_mm, 3)}<span>mm</span></dd>
-      <dt>${t('rig.baseline')}</dt>
+      <dt>${t('rig.baseline')}${term('baseline')}</dt>
       <dd class="num">${number(found.baseline_mm, 2)}<span>mm</span></dd>
-      <dt>${t('rig.cameraRms')}</dt>
+      <dt>${t('rig.cameraRms')}${term('residual')}</dt>
       <dd class="num">${number(found.camera_rms_px, 3)}<span>px</span></dd>
       <dt>${t('rig.projectorRms')}</dt>
       <dd class="num">${number(found.projector_rms_px, 3)}<span>px</span></dd>

@@ -4,6 +4,7 @@ import { icon } from '../../icons';
 import { number, t } from '../../messages';
 import { presentSetup } from '../../setups';
 import type { SetupJoin } from '../../types';
+import { term } from '../../terms';
 import { choice } from '../../ui';
 
 /** The choice of the setup whose stations are shown. */
@@ -38,7 +39,7 @@ export function nextSetup(app: App): TemplateResult {
   const next = presentSetup(app.project.stations) + 1;
   if (!app.setups.turning) {
     return html`<section class="group">
-      <h2>${t('scan.otherSide')}</h2>
+      <h2><span>${t('scan.otherSide')}${term('setup')}</span></h2>
       <p class="quiet">${t('scan.otherSideHint')}</p>
       <button class="btn wide" id="turn-over" ?disabled=${app.occupied} @click=${() => app.setups.turn(true)}>
         ${icon('flip')}${t('scan.turnOver')}

@@ -3,6 +3,7 @@ import type { App } from '../../parts';
 import { joinedSetups } from '../../legend';
 import type { Coloring } from '../../mesh_colors';
 import { number, t } from '../../messages';
+import { term } from '../../terms';
 import { choice, nextStep, plain } from '../../ui';
 import { findings } from './findings';
 import { joins } from '../scan/setups';
@@ -46,7 +47,7 @@ export function appearance(app: App): TemplateResult {
       (shading) => app.setLook({ shading }),
     )}
     ${viewer.wiresCoarsely ? html`<p class="quiet">${t('surface.wiresOf', { shown: number(viewer.trianglesShown), count: number(app.project.surface?.triangles ?? 0) })}</p>` : ''}
-    <h2>${t('surface.color')}</h2>
+    <h2><span>${t('surface.color')}${term('mark')}</span></h2>
     ${choice<Coloring>(
       t('surface.color'),
       look.coloring,
@@ -93,9 +94,9 @@ function details(app: App, surface: Surface): TemplateResult {
       ${
         surface.sigma_mm.systematic === null
           ? ''
-          : html`<dt>${t('surface.noise')}</dt>
+          : html`<dt>${t('surface.noise')}${term('noise')}</dt>
               ${um(surface.sigma_mm.noise)}
-              <dt>${t('surface.systematic')}</dt>
+              <dt>${t('surface.systematic')}${term('systematic')}</dt>
               ${um(surface.sigma_mm.systematic)}`
       }
       <dt>${t('surface.triangles')}</dt>
@@ -104,7 +105,7 @@ function details(app: App, surface: Surface): TemplateResult {
         summary
           ? html`<dt>${t('surface.points')}</dt>
               <dd class="num">${number(summary.points)}</dd>
-              <dt>${t('surface.viewsFused')}</dt>
+              <dt>${t('surface.viewsFused')}${term('view')}</dt>
               <dd class="num">${number(summary.views)}</dd>`
           : ''
       }
@@ -117,6 +118,38 @@ function details(app: App, surface: Surface): TemplateResult {
   </details>`;
 }
 
+/** Builds the surface again, as fine and as closed as is wanted. */
+function building(app: App): TemplateResult | string {
+  if (!app.project.scan_complete) return '';
+  const off = app.busy || app.session.watches;
+  const build = (event: SubmitEvent) => {
+    event.preventDefault();
+    const form = new FormData(event.target as HTMLFormElement);
+    const voxel = Number(form.get('voxel'));
+    void app.build({ ...(voxel > 0 ? { voxel_mm: voxel } : {}), watertight: form.has('watertight') });
+  };
+  return html`<section class="group" id="build-again">
+    <h2>${t('surface.build')}</h2>
+    <form class="form-plain" @submit=${build}>
+      <label class="field"
+        ><span>${t('surface.voxel')}${term('voxel')}</span
+        ><input
+          class="num"
+          name="voxel"
+          type="number"
+          min="0.001"
+          step="any"
+          placeholder=${t('surface.voxelAuto')}
+          ?disabled=${off}
+      /></label>
+      <label class="switch"
+        >${t('surface.watertight')}<input type="checkbox" name="watertight" ?disabled=${off}
+      /></label>
+      <button class="btn wide" ?disabled=${off}>${t('surface.build')}</button>
+    </form>
+  </section>`;
+}
+
 export function surfaceStep(app: App): TemplateResult {
   const { surface } = app.project;
   if (!surface) return absent(app);
@@ -125,7 +158,7 @@ export function surfaceStep(app: App): TemplateResult {
     <section class="group">
       <h2>${t('surface.figures')}</h2>
       <dl class="figures">
-        <dt>${t('surface.sigmaMedian')}</dt>
+        <dt>${t('surface.sigmaMedian')}${term('sigma')}</dt>
         ${um(surface.sigma_mm.combined)}
         <dt>${t('surface.size')}</dt>
         <dd class="num">${number(size.x, 1)} × ${number(size.y, 1)} × ${number(size.z, 1)}<span>mm</span></dd>
@@ -139,15 +172,5 @@ export function surfaceStep(app: App): TemplateResult {
       <h2>${t('section.title')}</h2>
       ${app.sectioning.panel()}
     </section>
-    ${joins(app)}
-    ${
-      app.project.scan_complete
-        ? html`<section class="group">
-            <button class="btn wide" ?disabled=${app.busy || app.session.watches} @click=${() => app.build()}>
-              ${t('surface.build')}
-            </button>
-          </section>`
-        : ''
-    }
-    ${versions(app)} ${nextStep(app, 'edit')}`;
+    ${joins(app)} ${building(app)} ${versions(app)} ${nextStep(app, 'edit')}`;
 }
