@@ -293,6 +293,13 @@ TEST_F(ServiceTest, OpensAMeshInAProjectOfItsOwnAndLeavesNothingOfWhatItCannotRe
   EXPECT_TRUE(surface.at("summary").is_null()) << "no scan made it";
   EXPECT_NE(refusal("open-file", R"({"format": "stl", "bytes": 3})"), "") << "it has a surface";
 
+  const std::string points = "0 0 0\n1 0 0\n0 1 0\n0 0 1\n";
+  send("Points", points);
+  static_cast<void>(command("open-file", {{"format", "xyz"}, {"bytes", points.size()}}));
+  EXPECT_EQ(finish().at("state"), "done");
+  EXPECT_EQ(state().at("project").at("surface").at("triangles"), 0);
+  EXPECT_FALSE(service_->level(0).empty()) << "a cloud of points is looked at";
+
   send("Broken", "solid x\nfacet");
   static_cast<void>(
       command("open-file", {{"format", "stl"}, {"bytes", 13}, {"name", "my part.stl"}}));

@@ -90,7 +90,8 @@ export class FrangiaApp extends App {
     this.meshes.forget();
     this.clouds.forget();
     this.seenFailure = Math.max(0, ...state.jobs.filter((job) => job.state === 'failed').map((job) => job.number));
-    this.problem = '';
+    // What could not be opened leaves no project behind, but says why.
+    if (state.project) this.problem = '';
     this.arranging.deviceDraft = null;
     this.setups.forget();
     this.measuring.forget();

@@ -1,7 +1,7 @@
 /** Endings of files with a measured surface. */
 export const MESH_FORMATS = ['stl', 'ply', 'obj', '3mf', 'glb', 'gltf', 'off', 'dxf'];
 /** Endings of files that open as a surface. */
-export const SURFACE_FORMATS = [...MESH_FORMATS, 'step', 'stp', 'iges', 'igs'];
+export const SURFACE_FORMATS = [...MESH_FORMATS, 'xyz', 'pcd', 'step', 'stp', 'iges', 'igs'];
 /** Endings of files that a surface is compared with. */
 export const REFERENCE_FORMATS = ['stl', 'ply', 'obj', '3mf', 'step', 'stp'];
 

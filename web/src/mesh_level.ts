@@ -9,6 +9,8 @@ const PLAIN = 0xd6d2c9;
 export class MeshLevel {
   readonly group = new THREE.Group();
   readonly mesh: THREE.Mesh<THREE.BufferGeometry, SurfaceMaterial>;
+  /** Draws the vertices of what has no triangles: a cloud of points. */
+  private points: THREE.Points | null = null;
   private wires: THREE.LineSegments | null = null;
   private picked: THREE.Mesh | null = null;
 
@@ -23,6 +25,9 @@ export class MeshLevel {
     geometry.computeBoundingSphere();
     this.mesh = new THREE.Mesh(geometry, new SurfaceMaterial(color));
     this.group.add(this.mesh);
+    if (arrays.triangles.length > 0) return;
+    this.points = new THREE.Points(geometry, new THREE.PointsMaterial({ size: 2, sizeAttenuation: false, color }));
+    this.group.add(this.points);
   }
 
   get triangles(): number {
@@ -35,6 +40,11 @@ export class MeshLevel {
     if (colors) geometry.setAttribute('color', new THREE.BufferAttribute(colors, 3, true));
     else geometry.deleteAttribute('color');
     material.setColored(colors !== null);
+    if (!this.points) return;
+    const drawn = this.points.material as THREE.PointsMaterial;
+    drawn.vertexColors = colors !== null;
+    drawn.color.set(colors ? 0xffffff : PLAIN);
+    drawn.needsUpdate = true;
   }
 
   shade(flat: boolean, wires: boolean): void {
@@ -87,7 +97,7 @@ export class MeshLevel {
   }
 
   cut(planes: THREE.Plane[]): void {
-    for (const part of [this.mesh, this.wires, this.picked]) {
+    for (const part of [this.mesh, this.wires, this.picked, this.points]) {
       if (!part) continue;
       const material = part.material as THREE.Material;
       if ((material.clippingPlanes ?? []).length !== planes.length) material.needsUpdate = true;
@@ -100,5 +110,6 @@ export class MeshLevel {
     this.wires?.geometry.dispose();
     this.mesh.geometry.dispose();
     this.mesh.material.dispose();
+    (this.points?.material as THREE.Material | undefined)?.dispose();
   }
 }

@@ -12,6 +12,8 @@ const AXES = [
 /** Length of an axis: it ends outside of the cube. */
 const ARM = 40;
 const CENTER = 58;
+/** An axis that is seen shorter than this share of its length is not drawn. */
+const SHORTEST = 0.3;
 const WIDEST_BAR_PX = 150;
 /** Where the bar begins, right of the cube, and its height, pixels. */
 const BAR = [128, 92] as const;
@@ -52,6 +54,8 @@ export class ViewMarks {
     this.cube.update(turn);
     for (const [i, { x, y, z }] of seen.entries()) {
       const { line, text } = this.arms[i] as { line: SVGElement; text: SVGElement };
+      // What points at the eye, or away from it, would stand on a word of the cube.
+      for (const one of [line, text]) one.toggleAttribute('hidden', Math.hypot(x, y) < SHORTEST);
       // The cube covers what points away from the eye.
       const group = z > 0 ? this.before : this.behind;
       if (line.parentNode !== group) group.append(line);

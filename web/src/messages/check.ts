@@ -36,6 +36,17 @@ export const CHECK = {
   ],
   'check.axisFound': ['Found, ± {sigma}°.', 'Gefunden, ± {sigma}°.', 'Trovato, ± {sigma}°.'],
   'check.axisKnown': ['Known from the rig.', 'Aus dem Aufbau bekannt.', "Noto dall'apparato."],
+  'check.home': ['Home of the turntable', 'Nullstellung des Drehtischs', 'Zero della tavola'],
+  'check.homeKnown': [
+    'It answers; 0° is its home, or where it stands.',
+    'Er antwortet; 0° ist seine Nullstellung oder wo er steht.',
+    'Risponde; 0° è il suo zero, o dove sta.',
+  ],
+  'check.homeLost': [
+    'Where it stands is not known: state its angle.',
+    'Wo er steht, ist nicht bekannt: Winkel angeben.',
+    'Dove sta non è noto: indicare il suo angolo.',
+  ],
   'check.focus': ['Focus', 'Schärfe', 'Fuoco'],
   'check.unseen': ['Not looked at yet.', 'Noch nicht angesehen.', 'Non ancora guardato.'],
   'check.afterCalibration': [

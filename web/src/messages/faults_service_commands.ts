@@ -96,10 +96,10 @@ export const FAULTS_SERVICE_COMMANDS = {
     'die angekommene Datei lässt sich nicht umbenennen: {0}',
     'il file arrivato non si può rinominare: {0}',
   ],
-  'fault.filePointsTriangles': [
-    'this file has points and no triangles; choose one with a surface',
-    'diese Datei hat Punkte und keine Dreiecke; eine mit Oberfläche wählen',
-    'questo file ha punti e nessun triangolo; sceglierne uno con una superficie',
+  'fault.fileHasPoint': [
+    'this file has no point; choose one with a surface or points',
+    'diese Datei hat keinen Punkt; eine mit einer Oberfläche oder Punkten wählen',
+    'questo file non ha punti; sceglierne uno con una superficie o dei punti',
   ],
   'fault.textNotesMost': [
     'text: notes have at most 4000 bytes; shorten them',

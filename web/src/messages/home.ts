@@ -102,9 +102,9 @@ export const HOME = {
   'open.file': ['Open a file', 'Datei öffnen', 'Apri un file'],
   'open.folder': ['Open a folder', 'Ordner öffnen', 'Apri una cartella'],
   'open.hint': [
-    'Or drop it here: a mesh, a STEP file, a scan folder or its zip, a rig.',
-    'Oder hierher ziehen: Netz, STEP-Datei, Scan-Ordner oder dessen Zip, Aufbau.',
-    'O trascinarlo qui: una mesh, un file STEP, una cartella di scansione o il suo zip, un apparato.',
+    'Or drop it here: a mesh, points, a STEP file, a scan folder or its zip, a rig.',
+    'Oder hierher ziehen: Netz, Punkte, STEP-Datei, Scan-Ordner oder dessen Zip, Aufbau.',
+    'O trascinarlo qui: una mesh, punti, un file STEP, una cartella di scansione o il suo zip, un apparato.',
   ],
   'open.drop': ['Drop to open', 'Loslassen zum Öffnen', 'Rilasciare per aprire'],
   'open.busy': [
@@ -123,9 +123,9 @@ export const HOME = {
     'Questa cartella contiene {files} file; aprire solo la cartella della scansione.',
   ],
   'open.unknown': [
-    '{name} is no mesh, STEP file, scan folder, zip or rig.',
-    '{name} ist kein Netz, keine STEP-Datei, kein Scan-Ordner, Zip oder Aufbau.',
-    '{name} non è una mesh, un file STEP, una cartella di scansione, uno zip o un apparato.',
+    '{name} is no mesh, cloud of points, STEP file, scan folder, zip or rig.',
+    '{name} ist kein Netz, keine Punktwolke, keine STEP-Datei, kein Scan-Ordner, Zip oder Aufbau.',
+    '{name} non è una mesh, una nuvola di punti, un file STEP, una cartella di scansione, uno zip o un apparato.',
   ],
   'open.which': ['{name}: what is it for?', '{name}: Wofür ist das?', '{name}: a che cosa serve?'],
   'open.compare': ['Compare the surface with it', 'Fläche damit vergleichen', 'Confronta la superficie con esso'],

@@ -10,6 +10,11 @@ export const SURFACE = {
     'Alle Löcher schließen (ergänzt)',
     'Chiudi tutti i fori (aggiunti)',
   ],
+  'surface.cloud': [
+    'This is a cloud of points without triangles. It can be looked at; edits, measurements and exports need triangles.',
+    'Dies ist eine Punktwolke ohne Dreiecke. Sie lässt sich ansehen; Bearbeiten, Messen und Export brauchen Dreiecke.',
+    'È una nuvola di punti senza triangoli. Si può guardare; modifiche, misure ed esportazione richiedono triangoli.',
+  ],
   'surface.unread': [
     'The surface was not read.',
     'Die Fläche wurde nicht gelesen.',

@@ -67,8 +67,7 @@ class ArrivedFile {
 
 Mesh surface_in(const std::filesystem::path& file, const Run& run) {
   Mesh mesh = is_cad_file(file) ? read_cad(file, {}, run)->mesh() : read_mesh(file, run);
-  require(!mesh.triangles.empty(),
-          "this file has points and no triangles; choose one with a surface");
+  require(!mesh.vertices_mm.empty(), "this file has no point; choose one with a surface or points");
   return mesh;
 }
 

@@ -63,6 +63,16 @@ function axis(app: App): Line {
   };
 }
 
+/** Where the table stands: the angles of the stations begin there. */
+function home(app: App): Line[] {
+  if (!hasTable(app)) return [];
+  const label = t('check.home');
+  const { table_angle: lost, devices: all } = app.project;
+  if (lost) return [{ label, state: 'bad', text: t('check.homeLost') }];
+  const answers = all.some(({ table, answer }) => table === 'turntable' && answer);
+  return [{ label, state: answers ? 'done' : '', text: t(answers ? 'check.homeKnown' : 'check.untested') }];
+}
+
 function light(app: App): Line[] {
   const found = app.project.check;
   const focus = t('check.focus');
@@ -101,7 +111,7 @@ function light(app: App): Line[] {
 /** One card that says before a scan whether devices, calibration, axis, focus and light are fit for it. */
 export function scanCheck(app: App): TemplateResult | string {
   if (!app.project.can_scan) return '';
-  const lines = [devices(app), calibration(app), axis(app), ...light(app)];
+  const lines = [devices(app), calibration(app), axis(app), ...home(app), ...light(app)];
   return html`<section class="group" id="scan-check">
     <h2>${t('check.title')}</h2>
     <div class="checks">

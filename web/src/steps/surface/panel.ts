@@ -155,6 +155,7 @@ export function surfaceStep(app: App): TemplateResult {
   if (!surface) return absent(app);
   const { size } = app.viewer;
   return html`${findings(app)}
+    ${surface.triangles === 0 ? html`<section class="group"><p class="quiet" id="cloud">${t('surface.cloud')}</p></section>` : ''}
     <section class="group">
       <h2>${t('surface.figures')}</h2>
       <dl class="figures">
