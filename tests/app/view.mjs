@@ -203,6 +203,7 @@ await tell(home, async () => {
   const broken = page.waitForEvent('filechooser');
   await page.getByText('Open a file', { exact: true }).click();
   await (await broken).setFiles({ name: 'broken.stl', mimeType: 'model/stl', buffer: Buffer.from('solid x facet') });
+  await page.locator('dialog[open]').getByText('Open it on its own', { exact: true }).click();
   await page.waitForSelector('.notice[role=alert] >> text=broken.stl');
   await idle();
   expect((await page.locator('.notice[role=alert]').count()) === 1, 'the reason is gone with the project');

@@ -58,7 +58,9 @@ TEST(StepLike, TakesWhatIsCurvedAsMuch) {
   EXPECT_EQ(found[at_the_bend], 1);
   for (std::size_t i = 0; i < found.size(); ++i) {
     const std::size_t column = i / 2 % 12;
-    if (column < 5 || column > 6) EXPECT_EQ(found[i], 0) << i;
+    if (column < 5 || column > 6) {
+      EXPECT_EQ(found[i], 0) << i;
+    }
   }
   const auto at_the_boundary = [&] {
     Mesh alone;
