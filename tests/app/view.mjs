@@ -191,9 +191,9 @@ await tell(home, async () => {
   await settled(page);
   await look('cloud');
   const drawn = await page.evaluate(() => {
-    let count = 0;
-    document.querySelector('frangia-app').viewer.surface.group.traverse((one) => (count += one.isPoints ? one.geometry.getAttribute('position').count : 0));
-    return count;
+    const { viewer } = document.querySelector('frangia-app');
+    viewer.drawNow();
+    return viewer.renderer.info.render.points;
   });
   near(drawn, 2000, 0, 'the number of points that are drawn');
 

@@ -26,7 +26,9 @@ export class MeshLevel {
     this.mesh = new THREE.Mesh(geometry, new SurfaceMaterial(color));
     this.group.add(this.mesh);
     if (arrays.triangles.length > 0) return;
-    this.points = new THREE.Points(geometry, new THREE.PointsMaterial({ size: 2, sizeAttenuation: false, color }));
+    // Without the index, which has no triangle.
+    const cloud = new THREE.BufferGeometry().setAttribute('position', geometry.getAttribute('position'));
+    this.points = new THREE.Points(cloud, new THREE.PointsMaterial({ size: 2, sizeAttenuation: false, color }));
     this.group.add(this.points);
   }
 
@@ -41,6 +43,8 @@ export class MeshLevel {
     else geometry.deleteAttribute('color');
     material.setColored(colors !== null);
     if (!this.points) return;
+    if (colors) this.points.geometry.setAttribute('color', geometry.getAttribute('color'));
+    else this.points.geometry.deleteAttribute('color');
     const drawn = this.points.material as THREE.PointsMaterial;
     drawn.vertexColors = colors !== null;
     drawn.color.set(colors ? 0xffffff : PLAIN);
@@ -110,6 +114,7 @@ export class MeshLevel {
     this.wires?.geometry.dispose();
     this.mesh.geometry.dispose();
     this.mesh.material.dispose();
+    this.points?.geometry.dispose();
     (this.points?.material as THREE.Material | undefined)?.dispose();
   }
 }
