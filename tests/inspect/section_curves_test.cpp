@@ -42,6 +42,26 @@ TEST(SectionCurves, TheAreaIsThatOfTheMaterialAndNoneWhereACurveIsOpen) {
   EXPECT_TRUE(std::isnan(area_mm2(section_curves(shell, middle))));
 }
 
+/// Against the truth of a viewer who stands on the ground and looks against the normal.
+TEST(SectionCurves, StandAsThePartDoesSeenAgainstTheNormal) {
+  for (const Vector3d& normal : {Vector3d(0, 1, 0),
+                                 Vector3d(0, -1, 0),
+                                 Vector3d(1, 0, 0),
+                                 Vector3d(-1, 0, 0),
+                                 Vector3d(1, 2, 0),
+                                 Vector3d(-3, 1, 1)}) {
+    const SectionPlane plane = section_plane({1, 2, 3}, normal);
+    EXPECT_GT(plane.v.z(), 0.9) << normal.transpose();  // up
+    EXPECT_NEAR(plane.u.z(), 0.0, 1e-12) << normal.transpose();
+    EXPECT_LT((plane.u.cross(plane.v) - plane.normal).norm(), 1e-12) << normal.transpose();
+  }
+  for (const double up : {1.0, -1.0}) {
+    const SectionPlane plane = section_plane({1, 2, 3}, {0.1, 0.1, up});
+    EXPECT_GT(plane.u.x(), 0.9);
+    EXPECT_LT((plane.u.cross(plane.v) - plane.normal).norm(), 1e-12);
+  }
+}
+
 TEST(SectionCurves, OfASphereIsACircleWithTheMaterialAtItsLeft) {
   const Mesh mesh = testing::sphere({1, 2, 3}, 20.0);
   std::vector<float> heights;

@@ -119,10 +119,12 @@ SectionPlane section_plane(const Vector3d& point_mm, const Vector3d& normal) {
   SectionPlane plane;
   plane.point_mm = point_mm;
   plane.normal = normal.normalized();
-  constexpr double kNearlyNormal = 0.9;
-  const bool along_x = std::abs(plane.normal.x()) > kNearlyNormal;
-  const Vector3d direction = along_x ? Vector3d(Vector3d::UnitY()) : Vector3d(Vector3d::UnitX());
-  plane.u = (direction - direction.dot(plane.normal) * plane.normal).normalized();
+  // As the part stands, seen against the normal: z is up unless the plane is nearly horizontal.
+  constexpr double kNearlyHorizontal = 0.9;
+  const bool horizontal = std::abs(plane.normal.z()) > kNearlyHorizontal;
+  const Vector3d across =
+      horizontal ? Vector3d(Vector3d::UnitX()) : Vector3d(Vector3d::UnitZ().cross(plane.normal));
+  plane.u = (across - across.dot(plane.normal) * plane.normal).normalized();
   plane.v = plane.normal.cross(plane.u);
   return plane;
 }

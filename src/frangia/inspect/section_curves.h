@@ -16,8 +16,8 @@ struct SectionPlane {
   Eigen::Vector3d v = Eigen::Vector3d::UnitY();        ///< normal x u
 };
 
-/// A plane through a point. `u` is the x axis projected into the plane, or the y axis where x is
-/// nearly normal to it.
+/// A plane through a point, seen against its normal as the part stands: `u` is horizontal and `v`
+/// leads up, along z. Where the plane is nearly horizontal, `u` is the x axis projected into it.
 ///
 /// @errors   Error(Input) when the normal is zero
 [[nodiscard]] SectionPlane section_plane(const Eigen::Vector3d& point_mm,
