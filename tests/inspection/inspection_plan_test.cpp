@@ -214,6 +214,25 @@ TEST(InspectionPlan, NamesTheKeyThatIsWrong) {
          "sections[0].normal must not be zero");
 }
 
+TEST(InspectionPlan, NamesTheCharacteristicThatIsWrongByItsName) {
+  const auto refused = [](const std::string& text) {
+    return testing::error_of([&] { static_cast<void>(plan_from(kTwoBalls + text)); });
+  };
+  constexpr const char* kRunOut =
+      "[[characteristics]]\nname = \"run-out of A\"\nkind = \"run-out\"\nfeature = \"A\"\ndatum = "
+      "\"B\"\n";
+  EXPECT_NE(refused(std::string(kRunOut) + "limit = -1\n")
+                .find("\"run-out of A\": characteristics[1].limit is -1; it must be above 0"),
+            std::string::npos);
+  EXPECT_NE(refused(std::string(kRunOut) + "limt = 1\n")
+                .find("\"run-out of A\": characteristics[1].limt is unknown here; perhaps limit"),
+            std::string::npos);
+  // A table without a name is found by its place.
+  EXPECT_NE(refused("[[characteristics]]\nkind = \"run-out\"\n")
+                .find("characteristics[1].name is missing"),
+            std::string::npos);
+}
+
 TEST(InspectionPlan, RefusesAToleranceWithoutWidth) {
   const auto refused =
       testing::error_of([] { static_cast<void>(plan_from("tolerance_mm = [0, 0]\n")); });

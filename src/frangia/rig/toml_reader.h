@@ -24,17 +24,18 @@
 
 namespace frangia {
 
-/// Reads one table of a TOML file. Error messages name the file and the key. Include it in sources
-/// only, because it includes toml++.
+/// Reads one table of a TOML file. Error messages name the file and the key, and of a table of a
+/// list its own name, where it has one: `"spacing": characteristics[3].limit`. Include it in
+/// sources only, because it includes toml++.
 class TomlReader {
  public:
   /// `table_name` is the prefix of keys in messages; `table` must outlive the reader.
   TomlReader(std::filesystem::path file, std::string table_name, const toml::table& table)
       : file_(std::move(file)), table_name_(std::move(table_name)), table_(&table) {}
 
-  /// Throws Error(Input) with "FILE: KEY WHAT".
+  /// Throws Error(Input) with "FILE: KEY WHAT" or "FILE: "NAME": KEY WHAT".
   [[noreturn]] void fail(std::string_view key, std::string_view what) const {
-    throw Error(ErrorKind::Input, fmt::format("{}: {} {}", file_.string(), name(key), what));
+    throw Error(ErrorKind::Input, fmt::format("{}: {} {}", file_.string(), shown(key), what));
   }
   /// Whether the table contains the key.
   [[nodiscard]] bool has(std::string_view key) const {
@@ -132,9 +133,9 @@ class TomlReader {
   [[nodiscard]] TomlReader table(std::string_view key) {
     const toml::table* inner = node(key).as_table();
     if (inner == nullptr) fail(key, fmt::format("must be a table, [{}]", key));
-    return {file_,
-            table_name_.empty() ? std::string(key) : fmt::format("{}.{}", table_name_, key),
-            *inner};
+    TomlReader reader{file_, name(key), *inner};
+    reader.item_name_ = item_name_;
+    return reader;
   }
   /// Returns the tables of [[key]]; empty if the key is absent.
   [[nodiscard]] std::vector<TomlReader> tables(std::string_view key) {
@@ -146,6 +147,7 @@ class TomlReader {
       const toml::table* inner = item.as_table();
       if (inner == nullptr) fail(key, fmt::format("must be written as [[{}]]", key));
       readers.emplace_back(file_, fmt::format("{}[{}]", key, readers.size()), *inner);
+      readers.back().item_name_ = (*inner)["name"].value_exact<std::string>().value_or("");
     }
     return readers;
   }
@@ -176,11 +178,17 @@ class TomlReader {
   void warn_of_unused_keys(const Run& run) const {
     for (const std::string& key : unused_keys()) {
       if (const auto known_key = meant(key)) fail(key, "is unknown here" + *known_key);
-      run.warn(fmt::format("{}: {} is unknown and ignored", file_.string(), name(key)));
+      run.warn(fmt::format("{}: {} is unknown and ignored", file_.string(), shown(key)));
     }
   }
 
  private:
+  /// A key behind the name of its table, for people.
+  [[nodiscard]] std::string shown(std::string_view key) const {
+    constexpr std::size_t kLongest = 80;  // a longer one is no name
+    if (item_name_.empty() || item_name_.size() > kLongest) return name(key);
+    return fmt::format("\"{}\": {}", item_name_, name(key));
+  }
   [[nodiscard]] std::string name(std::string_view key) const {
     return table_name_.empty() ? std::string(key) : fmt::format("{}.{}", table_name_, key);
   }
@@ -227,6 +235,7 @@ class TomlReader {
 
   std::filesystem::path file_;
   std::string table_name_;
+  std::string item_name_;  ///< that a table of a list has; empty: none
   const toml::table* table_;
   std::set<std::string> used_;
   mutable std::set<std::string> known_;  ///< all that were asked for, in the table or not
