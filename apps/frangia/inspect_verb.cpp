@@ -53,7 +53,7 @@ std::vector<std::string> write_files(const InspectArguments& arguments,
                                 .reference = plan.reference,
                                 .scan = scan,
                                 .version = "Frangia " FRANGIA_VERSION,
-                                .warnings = terminal.warnings(),
+                                .warnings = terminal.sentences(),
                                 .scale_mm = arguments.scale_mm};
     for (std::string& path : write_report(arguments.report, part, plan, sources, run))
       written.push_back(std::move(path));

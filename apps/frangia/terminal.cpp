@@ -31,6 +31,7 @@ Run Terminal::run() {
   run.progress = [this](double done) { draw(done); };
   run.on_stage = [this](const std::string& name) { begin_stage(name); };
   run.on_warning = [this](const std::string& sentence) {
+    sentences_.push_back(sentence);
     warnings_.push_back(with_flags(sentence));
     show("warning: " + warnings_.back());
   };

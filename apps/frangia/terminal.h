@@ -45,6 +45,9 @@ class Terminal {
 
   [[nodiscard]] const std::vector<std::string>& warnings() const { return warnings_; }
 
+  /// The warnings as the library words them, without flags.
+  [[nodiscard]] const std::vector<std::string>& sentences() const { return sentences_; }
+
   /// Prints "wrote PATH", unless results are JSON or `quiet` is set.
   void print_written(const std::string& path);
 
@@ -59,6 +62,7 @@ class Terminal {
 
   std::vector<std::pair<std::string, double>> seconds_;
   std::vector<std::string> warnings_;
+  std::vector<std::string> sentences_;
   std::vector<std::string> notes_;
   std::vector<std::string> held_;
   std::string stage_;

@@ -172,6 +172,21 @@ TEST(InspectPart, WarnsOfAnotherPartWhosePoseNothingSearched) {
             "must find its pose");
 }
 
+/// For the report, which is written where nobody saw the messages of the inspection.
+TEST(InspectPart, KeepsItsWarnings) {
+  InspectionPlan plan = ball_plan(0.1);
+  plan.features[0].near_mm = {5, 0, 50};
+  plan.features[0].kind = ShapeKind::Cylinder;
+  std::vector<std::string> given;
+  frangia::Run run;
+  run.on_warning = [&](const std::string& sentence) { given.push_back(sentence); };
+  const Inspection found = inspect_part(large_ball(), nullptr, plan, {}, run);
+  ASSERT_FALSE(given.empty());
+  EXPECT_EQ(found.warnings, given);
+  EXPECT_EQ(inspect_part(large_ball(), nullptr, plan).warnings, given);
+  EXPECT_TRUE(inspect_part(large_ball(), nullptr, ball_plan(0.1)).warnings.empty());
+}
+
 TEST(InspectPart, RefusesAnAlignmentWithoutAReference) {
   const auto refused =
       error_of([&] { static_cast<void>(inspect_part(brick(), nullptr, best_fit_plan(1))); });

@@ -12,6 +12,7 @@
 
 #include "frangia/core/error.h"
 #include "frangia/inspection/inspect_part.h"
+#include "frangia/report/internal/fault_rows.h"
 #include "frangia/report/internal/report_rows.h"
 #include "frangia/report/write_report.h"
 
@@ -57,6 +58,21 @@ TEST(ReportWords, TranslateSentencesWithTheirValues) {
   EXPECT_THROW(ReportWords("fr"), Error);
 }
 
+/// "{0} of {1} in" fits it, too.
+TEST(ReportWords, TakeTheRowThatFitsMost) {
+  EXPECT_EQ(ReportWords("de")("coverage: decided share, and least share of a part that is in"),
+            "Abdeckung: entschiedener Anteil, und kleinster Anteil eines Teils, das innerhalb ist");
+  for (const char* language : {"de", "it"}) {
+    const ReportWords words(language);
+    for (const auto rows : {report::sheet_rows(), report::annex_rows()}) {
+      for (const report::ReportRow& row : rows) {
+        if (std::string(row[0]).find('{') != std::string::npos) continue;
+        EXPECT_EQ(words(row[0]), row[language == std::string("de") ? 1 : 2]) << row[0];
+      }
+    }
+  }
+}
+
 TEST(ReportWords, KeepTheNamesOfAPlan) {
   const ReportWords german("de");
   EXPECT_EQ(german("axis"), "Achse");
@@ -66,6 +82,40 @@ TEST(ReportWords, KeepTheNamesOfAPlan) {
   EXPECT_EQ(german("the worst is plane: 10.2 mm, U95 0.01"),
             "am schlechtesten ist plane: 10.2 mm, U95 0.01");
   EXPECT_EQ(german("axis diameter was not measured"), "axis, Durchmesser wurde nicht gemessen");
+}
+
+TEST(ReportWords, WordWarningsAsTheAppDoes) {
+  const ReportWords german("de");
+  EXPECT_EQ(german.warning("sphere: no sphere was found near (1, 2, 3); its values are missing"),
+            "sphere: bei (1, 2, 3) ist kein Element Kugel zu finden; seine Werte fehlen");
+  EXPECT_EQ(german
+                .warning("part.ply: 12 % of it lies on the reference; it is another part, or "
+                         "`align` best-fit must find its pose")
+                .find("of it lies"),
+            std::string::npos);
+  // A name that is a word of the catalogue, and a file, stay.
+  EXPECT_TRUE(
+      german.warning("is missing: no plane was found near (1, 2, 3); its values are missing")
+          .starts_with("is missing: bei"));
+  EXPECT_EQ(ReportWords("en").warning("state `align` best-fit"), "state align best-fit");
+  EXPECT_EQ(german.warning("no sentence of ours"), "no sentence of ours");
+}
+
+TEST(ReportWords, HoldTheSentencesOfTheApp) {
+  std::size_t rows = 0;
+  for (const std::string_view source : report::fault_sources())
+    rows += report::parse_fault_rows(source).size();
+  EXPECT_GT(rows, 1000U);
+  const auto parsed = report::parse_fault_rows(
+      "'fault.a': ['it\\'s {0}', \"es ist {0}\", 'e\\' {0}'], // 'x'\n'fault.b': [\n'b', 'c', "
+      "'d',\n],");
+  ASSERT_EQ(parsed.size(), 2U);
+  EXPECT_EQ(parsed[0].text[0], "it's {0}");
+  EXPECT_EQ(parsed[0].text[1], "es ist {0}");
+  EXPECT_EQ(parsed[0].text[2], "e' {0}");
+  EXPECT_EQ(parsed[0].fixed, 5U);
+  EXPECT_EQ(parsed[1].text[2], "d");
+  EXPECT_THROW(static_cast<void>(report::parse_fault_rows("'fault.a': ['one', 'two']")), Error);
 }
 
 /// The texts of a page, without its style.
@@ -153,6 +203,7 @@ InspectionReport everything(const std::string& language) {
   lost.limits = ToleranceLimits{9.9, 10.1};
   lost.value = kMissing;
   report.characteristics.push_back(lost);
+  report.warnings = {"Name: no sphere was found near (1, 2, 3); its values are missing"};
   return report;
 }
 

@@ -142,13 +142,11 @@ void align_mesh(Inspection& found,
   found.mesh = transform_mesh(std::move(found.mesh), found.alignment->pose.reference_from_mesh);
 }
 
-}  // namespace
-
-Inspection inspect_part(Mesh mesh,
-                        const InspectionReference* reference,
-                        const InspectionPlan& plan,
-                        const InspectOptions& options,
-                        const Run& run) {
+Inspection inspected(Mesh mesh,
+                     const InspectionReference* reference,
+                     const InspectionPlan& plan,
+                     const InspectOptions& options,
+                     const Run& run) {
   if (reference == nullptr && !plan.align.empty()) {
     throw Error(ErrorKind::Input,
                 fmt::format("{}: `align` is {}, but there is no reference to align the mesh to; "
@@ -199,6 +197,26 @@ Inspection inspect_part(Mesh mesh,
   const SurfaceVerdict* surface = found.surface ? &found.surface->verdict : nullptr;
   found.verdict = verdict_of(surface, found.characteristics);
   found.reasons = verdict_reasons(surface, found.characteristics);
+  return found;
+}
+
+}  // namespace
+
+Inspection inspect_part(Mesh mesh,
+                        const InspectionReference* reference,
+                        const InspectionPlan& plan,
+                        const InspectOptions& options,
+                        const Run& run) {
+  // Whoever signs the report reads them there, also where nobody watched the inspection.
+  std::vector<std::string> warnings;
+  Run kept = run;
+  kept.on_warning = [&](const std::string& sentence) {
+    if (std::find(warnings.begin(), warnings.end(), sentence) == warnings.end())
+      warnings.push_back(sentence);
+    run.warn(sentence);
+  };
+  Inspection found = inspected(std::move(mesh), reference, plan, options, kept);
+  found.warnings = std::move(warnings);
   return found;
 }
 

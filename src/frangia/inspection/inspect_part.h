@@ -86,6 +86,7 @@ struct Inspection {
   bool knows_calibration = false;              ///< features hold the covariance of the rig
   Conformity verdict = Conformity::Undecided;  ///< about the part, by `verdict_of`
   std::vector<VerdictReason> reasons;          ///< of the verdict, what decided first
+  std::vector<std::string> warnings;           ///< that were given, each once
 };
 
 /// Inspects a part by a plan: aligns its mesh to the reference, finds and measures features, judges

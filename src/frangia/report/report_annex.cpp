@@ -133,7 +133,7 @@ void add_annex(HtmlPage& page, const InspectionReport& report, const ReportWords
   page.table({"", ""}, with_words(conditions, words));
   if (!report.warnings.empty()) page.heading("Warnings");
   for (const std::string& warning : report.warnings)
-    page.html(fmt::format("<p>{}</p>\n", html_escaped(warning)));
+    page.html(fmt::format("<p>{}</p>\n", html_escaped(words.warning(warning))));
 }
 
 }  // namespace frangia::report

@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <optional>
+#include <vector>
 
 #include "frangia/core/error.h"
 #include "frangia/inspection/inspection_plan.h"
+#include "frangia/report/internal/fault_rows.h"
 #include "frangia/report/internal/report_rows.h"
 
 namespace frangia {
@@ -63,6 +65,32 @@ bool matches(std::string_view form, std::string_view text, Values& values) {
   return text.empty();
 }
 
+/// How many characters of a form are no place for a value.
+std::size_t fixed_of(std::string_view form) {
+  std::size_t fixed = 0;
+  while (!form.empty()) {
+    const bool place = place_at(form).has_value();
+    if (!place) ++fixed;
+    form.remove_prefix(place ? 3 : 1);
+  }
+  return fixed;
+}
+
+/// The catalogue, the rows with the most characters of their own first: "{0} of {1} in" also fits
+/// longer texts that have a row.
+const std::vector<report::ReportRow>& all_rows() {
+  static const std::vector<report::ReportRow> rows = [] {
+    std::vector<report::ReportRow> all;
+    for (const auto some : {report::sheet_rows(), report::annex_rows()})
+      all.insert(all.end(), some.begin(), some.end());
+    std::stable_sort(all.begin(), all.end(), [](const auto& a, const auto& b) {
+      return fixed_of(a[0]) > fixed_of(b[0]);
+    });
+    return all;
+  }();
+  return rows;
+}
+
 }  // namespace
 
 ReportWords::ReportWords(std::string_view language) : language_(language) {
@@ -73,12 +101,10 @@ ReportWords::ReportWords(std::string_view language) : language_(language) {
 
 std::string ReportWords::translated(std::string_view english, bool whole) const {
   if (column_ == 0 || english.empty()) return std::string(english);
-  for (const auto rows : {report::sheet_rows(), report::annex_rows()}) {
-    for (const report::ReportRow& row : rows) {
-      Values values;
-      if (!whole && english == row[0]) continue;
-      if (matches(row[0], english, values)) return filled(row.at(column_), values);
-    }
+  for (const report::ReportRow& row : all_rows()) {
+    Values values;
+    if (!whole && english == row[0]) continue;
+    if (matches(row[0], english, values)) return filled(row.at(column_), values);
   }
   return std::string(english);
 }
@@ -105,6 +131,12 @@ std::string ReportWords::operator()(std::string_view english) const {
 
 std::string ReportWords::name(std::string_view english) const {
   return translated(english, false);
+}
+
+std::string ReportWords::warning(std::string_view english) const {
+  std::string text = report::worded_fault(english, column_);
+  std::erase(text, '`');  // around the names of options
+  return text;
 }
 
 std::string ReportWords::sentence(std::string_view english) const {

@@ -29,6 +29,9 @@ class ReportWords {
   /// by clause.
   [[nodiscard]] std::string sentence(std::string_view english) const;
 
+  /// A warning of the library in the language, as the app words it; names in it stay.
+  [[nodiscard]] std::string warning(std::string_view english) const;
+
   [[nodiscard]] const std::string& language() const { return language_; }  ///< its code
 
  private:

@@ -259,17 +259,17 @@ export const FAULTS_INSPECTION = {
   'fault.foundNearValues': [
     '{0}: no {1} was found near ({2}, {3}, {4}); its values are missing',
     '{0}: bei ({2}, {3}, {4}) ist kein Element {1} zu finden; seine Werte fehlen',
-    '{0}: nessun {1} trovato presso ({2}, {3}, {4}); i suoi valori mancano',
+    '{0}: nessun elemento {1} trovato presso ({2}, {3}, {4}); i suoi valori mancano',
   ],
   'fault.nearestIsThatOf': [
     '{0}: the {1} that is nearest to it is that of {2}; its values are missing; scan it, or correct its near_mm',
     '{0}: das nächste Element {1} gehört zu {2}; seine Werte fehlen; es scannen oder near_mm berichtigen',
-    '{0}: il {1} più vicino è quello di {2}; i suoi valori mancano; scansionarlo o correggere near_mm',
+    "{0}: l'elemento {1} più vicino è quello di {2}; i suoi valori mancano; scansionarlo o correggere near_mm",
   ],
   'fault.farFromNearMm': [
     '{0}: its values are those of a {1} that is {2} mm from its near_mm; check that it is not another one',
     '{0}: seine Werte sind die eines Elements {1}, das {2} mm von near_mm entfernt ist; prüfen, ob es ein anderes ist',
-    '{0}: i suoi valori sono quelli di un {1} che dista {2} mm da near_mm; verificare che non sia un altro',
+    '{0}: i suoi valori sono quelli di un elemento {1} che dista {2} mm da near_mm; verificare che non sia un altro',
   ],
   'fault.toleranceMmDiameter': [
     'tolerance_mm is of a diameter, which a {0} does not have; leave it out',

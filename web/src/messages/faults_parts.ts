@@ -62,5 +62,12 @@ export const FAULTS_PARTS = {
   'fault.show': ['show', 'zeigen', 'mostrano'],
   'fault.shows': ['shows', 'zeigt', 'mostra'],
   'fault.notHomed': ['not homed', 'nicht referenziert', 'riferimento non cercato'],
+  'fault.kindPlane': ['plane', 'Ebene', 'piano'],
+  'fault.kindCylinder': ['cylinder', 'Zylinder', 'cilindro'],
+  'fault.kindSphere': ['sphere', 'Kugel', 'sfera'],
+  'fault.kindCone': ['cone', 'Kegel', 'cono'],
+  'fault.kindTorus': ['torus', 'Torus', 'toro'],
+  'fault.kindLine': ['line', 'Gerade', 'retta'],
+  'fault.kindCircle': ['circle', 'Kreis', 'circonferenza'],
   'fault.simulatedLight': ['simulated light', 'simuliertes Licht', 'luce simulata'],
 } as const satisfies Rows;

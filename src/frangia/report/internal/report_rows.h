@@ -9,7 +9,7 @@ namespace frangia::report {
 using ReportRow = std::array<const char*, 3>;
 
 /// The catalogue: what stands before the annex, and then what stands in it or is the form of a
-/// name. Of the rows that fit a text the first one decides.
+/// name. Of the rows that fit a text the one with the most characters of its own decides.
 [[nodiscard]] std::span<const ReportRow> sheet_rows();
 [[nodiscard]] std::span<const ReportRow> annex_rows();
 
