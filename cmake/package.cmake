@@ -46,6 +46,8 @@ set(about "Frangia is a 360-degree fringe-projection 3D scanner: from captured f
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME frangia)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
+# Reports as PDF files, with the letters of Greek and Cyrillic names.
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS "weasyprint, fonts-dejavu-core")
 set(CPACK_DEBIAN_PROGRAM_DESCRIPTION "fringe-projection 3D scanner\n${about}")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libfrangia-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
