@@ -80,6 +80,24 @@ TEST(ReportPages, LabelsDoNotOverlapInRandomReports) {
   EXPECT_GT(labels, 300U);
 }
 
+/// What a person must read: the whole value, and the whole name where two lines hold it.
+TEST(ReportPages, LabelsAreNotCut) {
+  ReportPicture picture = random_picture(1);
+  picture.labels = {
+      {"-100.2345 ± 0.0123 mm", "Łożysko przednie, cylindryczność", Conformity::In, {9, 9}},
+      {"+0.1 mm", "journal", Conformity::In, {9, 9}}};
+  const std::string html = labelled_picture(picture);
+  for (const char* text :
+       {">-100.2345 ± 0.0123 mm<", ">Łożysko przednie,<", ">cylindryczność<", ">journal<"})
+    EXPECT_NE(html.find(text), std::string::npos) << text;
+  EXPECT_EQ(html.find("…"), std::string::npos);
+  const std::vector<Box> boxes = labels_of(html);
+  ASSERT_EQ(boxes.size(), 2U);
+  EXPECT_EQ(boxes[0].height, 51.0);  // 38 and a line
+  picture.labels.assign(40, {"12: cylinder", "", Conformity::In, {9, 9}});
+  EXPECT_EQ(labels_of(labelled_picture(picture)).size(), 32U);  // a line each
+}
+
 TEST(ReportPages, ALabelStandsAtTheHeightOfItsPlaceWhereThereIsRoom) {
   std::vector<PictureLabel> labels(2);
   labels[0].at_px = {100.0, 300.0};
@@ -235,6 +253,46 @@ TEST(ReportPages, ArePrintedWithTheVerdictOnTheFirstSheetAndRepeatedHeads) {
     const std::string next = printed_sheet(pdf, sheet);
     EXPECT_NE(next.find("Inspection report: flange, 0017"), std::string::npos) << next;
     EXPECT_NE(next.find("deviation"), std::string::npos) << next;
+  }
+}
+
+/// Names of any language, and words of the widest, within the sheet.
+TEST(ReportPages, ArePrintedWithinTheMarginsInEveryLanguage) {
+  if (std::system("command -v weasyprint pdftotext > /dev/null") != 0)
+    GTEST_SKIP() << "needs weasyprint and pdftotext (packages weasyprint, poppler-utils)";
+  const testing::TemporaryFolder folder;
+  InspectionReport report;
+  report.part = "Вал Άξονας";
+  report.fields.inspector = "Şükrü Łoś";
+  report.fields.serial = "⌀ ± Ωж";
+  report.characteristics = {result("Łożysko ⌀ ğ", kMissing), result("B", 10.0)};
+  for (const char* language : {"de", "it", "en"}) {
+    report.fields.language = language;
+    write_text_file(folder.path() / "r.html", html_of(report));
+    const auto pdf = folder.path() / "r.pdf";
+    const auto boxes = folder.path() / "boxes.html";
+    const std::string command = "weasyprint " + (folder.path() / "r.html").string() + " " +
+                                pdf.string() + " 2> /dev/null && pdftotext -bbox " + pdf.string() +
+                                " " + boxes.string() + " && pdffonts " + pdf.string() + " > " +
+                                (folder.path() / "fonts.txt").string();
+    ASSERT_EQ(std::system(command.c_str()), 0);
+    std::ifstream file(boxes);
+    const std::string text{std::istreambuf_iterator<char>(file), {}};
+    for (const char* word : {">Вал<", ">Άξονας<", ">Şükrü<", ">Łoś<", ">⌀<", ">Ωж<", ">ğ<"})
+      EXPECT_NE(text.find(word), std::string::npos) << word;
+    // Between margins of 14 mm of A4.
+    static const std::regex kWord(R"re(xMin="([0-9.]+)".* xMax="([0-9.]+)".*>(.*)</word>)re");
+    for (std::sregex_iterator i(text.begin(), text.end(), kWord), end; i != end; ++i) {
+      EXPECT_GE(std::stod((*i)[1]), 39.0) << (*i)[3];
+      EXPECT_LE(std::stod((*i)[2]), 556.0) << (*i)[3];
+    }
+    // One family of letters: what it lacks would come from another one, or be a box.
+    std::ifstream fonts(folder.path() / "fonts.txt");
+    std::string line;
+    for (int i = 0; std::getline(fonts, line); ++i) {
+      const bool is_head = i < 2;
+      EXPECT_TRUE(is_head || line.find("DejaVu") != std::string::npos) << line;
+    }
   }
 }
 

@@ -84,6 +84,19 @@ TEST(SectionDimensions, AreDiametersAndDistancesWhereThePlaneHoldsTheAxis) {
   EXPECT_TRUE(section_dimensions(section_plane({0, 0, 20}, inclined), shaft(), rows()).empty());
 }
 
+TEST(SectionDrawing, NamesTheDirectionsOfThePart) {
+  SectionResult section;
+  section.measured.push_back({{{-10, 0}, {10, 0}, {10, 50}, {-10, 50}}, {}, true});
+  const auto drawn = [&](const Eigen::Vector3d& normal) {
+    section.plane = section_plane({0, 0, 0}, normal);
+    return svg_of(section, {});
+  };
+  EXPECT_NE(drawn({0, 1, 0}).find(">→ -x  ↑ z<"), std::string::npos);
+  EXPECT_NE(drawn({0, -1, 0}).find(">→ x  ↑ z<"), std::string::npos);
+  EXPECT_NE(drawn({0, 0, 1}).find(">→ x  ↑ y<"), std::string::npos);
+  EXPECT_NE(drawn({0.6, 0.8, 0}).find(">→ (-0.80, 0.60, 0.00)  ↑ z<"), std::string::npos);
+}
+
 TEST(SectionDimensions, AreDrawnWhereTheyDoNotCoverEachOther) {
   SectionResult section;
   section.name = "axis";

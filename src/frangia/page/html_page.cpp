@@ -43,11 +43,12 @@ figure img,figure svg{width:100%;height:auto;display:block}
 .signal .word{font-size:15pt;font-weight:700}
 .results{width:100%;table-layout:fixed}
 .results td,.results th{box-sizing:border-box;padding-left:.25em;padding-right:.25em}
-.results th{overflow-wrap:normal;font-size:8pt}.results th:first-child{width:20%}
-.results .unit{width:5%}.results .value{width:9.2%}.results .limits{width:12%}
+.results th{overflow-wrap:normal;font-size:7.5pt}.results th:first-child{width:19%}
+.results .unit{width:4.6%}.results .value{width:9.3%}.results .deviation{width:11.4%}
+.results .u95{width:7.1%}.results .limits{width:11%}
 .results td.limits{white-space:nowrap}
 .results td.why{color:#5a6470;text-align:left}
-.results .bar{width:13.2%}.results .decision{width:13%}
+.results .bar{width:13%}.results .decision{width:15.3%}
 .results svg{width:22mm;height:2.75mm;display:block;margin-left:auto}
 .lead{break-after:avoid}
 td.bad{color:#b00020;font-weight:600}

@@ -36,8 +36,9 @@ struct InspectionReport {
   std::optional<ThicknessSummary> thickness;                   ///< of the walls
   std::vector<ReportPicture> pictures;  ///< of deviations and thickness, the largest first
   std::vector<MeasuredCharacteristic> characteristics;  ///< that a plan asked for
-  std::vector<Feature> features;                        ///< all that were found
-  std::vector<std::string> feature_names;               ///< of the plan; empty for none of its
+  std::vector<Feature> features;  ///< surfaces that were found, and edges that the plan names
+  std::vector<std::string> feature_names;       ///< of the plan; empty for none of its
+  std::vector<ReportPicture> feature_pictures;  ///< with their numbers
   /// The face of the CAD reference of each feature; empty without such a reference.
   std::vector<std::optional<NominalFace>> nominals;
   std::vector<SectionResult> sections;  ///< that a plan asked for

@@ -11,6 +11,7 @@
 #include "frangia/frames/encode_picture.h"
 #include "frangia/inspect/deviation.h"
 #include "frangia/page/html_page.h"
+#include "frangia/report/internal/report_sheets.h"
 
 namespace frangia {
 
@@ -60,39 +61,81 @@ const char* color_of_label(Conformity conformity) {
   return conformity == Conformity::In ? "#0a6b2d" : "#8a5a00";
 }
 
-/// The first characters of a text, so that it fits its box.
-std::string shortened(const std::string& text, std::size_t most) {
+constexpr std::size_t kTextCharacters = 17;    // of a value, in its full size
+constexpr std::size_t kDetailCharacters = 21;  // of a line of what it is
+constexpr std::size_t kMostLines = 2;
+
+/// Where the character begins that a number of characters precede; the end where there are fewer.
+std::size_t byte_of(const std::string& text, std::size_t characters) {
   std::size_t bytes = 0;
-  std::size_t characters = 0;
-  while (bytes < text.size() && characters < most) {
-    ++bytes;
-    while (bytes < text.size() && (static_cast<unsigned char>(text[bytes]) & 0xC0U) == 0x80U)
-      ++bytes;
-    ++characters;
+  for (; bytes < text.size(); ++bytes) {
+    const bool begins = (static_cast<unsigned char>(text[bytes]) & 0xC0U) != 0x80U;
+    if (begins && characters-- == 0) break;
   }
-  return bytes == text.size() ? text : text.substr(0, bytes) + "…";
+  return bytes;
+}
+
+/// A text in lines that fit their box, broken at spaces where there are any; the last is shortened.
+std::vector<std::string> lines_of(std::string text) {
+  std::vector<std::string> lines;
+  while (!text.empty()) {
+    std::size_t end = byte_of(text, kDetailCharacters);
+    if (end == text.size()) {
+      lines.push_back(text);
+      break;
+    }
+    if (lines.size() + 1 == kMostLines) {
+      lines.push_back(text.substr(0, byte_of(text, kDetailCharacters - 1)) + "…");
+      break;
+    }
+    const std::size_t space = text.rfind(' ', end);
+    if (space != std::string::npos && space > 0) end = space;
+    lines.push_back(text.substr(0, end));
+    text.erase(0, text[end] == ' ' ? end + 1 : end);
+  }
+  return lines;
+}
+
+/// Boxes with room for the lines of all labels.
+LabelLayout layout_of(const std::vector<PictureLabel>& labels, const ReportWords& words) {
+  LabelLayout layout;
+  std::size_t lines = 0;
+  for (const PictureLabel& label : labels)
+    lines = std::max(lines, lines_of(words(label.detail)).size());
+  constexpr double kLine_px = 13.0;
+  if (lines > 1) layout.height_px += kLine_px * static_cast<double>(lines - 1);
+  if (lines == 0 && !labels.empty()) {  // a line each: room for more
+    constexpr std::size_t kShort = 32;
+    layout = {22.0, 4.0, kShort};
+  }
+  return layout;
 }
 
 std::string drawn_label(const PictureLabel& label,
                         const LabelBox& box,
                         double width_px,
+                        double height,
                         const ReportWords& words) {
-  constexpr std::size_t kTextCharacters = 17;
-  constexpr std::size_t kDetailCharacters = 21;
-  const double height = LabelLayout{}.height_px;
   const double wide = kLabelColumn_px - 2.0 * kBoxInset_px;
   const double left = kBoxInset_px + (box.right ? kLabelColumn_px + width_px : 0.0);
   const double edge = box.right ? left : left + wide;
   const double x = kLabelColumn_px + label.at_px.x();
   const char* color = color_of_label(label.conformity);
-  return fmt::format(
+  const std::string text = words(label.text);
+  // A number is never cut: a long one is smaller.
+  const double room = static_cast<double>(kTextCharacters);
+  const double size =
+      15.0 *
+      std::min(1.0,
+               room / static_cast<double>(std::max<std::size_t>(1, report::characters_of(text))));
+  std::string svg = fmt::format(
       "<path d=\"M{0:.1f} {1:.1f}L{2:.1f} {3:.1f}\" stroke=\"#fff\" stroke-width=\"3\"/>"
       "<path d=\"M{0:.1f} {1:.1f}L{2:.1f} {3:.1f}\" stroke=\"#1c2126\" stroke-width=\"1\"/>"
       "<circle cx=\"{2:.1f}\" cy=\"{3:.1f}\" r=\"3.5\" fill=\"{4}\" stroke=\"#fff\"/>"
       "<rect class=\"label\" x=\"{5:.1f}\" y=\"{6:.1f}\" width=\"{7:.1f}\" height=\"{8:.1f}\" "
       "rx=\"3\" fill=\"#fff\" stroke=\"{4}\" stroke-width=\"1.2\"/>"
-      "<text x=\"{9:.1f}\" y=\"{10:.1f}\" font-size=\"15\" font-weight=\"700\" fill=\"{4}\">{11}"
-      "</text><text x=\"{9:.1f}\" y=\"{12:.1f}\" font-size=\"12.5\" fill=\"#1c2126\">{13}</text>\n",
+      "<text x=\"{9:.1f}\" y=\"{10:.1f}\" font-size=\"{12:.3g}\" font-weight=\"700\" "
+      "fill=\"{4}\">{11}</text>",
       edge,
       box.top_px + 0.5 * height,
       x,
@@ -104,9 +147,18 @@ std::string drawn_label(const PictureLabel& label,
       height,
       left + 6.0,
       box.top_px + 16.5,
-      html_escaped(shortened(words(label.text), kTextCharacters)),
-      box.top_px + 32.0,
-      html_escaped(shortened(words(label.detail), kDetailCharacters)));
+      html_escaped(text),
+      size);
+  double baseline = box.top_px + 32.0;
+  for (const std::string& line : lines_of(words(label.detail))) {
+    svg +=
+        fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" font-size=\"12.5\" fill=\"#1c2126\">{}</text>",
+                    left + 6.0,
+                    baseline,
+                    html_escaped(line));
+    baseline += 13.0;
+  }
+  return svg + "\n";
 }
 
 std::string hex_color(ColorMap map, double share) {
@@ -121,7 +173,8 @@ std::string drawn_scale(const PictureScale& scale, const ReportWords& words) {
   constexpr double kLong = 560.0;
   constexpr int kSteps = 56;
   std::string svg = fmt::format(
-      "<svg viewBox=\"0 0 {:g} 40\" width=\"{:g}\" height=\"40\" font-family=\"sans-serif\" "
+      "<svg viewBox=\"0 0 {:g} 40\" width=\"{:g}\" height=\"40\" font-family=\"DejaVu Sans, "
+      "sans-serif\" "
       "font-size=\"14\" style=\"width:{}mm;height:6.87mm\"><text x=\"{:g}\" y=\"14\" "
       "text-anchor=\"end\">{}</text>",
       kWide,
@@ -176,15 +229,17 @@ std::string labelled_picture(const ReportPicture& picture, const ReportWords& wo
   std::string html = fmt::format(
       "<figure><div class=\"labelled\" style=\"width:{0}mm;height:{1:.2f}mm\"><img alt=\"{2}\" "
       "src=\"{3}\"><svg viewBox=\"0 0 {4:g} {5:g}\" width=\"{4:g}\" height=\"{5:g}\" "
-      "style=\"width:{0}mm;height:{1:.2f}mm\" font-family=\"sans-serif\" fill=\"none\">\n",
+      "style=\"width:{0}mm;height:{1:.2f}mm\" font-family=\"DejaVu Sans, sans-serif\" "
+      "fill=\"none\">\n",
       kSheetWidth_mm,
       height_mm,
       html_escaped(words(picture.caption)),
       data_uri("image/png", encode_picture(picture.picture)),
       total,
       high);
-  for (const LabelBox& box : place_labels(picture.labels, wide, high))
-    html += drawn_label(picture.labels[box.label], box, wide, words);
+  const LabelLayout layout = layout_of(picture.labels, words);
+  for (const LabelBox& box : place_labels(picture.labels, wide, high, layout))
+    html += drawn_label(picture.labels[box.label], box, wide, layout.height_px, words);
   html += "</svg></div>";
   if (picture.scale) html += drawn_scale(*picture.scale, words);
   return html + fmt::format("<figcaption>{}</figcaption></figure>\n",

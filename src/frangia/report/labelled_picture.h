@@ -80,6 +80,8 @@ struct ReportPicture {
   Image<Rgb> picture;                 ///< `kReportPictureWidth_px` wide, without a legend
   std::vector<PictureLabel> labels;   ///< of places in it, the most important first
   std::optional<PictureScale> scale;  ///< none: the colors mean nothing
+  double azimuth_deg = 0.0;           ///< of the viewer, as in RenderOptions
+  double elevation_deg = 0.0;         ///< of the viewer, as in RenderOptions
 };
 
 /// Width and height of the pictures of a report.

@@ -18,7 +18,25 @@ constexpr const char* kDecisionRule =
 
 /// Lines that a text takes in a column of so many characters.
 std::size_t lines_of(const std::string& text, std::size_t characters) {
-  return 1 + (text.empty() ? 0 : (text.size() - 1) / characters);
+  return 1 + (text.empty() ? 0 : (characters_of(text) - 1) / characters);
+}
+
+/// The largest deviation and where it is, beside those of single vertices; empty without a
+/// reference, and where nothing was measured.
+std::string largest_deviation(const InspectionReport& report, const ReportWords& words) {
+  if (!report.surface || !report.deviation) return {};
+  const Extreme& worst = worst_extreme(*report.surface);
+  if (!std::isfinite(worst.deviation_mm)) return {};
+  std::string value = fmt::format("{:+.4f} mm", worst.deviation_mm);
+  if (std::isfinite(worst.u95_mm)) value += fmt::format(" ± {:.4f} mm", worst.u95_mm);
+  return words.sentence(fmt::format("largest deviation, mean over {:.3g} mm: {} at {}",
+                                    report.surface->rule.min_feature_mm,
+                                    value,
+                                    place_text(worst.at_mm))) +
+         "; " +
+         words(fmt::format("single vertices, unfiltered: {:+.4f} to {:+.4f} mm",
+                           report.deviation->min_mm,
+                           report.deviation->max_mm));
 }
 
 /// How many rows of results the first sheet has room for, beside the head, the verdict and the
@@ -35,6 +53,8 @@ std::size_t rows_on_cover(const InspectionReport& report,
   room_mm -= kWarning_mm * static_cast<double>(std::min(report.warnings.size(), kWarnings));
   for (const std::string& reason : reasons_of(report, words))
     room_mm -= kLine_mm * static_cast<double>(lines_of(reason, 102) - 1);
+  const std::string largest = largest_deviation(report, words);
+  if (!largest.empty()) room_mm -= kLine_mm * static_cast<double>(lines_of(largest, 102));
   std::size_t count = 0;
   for (const MeasuredCharacteristic& row : rows) {
     room_mm -= 1.7 + kLine_mm * static_cast<double>(lines_of(words.name(row.name), 21));
@@ -123,6 +143,8 @@ void add_verdict(HtmlPage& page, const InspectionReport& report, const ReportWor
   std::string reasons;
   for (const std::string& reason : reasons_of(report, words))
     reasons += fmt::format("<div>{}</div>", html_escaped(reason));
+  const std::string largest = largest_deviation(report, words);
+  if (!largest.empty()) reasons += fmt::format("<div>{}</div>", html_escaped(largest));
   page.html(
       fmt::format("<table class=\"signal verdict {}\"><tr><td class=\"lamps\">{}</td><td><div "
                   "class=\"word\">{}</div>{}</td></tr></table>\n",
@@ -154,7 +176,8 @@ void add_cover(HtmlPage& page, const InspectionReport& report, const ReportWords
   add_head(page, report, words);
   add_verdict(page, report, words);
   for (std::size_t i = 0; i < std::min(kWarnings, report.warnings.size()); ++i)
-    page.html(fmt::format("<p class=\"verdict open\">{}</p>\n", html_escaped(report.warnings[i])));
+    page.html(fmt::format("<p class=\"verdict open\">{}</p>\n",
+                          html_escaped(words.warning(report.warnings[i]))));
   if (report.warnings.size() > kWarnings) {
     const std::size_t more = report.warnings.size() - kWarnings;
     page.paragraph(fmt::format("{} more warning{}: see the annex.", more, more == 1 ? "" : "s"));

@@ -93,6 +93,8 @@ void add_walls(HtmlPage& page, const InspectionReport& report, const ReportWords
 void add_found_features(HtmlPage& page, const InspectionReport& report, const ReportWords& words) {
   if (report.features.empty()) return;
   page.heading("Features that were found");
+  for (const ReportPicture& picture : report.feature_pictures)
+    page.html(labelled_picture(picture, words));
   Rows rows;
   for (std::size_t i = 0; i < report.features.size(); ++i) {
     const Feature& feature = report.features[i];
@@ -104,6 +106,7 @@ void add_found_features(HtmlPage& page, const InspectionReport& report, const Re
     const std::string name = i < report.feature_names.size() ? report.feature_names[i] : "";
     rows.push_back({words((name.empty() ? "" : name + ": ") + std::string(name_of(shape.kind)) +
                           (feature.hole && round ? ", hole" : "")),
+                    fmt::format("{}", i + 1),  // as in the pictures
                     round ? number_text(2.0 * shape.radius_mm, 4) : "",
                     number_text(feature.uncertainty.u95_mm, 4),
                     fitted ? number_text(feature.fit.form_mm, 4) : "",
@@ -118,12 +121,12 @@ void add_found_features(HtmlPage& page, const InspectionReport& report, const Re
         nominal ? fmt::format("{}", nominal->number) : "",
         number_text(size, 4),
         std::isfinite(size) ? fmt::format("{:+.4f}", 2.0 * shape.radius_mm - size) : ""};
-    rows.back().insert(rows.back().begin() + 2, cells.begin(), cells.end());
+    rows.back().insert(rows.back().begin() + 3, cells.begin(), cells.end());
   }
   std::vector<std::string> names{
-      "feature", "diameter, mm", "U95, mm", "form, mm", "center, mm", "axis", "points"};
+      "feature", "no.", "diameter, mm", "U95, mm", "form, mm", "center, mm", "axis", "points"};
   if (!report.nominals.empty())
-    names.insert(names.begin() + 2, {"CAD face", "nominal, mm", "difference, mm"});
+    names.insert(names.begin() + 3, {"CAD face", "nominal, mm", "difference, mm"});
   page.table(names, rows);
 }
 

@@ -16,8 +16,10 @@
 #include "frangia/core/read_file.h"
 #include "frangia/core/statistics.h"
 #include "frangia/frames/image_file.h"
+#include "frangia/geometry/mesh.h"
 #include "frangia/inspect/render_mesh.h"
 #include "frangia/inspection/verdict_reasons.h"
+#include "frangia/report/internal/feature_places.h"
 #include "frangia/report/labelled_picture.h"
 
 namespace frangia {
@@ -79,6 +81,8 @@ std::vector<LabelledPlace> labelled_places(const Inspection& part) {
            {extreme.at_mm, extreme.normal}});
     }
   }
+  std::vector<Eigen::Vector3f> normals;
+  if (!part.named_features.empty()) normals = vertex_normals(part.mesh);
   // Of a feature with many characteristics the worst ones, or the labels of others have no room.
   constexpr std::size_t kMostOfFeature = 3;
   std::map<std::string, std::size_t> rows_of;
@@ -90,7 +94,6 @@ std::vector<LabelledPlace> labelled_places(const Inspection& part) {
                                     part.named_features.end(),
                                     [&](const auto& one) { return one.name == row.feature; });
     if (found == part.named_features.end() || !std::isfinite(row.value)) continue;
-    const Shape& shape = found->shape;
     const char* const unit = row.unit == "degrees" ? "°" : " mm";
     PictureLabel label{fmt::format("{:.4f}{}", row.value, unit),
                        row.name,
@@ -100,18 +103,28 @@ std::vector<LabelledPlace> labelled_places(const Inspection& part) {
     if (count > kMostOfFeature) continue;
     if (count == kMostOfFeature && rows_of[row.feature] > kMostOfFeature)
       label.detail += fmt::format(", {} more", rows_of[row.feature] - kMostOfFeature);
-    if (shape.kind == ShapeKind::Plane) {
-      places.push_back({label, {shape.center_mm, shape.axis}});
-      continue;
-    }
-    // Around an axis, the first of eight points that a picture sees.
-    const Eigen::Vector3d across = shape.axis.unitOrthogonal();
-    for (int i = 0; i < 8; ++i) {
-      const Eigen::Vector3d away = Eigen::AngleAxisd(rad_from_deg(45.0 * i), shape.axis) * across;
-      places.push_back({label, {shape.center_mm + shape.radius_mm * away, away}});
-    }
+    for (const PicturedPlace& place :
+         report::feature_places(part.mesh, normals, found->shape, found->vertices))
+      places.push_back({label, place});
   }
   return places;
+}
+
+/// The place of the thinnest wall.
+std::vector<LabelledPlace> thinnest_place(const Inspection& part) {
+  const ThicknessSummary& walls = part.walls->summary;
+  if (!walls.min_at_mm.allFinite()) return {};
+  const auto at = std::find(part.mesh.vertices_mm.begin(),
+                            part.mesh.vertices_mm.end(),
+                            Eigen::Vector3f(walls.min_at_mm.cast<float>()));
+  if (at == part.mesh.vertices_mm.end()) return {};
+  const auto normals = vertex_normals(part.mesh);
+  const Eigen::Vector3f& normal =
+      normals[static_cast<std::size_t>(at - part.mesh.vertices_mm.begin())];
+  std::string text = fmt::format("{:.4f}", walls.min_mm);
+  if (std::isfinite(walls.min_u_mm)) text += fmt::format(" ± {:.4f}", kNormal95 * walls.min_u_mm);
+  return {{{text, "thinnest", Conformity::Undecided, {}},
+           {walls.min_at_mm, normal.cast<double>().normalized()}}};
 }
 
 /// A direction to the viewer.
@@ -208,19 +221,23 @@ std::vector<ReportPicture> report_pictures(const Inspection& part,
   const RayScene scene(part.mesh, run);
   const std::vector<LabelledPlace> places = labelled_places(part);
   std::vector<ReportPicture> pictures;
-  const auto add = [&](const std::string& what, double azimuth, double elevation) {
+  std::string what;     // the pictures show
+  std::string meaning;  // of their colors and labels
+  const auto show = [&](const std::string& quantity) {
+    what = quantity + ", ";
+    meaning =
+        "; dark gray: no value; magenta: inside of the surface; labels: " + quantity + " ± U95, mm";
+  };
+  if (part.surface) show("deviation");
+  const auto add = [&](double azimuth, double elevation) {
     options.azimuth_rad = rad_from_deg(azimuth);
     options.elevation_rad = rad_from_deg(elevation);
     ReportPicture picture;
-    picture.caption =
-        fmt::format("{}seen from azimuth {:.0f}°, elevation {:.0f}°{}",
-                    what,
-                    azimuth,
-                    elevation,
-                    what.empty() ? ""
-                                 : "; dark gray: no value; magenta: inside of the surface; labels: "
-                                   "deviation ± U95, mm");
+    picture.caption = fmt::format(
+        "{}seen from azimuth {:.0f}°, elevation {:.0f}°{}", what, azimuth, elevation, meaning);
     picture.picture = render_mesh(part.mesh, options, run);
+    picture.azimuth_deg = azimuth;
+    picture.elevation_deg = elevation;
     if (!options.values.empty()) {
       picture.scale = PictureScale{options.value_label,
                                    static_cast<double>(options.value_min),
@@ -233,12 +250,12 @@ std::vector<ReportPicture> report_pictures(const Inspection& part,
     pictures.push_back(std::move(picture));
   };
   for (const double azimuth : kAzimuths) {
-    add(part.surface ? "deviation, " : "", azimuth, 20.0);
+    add(azimuth, 20.0);
     add_labels(pictures.back(), scene, options, places);
     if (!part.surface && pictures.size() == 2) break;
   }
   for (const PicturedFrom& from : views_of_unseen(scene, options, places, pictures)) {
-    add(part.surface ? "deviation, " : "", from.azimuth_deg, from.elevation_deg);
+    add(from.azimuth_deg, from.elevation_deg);
     add_labels(pictures.back(), scene, options, places);
   }
   // The picture with the worst place stands first.
@@ -256,8 +273,19 @@ std::vector<ReportPicture> report_pictures(const Inspection& part,
   options.height_px = height;
   options.samples_across = 2;
   options.legend = false;
+  show("thickness");
+  const std::vector<LabelledPlace> thinnest = thinnest_place(part);
+  const std::size_t first = pictures.size();
+  const auto add_thickness = [&](double azimuth, double elevation) {
+    add(azimuth, elevation);
+    add_labels(pictures.back(), scene, options, thinnest);
+  };
   for (const double azimuth : {35.0, 215.0})
-    add("thickness, ", azimuth, 20.0);
+    add_thickness(azimuth, 20.0);
+  const std::vector<ReportPicture> of_walls(pictures.begin() + static_cast<std::ptrdiff_t>(first),
+                                            pictures.end());
+  for (const PicturedFrom& from : views_of_unseen(scene, options, thinnest, of_walls))
+    add_thickness(from.azimuth_deg, from.elevation_deg);
   return pictures;
 }
 

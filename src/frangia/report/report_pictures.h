@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "frangia/features/find_features.h"
+#include "frangia/geometry/mesh.h"
 #include "frangia/inspection/inspect_part.h"
 #include "frangia/report/labelled_picture.h"
 
@@ -17,6 +19,17 @@ namespace frangia {
 [[nodiscard]] std::vector<ReportPicture> report_pictures(const Inspection& part,
                                                          double scale_mm = 0.0,
                                                          const Run& run = {});
+
+/// Pictures of the part in which each feature has its number, its index plus 1, as few as show
+/// those that can be seen; up to three. `names` are what the labels say behind the numbers. Those
+/// of `drawn` are labelled anew, which costs nothing; one more is drawn for what they hide.
+///
+/// @errors   Error(Cancelled)
+[[nodiscard]] std::vector<ReportPicture> feature_pictures(const Mesh& mesh,
+                                                          const std::vector<Feature>& features,
+                                                          const std::vector<std::string>& names,
+                                                          const std::vector<ReportPicture>& drawn,
+                                                          const Run& run = {});
 
 /// The picture at the head of a report.
 struct ReportLogo {

@@ -39,20 +39,24 @@ std::string color_of_row(const MeasuredCharacteristic& row) {
 
 }  // namespace
 
+const Extreme& worst_extreme(const SurfaceVerdict& verdict) {
+  const ToleranceLimits& limits = verdict.rule.limits;
+  const double middle = 0.5 * (limits.lower + limits.upper);
+  const double above = verdict.highest.deviation_mm - middle;
+  const double below = middle - verdict.lowest.deviation_mm;
+  return !std::isfinite(above) || below > above ? verdict.lowest : verdict.highest;
+}
+
 MeasuredCharacteristic surface_row(const SurfaceVerdict& verdict) {
+  const Extreme& worst = worst_extreme(verdict);
   MeasuredCharacteristic row;
   row.name = fmt::format("surface, mean over {:.3g} mm", verdict.rule.min_feature_mm);
   row.nominal = 0.0;
   row.limits = verdict.rule.limits;
   row.conformity = verdict.conformity;
-  MeasuredCharacteristic other = row;
-  row.value = verdict.highest.deviation_mm;
-  row.u95 = verdict.highest.u95_mm;
-  other.value = verdict.lowest.deviation_mm;
-  other.u95 = verdict.lowest.u95_mm;
-  const bool lower_is_worse =
-      !std::isfinite(row.value) || tolerance_used(other) > tolerance_used(row);
-  return lower_is_worse ? other : row;
+  row.value = worst.deviation_mm;
+  row.u95 = worst.u95_mm;
+  return row;
 }
 
 std::string tolerance_bar(const MeasuredCharacteristic& row) {
@@ -99,8 +103,8 @@ std::string result_table(const std::vector<MeasuredCharacteristic>& rows,
                                                                          {"value", "nominal"},
                                                                          {"limits", "tolerance"},
                                                                          {"value", "measured"},
-                                                                         {"value", "deviation"},
-                                                                         {"value", "U95"},
+                                                                         {"deviation", "deviation"},
+                                                                         {"u95", "U95"},
                                                                          {"bar", "tolerance used"},
                                                                          {"decision", "verdict"}}};
   std::string html = "<table class=\"results\"><thead><tr>";

@@ -10,6 +10,10 @@
 
 namespace frangia {
 
+/// Of the extremes of a surface the one that uses more of the tolerance; its deviation is NaN where
+/// nothing was measured.
+[[nodiscard]] const Extreme& worst_extreme(const SurfaceVerdict& verdict);
+
 /// The surface as a row of the table of results: of its patches the one that uses most of the
 /// tolerance.
 [[nodiscard]] MeasuredCharacteristic surface_row(const SurfaceVerdict& verdict);

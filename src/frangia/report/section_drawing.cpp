@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "frangia/core/error.h"
+#include "frangia/report/internal/report_sheets.h"
 
 namespace frangia {
 namespace {
@@ -79,7 +80,8 @@ Eigen::AlignedBox2d text_box(const SectionDimension& dimension,
                              const Eigen::AlignedBox2d& page,
                              double text,
                              const std::vector<Eigen::AlignedBox2d>& others) {
-  const Vector2d half(0.29 * text * static_cast<double>(dimension.text.size()), 0.7 * text);
+  const Vector2d half(0.29 * text * static_cast<double>(report::characters_of(dimension.text)),
+                      0.7 * text);
   const Vector2d along = dimension.to_mm - dimension.from_mm;
   Eigen::AlignedBox2d box;
   for (const double share : {0.72, 0.28, 0.5, 1.1, -0.1, 0.9, 0.1}) {
@@ -124,7 +126,7 @@ std::string drawn_dimensions(const std::vector<SectionDimension>& dimensions,
     texts += fmt::format(
         "<rect x=\"{:.4f}\" y=\"{:.4f}\" width=\"{:.4f}\" height=\"{:.4f}\" fill=\"#fff\"/>"
         "<text x=\"{:.4f}\" y=\"{:.4f}\" font-size=\"{:.4f}\" fill=\"{}\" "
-        "text-anchor=\"middle\" font-family=\"sans-serif\">{}</text>\n",
+        "text-anchor=\"middle\" font-family=\"DejaVu Sans, sans-serif\">{}</text>\n",
         box.min().x(),
         -box.max().y(),
         box.sizes().x(),
@@ -136,6 +138,19 @@ std::string drawn_dimensions(const std::vector<SectionDimension>& dimensions,
         dimension.text);
   }
   return lines + texts;
+}
+
+/// A direction of the part: "x", "-y", or its components.
+std::string direction_text(const Eigen::Vector3d& direction) {
+  constexpr double kAlong = 1e-6;
+  for (Eigen::Index i = 0; i < 3; ++i) {
+    if (std::abs(direction[i]) < 1.0 - kAlong) continue;
+    return std::string(direction[i] < 0.0 ? "-" : "") + "xyz"[i];
+  }
+  return fmt::format("({}, {}, {})",
+                     report::coordinate_text(direction.x(), 2),
+                     report::coordinate_text(direction.y(), 2),
+                     report::coordinate_text(direction.z(), 2));
 }
 
 void add_dxf_curves(std::string& dxf,
@@ -194,7 +209,9 @@ std::string svg_of(const SectionResult& section,
   svg += fmt::format(
       "<path d=\"M{0:.4f} {1:.4f}h{2:.4f}\" stroke=\"#111\" stroke-width=\"{3:.5f}\"/>\n"
       "<text x=\"{0:.4f}\" y=\"{4:.4f}\" font-size=\"{5:.4f}\" fill=\"#111\" "
-      "font-family=\"sans-serif\">{6}</text>\n</svg>\n",
+      "font-family=\"DejaVu Sans, sans-serif\">{6}</text>\n"
+      "<text class=\"axes\" x=\"{7:.4f}\" y=\"{4:.4f}\" font-size=\"{5:.4f}\" fill=\"#111\" "
+      "text-anchor=\"end\" font-family=\"DejaVu Sans, sans-serif\">{8}</text>\n</svg>\n",
       low.x() + 0.4 * margin,
       y,
       bar,
@@ -204,7 +221,9 @@ std::string svg_of(const SectionResult& section,
       words(fmt::format(
           "{:g} mm{}",
           bar,
-          enlarged > 0.0 ? fmt::format("; deviations enlarged {:.0f} times", enlarged) : "")));
+          enlarged > 0.0 ? fmt::format("; deviations enlarged {:.0f} times", enlarged) : "")),
+      high.x() - 0.4 * margin,
+      fmt::format("→ {}  ↑ {}", direction_text(section.plane.u), direction_text(section.plane.v)));
   return svg;
 }
 
@@ -236,7 +255,7 @@ std::string profile_plot(const SectionResult& section,
   }
   std::string svg = fmt::format(
       "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{}\" viewBox=\"0 0 {} {}\" "
-      "style=\"background:#fff;border:1px solid #ccd\" font-family=\"sans-serif\" "
+      "style=\"background:#fff;border:1px solid #ccd\" font-family=\"DejaVu Sans, sans-serif\" "
       "font-size=\"12\">\n",
       kWidth_px,
       kWide,

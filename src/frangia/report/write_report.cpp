@@ -170,6 +170,22 @@ std::string names_in_plan(const Inspection& part, const Shape& shape) {
   return names;
 }
 
+/// The features with their names and numbers. Where surfaces meet is listed if the plan names it.
+void add_features(InspectionReport& report, const Inspection& part, const Run& run) {
+  std::vector<std::string> kinds;
+  for (std::size_t i = 0; i < part.features.size(); ++i) {
+    const Shape& shape = part.features[i].fit.shape;
+    std::string name = names_in_plan(part, shape);
+    if (!is_surface(shape.kind) && name.empty()) continue;
+    report.features.push_back(part.features[i]);
+    report.feature_names.push_back(std::move(name));
+    if (!part.nominals.empty()) report.nominals.push_back(part.nominals[i]);
+    kinds.emplace_back(name_of(shape.kind));
+  }
+  report.feature_pictures =
+      feature_pictures(part.mesh, report.features, kinds, report.pictures, run);
+}
+
 }  // namespace
 
 InspectionReport report_of(const Inspection& part,
@@ -193,10 +209,7 @@ InspectionReport report_of(const Inspection& part,
   if (part.walls) report.thickness = part.walls->summary;
   report.pictures = report_pictures(part, sources.scale_mm, run);
   report.characteristics = part.characteristics;
-  report.features = part.features;
-  for (const Feature& feature : part.features)
-    report.feature_names.push_back(names_in_plan(part, feature.fit.shape));
-  report.nominals = part.nominals;
+  add_features(report, part, run);
   report.sections = part.sections;
   for (const SectionResult& section : part.sections)
     report.dimensions.push_back(
@@ -204,7 +217,11 @@ InspectionReport report_of(const Inspection& part,
   report.uncertainty_mm = uncertainty_terms_of(part);
   report.systematic_known = !part.mesh.sigma_systematic_mm.empty();
   report.correlation_known = part.knows_calibration;
-  report.warnings = sources.warnings;
+  report.warnings = part.warnings;
+  for (const std::string& warning : sources.warnings) {
+    if (std::find(report.warnings.begin(), report.warnings.end(), warning) == report.warnings.end())
+      report.warnings.push_back(warning);
+  }
   return report;
 }
 

@@ -71,6 +71,12 @@ constexpr ReportRow kSheetRows[] = {
     // the reasons of the verdict
     {"surface", "Fläche", "superficie"},
     {"characteristics", "Merkmale", "caratteristiche"},
+    {"largest deviation, mean over {0} mm: {1} at ({2}) mm",
+     "größte Abweichung, Mittel über {0} mm: {1} bei ({2}) mm",
+     "scostamento massimo, media su {0} mm: {1} a ({2}) mm"},
+    {"single vertices, unfiltered: {0} to {1} mm",
+     "einzelne Eckpunkte, ungefiltert: {0} bis {1} mm",
+     "vertici singoli, senza filtro: da {0} a {1} mm"},
     {"in, over {0} of the nominal area",
      "innerhalb, auf {0} der Sollfläche",
      "conforme, sul {0} dell'area nominale"},
@@ -163,11 +169,11 @@ constexpr ReportRow kSheetRows[] = {
      "scostamento, visto da azimut {0}°, elevazione {1}°; grigio scuro: nessun valore; magenta: "
      "interno della superficie; etichette: scostamento ± U95, mm"},
     {"thickness, seen from azimuth {0}°, elevation {1}°; dark gray: no value; magenta: inside of "
-     "the surface; labels: deviation ± U95, mm",
+     "the surface; labels: thickness ± U95, mm",
      "Dicke, gesehen aus Azimut {0}°, Höhe {1}°; dunkelgrau: kein Wert; magenta: Innenseite der "
-     "Fläche; Beschriftung: Abweichung ± U95, mm",
+     "Fläche; Beschriftung: Dicke ± U95, mm",
      "spessore, visto da azimut {0}°, elevazione {1}°; grigio scuro: nessun valore; magenta: "
-     "interno della superficie; etichette: scostamento ± U95, mm"},
+     "interno della superficie; etichette: spessore ± U95, mm"},
     {"seen from azimuth {0}°, elevation {1}°",
      "gesehen aus Azimut {0}°, Höhe {1}°",
      "visto da azimut {0}°, elevazione {1}°"},
@@ -175,6 +181,9 @@ constexpr ReportRow kSheetRows[] = {
     {"thickness, mm", "Dicke, mm", "spessore, mm"},
     {"U95 too large", "U95 zu groß", "U95 troppo grande"},
     {"missing", "fehlt", "mancante"},
+    {"largest, {0}", "größte, {0}", "massimo, {0}"},
+    {"smallest, {0}", "kleinste, {0}", "minimo, {0}"},
+    {"thinnest", "dünnste", "più sottile"},
     {"largest", "größte", "massimo"},
     {"smallest", "kleinste", "minimo"},
     {"degrees", "Grad", "gradi"},
@@ -239,6 +248,7 @@ constexpr ReportRow kSheetRows[] = {
     {"cone, hole", "Kegel, Bohrung", "cono, foro"},
     {"torus, hole", "Torus, hohl", "toro, cavo"},
     {"circle, hole", "Kreis, Bohrung", "cerchio, foro"},
+    {"no.", "Nr.", "n."},
     {"feature", "Element", "elemento"},
     {"diameter, mm", "Durchmesser, mm", "diametro, mm"},
     {"form, mm", "Form, mm", "forma, mm"},

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -13,6 +15,13 @@
 namespace frangia::report {
 
 using Rows = std::vector<std::vector<std::string>>;  ///< of a table
+
+/// How many characters a text in UTF-8 has; a Greek or Cyrillic letter has two bytes.
+[[nodiscard]] inline std::size_t characters_of(std::string_view text) {
+  return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) {
+    return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U;
+  }));
+}
 
 /// A number with that many decimals; empty for NaN.
 [[nodiscard]] inline std::string number_text(double value, int decimals) {
