@@ -227,6 +227,9 @@ TEST(InspectionPlan, NamesTheCharacteristicThatIsWrongByItsName) {
   EXPECT_NE(refused(std::string(kRunOut) + "limt = 1\n")
                 .find("\"run-out of A\": characteristics[1].limt is unknown here; perhaps limit"),
             std::string::npos);
+  EXPECT_NE(refused("[[characteristics]]\nname = \"a\\u001Bb\"\nkind = \"waves\"\n")
+                .find("toml: characteristics[1].kind is \"waves\""),
+            std::string::npos);
   // A table without a name is found by its place.
   EXPECT_NE(refused("[[characteristics]]\nkind = \"run-out\"\n")
                 .find("characteristics[1].name is missing"),

@@ -119,7 +119,8 @@ TEST(ReportPictures, OfTheThicknessSpeakOfItAndLabelTheThinnestWall) {
   std::size_t shown = 0;
   for (const ReportPicture& picture : pictures) {
     if (!picture.caption.starts_with("thickness, ")) continue;
-    EXPECT_TRUE(picture.caption.ends_with("labels: thickness ± U95, mm")) << picture.caption;
+    EXPECT_EQ(picture.caption.ends_with("labels: thickness ± U95, mm"), !picture.labels.empty())
+        << picture.caption;
     EXPECT_EQ(picture.caption.find("deviation"), std::string::npos) << picture.caption;
     shown += labels(picture, "thinnest") ? 1U : 0U;
     for (const PictureLabel& label : picture.labels)

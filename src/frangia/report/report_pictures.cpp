@@ -279,6 +279,8 @@ std::vector<ReportPicture> report_pictures(const Inspection& part,
   const auto add_thickness = [&](double azimuth, double elevation) {
     add(azimuth, elevation);
     add_labels(pictures.back(), scene, options, thinnest);
+    std::string& caption = pictures.back().caption;
+    if (pictures.back().labels.empty()) caption.erase(caption.rfind("; labels: "));
   };
   for (const double azimuth : {35.0, 215.0})
     add_thickness(azimuth, 20.0);

@@ -210,8 +210,8 @@ std::string svg_of(const SectionResult& section,
       "<path d=\"M{0:.4f} {1:.4f}h{2:.4f}\" stroke=\"#111\" stroke-width=\"{3:.5f}\"/>\n"
       "<text x=\"{0:.4f}\" y=\"{4:.4f}\" font-size=\"{5:.4f}\" fill=\"#111\" "
       "font-family=\"DejaVu Sans, sans-serif\">{6}</text>\n"
-      "<text class=\"axes\" x=\"{7:.4f}\" y=\"{4:.4f}\" font-size=\"{5:.4f}\" fill=\"#111\" "
-      "text-anchor=\"end\" font-family=\"DejaVu Sans, sans-serif\">{8}</text>\n</svg>\n",
+      "<text class=\"axes\" x=\"{0:.4f}\" y=\"{7:.4f}\" font-size=\"{5:.4f}\" fill=\"#111\" "
+      "font-family=\"DejaVu Sans, sans-serif\">{8}</text>\n</svg>\n",
       low.x() + 0.4 * margin,
       y,
       bar,
@@ -222,7 +222,7 @@ std::string svg_of(const SectionResult& section,
           "{:g} mm{}",
           bar,
           enlarged > 0.0 ? fmt::format("; deviations enlarged {:.0f} times", enlarged) : "")),
-      high.x() - 0.4 * margin,
+      -high.y() + 0.4 * margin,
       fmt::format("→ {}  ↑ {}", direction_text(section.plane.u), direction_text(section.plane.v)));
   return svg;
 }

@@ -185,9 +185,13 @@ class TomlReader {
  private:
   /// A key behind the name of its table, for people.
   [[nodiscard]] std::string shown(std::string_view key) const {
-    constexpr std::size_t kLongest = 80;  // a longer one is no name
-    if (item_name_.empty() || item_name_.size() > kLongest) return name(key);
-    return fmt::format("\"{}\": {}", item_name_, name(key));
+    constexpr std::size_t kLongest =
+        80;  // a longer one, or one with control characters, is no name
+    const bool is_name = !item_name_.empty() && item_name_.size() <= kLongest &&
+                         std::none_of(item_name_.begin(), item_name_.end(), [](char c) {
+                           return static_cast<unsigned char>(c) < 0x20U || c == 0x7F;
+                         });
+    return is_name ? fmt::format("\"{}\": {}", item_name_, name(key)) : name(key);
   }
   [[nodiscard]] std::string name(std::string_view key) const {
     return table_name_.empty() ? std::string(key) : fmt::format("{}.{}", table_name_, key);

@@ -174,6 +174,12 @@ constexpr ReportRow kSheetRows[] = {
      "Fläche; Beschriftung: Dicke ± U95, mm",
      "spessore, visto da azimut {0}°, elevazione {1}°; grigio scuro: nessun valore; magenta: "
      "interno della superficie; etichette: spessore ± U95, mm"},
+    {"thickness, seen from azimuth {0}°, elevation {1}°; dark gray: no value; magenta: inside of "
+     "the surface",
+     "Dicke, gesehen aus Azimut {0}°, Höhe {1}°; dunkelgrau: kein Wert; magenta: Innenseite der "
+     "Fläche",
+     "spessore, visto da azimut {0}°, elevazione {1}°; grigio scuro: nessun valore; magenta: "
+     "interno della superficie"},
     {"seen from azimuth {0}°, elevation {1}°",
      "gesehen aus Azimut {0}°, Höhe {1}°",
      "visto da azimut {0}°, elevazione {1}°"},
