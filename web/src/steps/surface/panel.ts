@@ -129,7 +129,6 @@ function building(app: App): TemplateResult | string {
     void app.build({ ...(voxel > 0 ? { voxel_mm: voxel } : {}), watertight: form.has('watertight') });
   };
   return html`<section class="group" id="build-again">
-    <h2>${t('surface.build')}</h2>
     <form class="form-plain" @submit=${build}>
       <label class="field"
         ><span>${t('surface.voxel')}${term('voxel')}</span
