@@ -169,7 +169,7 @@ TEST(Reconstruct, WarnsThatARigMayBeInMetres) {
   const TemporaryFolder folder;
   Scan scan = small_scan(folder.path(), "bust", "digital", 1, {}, 4);
   std::vector<std::string> warnings;
-  Run run;
+  frangia::Run run;
   run.on_warning = [&](const std::string& sentence) { warnings.push_back(sentence); };
   const auto warns = [&] {
     warnings.clear();

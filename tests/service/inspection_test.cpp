@@ -82,7 +82,9 @@ TEST_F(ServiceTest, InspectsByAPlanThatThePageMakesAndTheFolderKeeps) {
   EXPECT_FALSE(kept.contains("reference"));
   bottom["kinds"] = "plane";
   const auto wrong = refusal("set-plan", Json{{"plan", {{"features", {top, bottom}}}}}.dump());
-  EXPECT_NE(wrong.find("the plan: features[1].kinds is unknown here"), std::string::npos) << wrong;
+  EXPECT_NE(wrong.find("the plan: \"bottom\": features[1].kinds is unknown here"),
+            std::string::npos)
+      << wrong;
   EXPECT_EQ(state().at("project").at("plan"), kept) << "a plan that is refused changes nothing";
 
   static_cast<void>(command("inspect", {{"features", true}}));
