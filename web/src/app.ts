@@ -89,9 +89,11 @@ export class FrangiaApp extends App {
     this.projectShown = state.project?.name ?? '';
     this.meshes.forget();
     this.clouds.forget();
-    this.seenFailure = Math.max(0, ...state.jobs.filter((job) => job.state === 'failed').map((job) => job.number));
-    // What could not be opened leaves no project behind, but says why.
-    if (state.project) this.problem = '';
+    // What could not be opened leaves no project behind, but says why, also where both come in one state.
+    if (state.project) {
+      this.seenFailure = Math.max(0, ...state.jobs.filter((job) => job.state === 'failed').map((job) => job.number));
+      this.problem = '';
+    }
     this.arranging.deviceDraft = null;
     this.setups.forget();
     this.measuring.forget();
