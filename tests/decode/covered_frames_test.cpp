@@ -57,6 +57,10 @@ void show_another_view(RenderedFrames& frames, std::size_t frame) {
   }
 }
 
+void show_white(RenderedFrames& frames, std::size_t frame) {
+  std::fill(frames.frames[frame].begin(), frames.frames[frame].end(), 400.0);
+}
+
 using FaultOfFrame = void (*)(RenderedFrames&, std::size_t);
 
 /// Frames of a pattern, and finer ones of the same view that are as described.
@@ -154,6 +158,14 @@ TEST(FramesOfAnotherView, AreLeftOutWithoutAWordAboutOthers) {
     EXPECT_EQ(verdict.action, FrameAction::LeaveOutFrames) << verdict.finding;
     EXPECT_EQ(verdict.left_out, std::vector<std::size_t>{frame}) << verdict.finding;
   }
+}
+
+// Two frames have no phase that other patterns could refute.
+TEST(WhiteFrames, OfThreeAreNamedBesideOtherPatterns) {
+  const TwoPatterns frames({.seed = 49}, 3, show_white, 1);
+  const FrameVerdict verdict = frames.verdict();
+  EXPECT_EQ(verdict.action, FrameAction::LeaveOutView) << verdict.finding;
+  EXPECT_NE(verdict.finding.find("frame 1 is white"), std::string::npos) << verdict.finding;
 }
 
 TEST(BlackFrames, AreNoFramesInTheDarkOfACoarseFringeThatFinerOnesContradict) {

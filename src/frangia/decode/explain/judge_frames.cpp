@@ -238,8 +238,9 @@ FrameVerdict judge_frames(const FrameStack& stack,
   out = judge_by_evidence(stack, noise, options);
   const bool isolated = out.action == FrameAction::LeaveOutFrames ||
                         (out.action == FrameAction::Use && out.explanation.has_fault());
+  constexpr std::size_t kOneMore = 4;  // than three, of which none can be left out to see
   if (!isolated && options.may_leave_out && out.explanation.decided &&
-      blames_frames(out.explanation.best.cause))
+      stack.frames.size() >= kOneMore && blames_frames(out.explanation.best.cause))
     judge_by_references(stack, noise, options, out);
   return out;
 }
