@@ -165,26 +165,6 @@ TEST(Reconstruct, RefusesViewsAtSeveralAnglesWithoutAnAxis) {
   EXPECT_EQ(testing::error_of([&] { static_cast<void>(reconstruct(scan)); }), "");
 }
 
-TEST(Reconstruct, WarnsThatARigMayBeInMetres) {
-  const TemporaryFolder folder;
-  Scan scan = small_scan(folder.path(), "bust", "digital", 1, {}, 4);
-  std::vector<std::string> warnings;
-  frangia::Run run;
-  run.on_warning = [&](const std::string& sentence) { warnings.push_back(sentence); };
-  const auto warns = [&] {
-    warnings.clear();
-    static_cast<void>(reconstruct(scan, {}, run));
-    return std::any_of(warnings.begin(), warnings.end(), [](const std::string& sentence) {
-      return sentence.find("may be metres") != std::string::npos;
-    });
-  };
-  EXPECT_FALSE(warns());
-  constexpr double kMetres = 1e-3;
-  scan.rig.projector.position_mm *= kMetres;
-  scan.rig.turntable->point_mm *= kMetres;
-  EXPECT_TRUE(warns());
-}
-
 TEST(Reconstruct, SaysThatNothingDeterminesTheFringeOrders) {
   const TemporaryFolder folder;
   Scan plan;

@@ -93,7 +93,7 @@ TEST(FeaturePictures, NumberEachFeatureOnceInAsFewPicturesAsShowThem) {
   const auto pictures =
       feature_pictures(mesh, faces_of(mesh), std::vector<std::string>(6, "plane"), drawn);
   ASSERT_EQ(pictures.size(), 3U);
-  EXPECT_EQ(pictures[1].picture.width(), 3);  // labelled anew
+  EXPECT_EQ(pictures[1].picture.width(), 3);  // the picture of before
   EXPECT_EQ(pictures[2].picture.width(), kReportPictureWidth_px);
   EXPECT_LT(pictures[2].elevation_deg, 0.0);  // from below
   std::multiset<std::string> numbers;

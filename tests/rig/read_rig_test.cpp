@@ -162,6 +162,21 @@ TEST(ReadRig, WarnsAboutUnknownKeysByName) {
   EXPECT_NE(warnings[0].find("camera.colour"), std::string::npos);
 }
 
+TEST(ReadRig, WarnsThatLengthsMayBeMetres) {
+  const TemporaryFolder folder;
+  std::vector<std::string> warnings;
+  frangia::Run run;
+  run.on_warning = [&](const std::string& sentence) { warnings.push_back(sentence); };
+  Rig rig = read_rig(save(folder, kRig), run);
+  EXPECT_TRUE(warnings.empty());
+  rig.projector.position_mm *= 1e-3;
+  write_rig(folder.path() / "metres.toml", rig);
+  static_cast<void>(read_rig(folder.path() / "metres.toml", run));
+  ASSERT_EQ(warnings.size(), 1U);
+  EXPECT_NE(warnings[0].find("projector.position_mm"), std::string::npos) << warnings[0];
+  EXPECT_NE(warnings[0].find("may be metres"), std::string::npos) << warnings[0];
+}
+
 TEST(ReadRig, RefusesAKeyThatIsNearlyOneWithADefault) {
   const TemporaryFolder folder;
   const auto path = save(folder, with("white_level", "white_levle"));

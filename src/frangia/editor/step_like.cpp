@@ -42,7 +42,8 @@ EditStep like_normal(const Mesh& mesh, const Mesh::Triangle& t) {
 EditStep like_curvature(const Mesh& mesh, const Mesh::Triangle& t) {
   const double curvature = largest(t, mean_curvature_per_mm(mesh));
   if (std::isnan(curvature)) {
-    throw Error(ErrorKind::Input, "the curvature of a boundary is unknown; pick a place beside it");
+    throw Error(ErrorKind::Input,
+                "the curvature at a boundary is unknown; pick a place inside the surface");
   }
   return {"select-curvature", fmt::format("{:.3g}", kAtLeast * curvature)};
 }

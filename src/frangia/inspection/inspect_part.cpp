@@ -207,7 +207,7 @@ Inspection inspect_part(Mesh mesh,
                         const InspectionPlan& plan,
                         const InspectOptions& options,
                         const Run& run) {
-  // Whoever signs the report reads them there, also where nobody watched the inspection.
+  // The report states them, also where no terminal showed them.
   std::vector<std::string> warnings;
   Run kept = run;
   kept.on_warning = [&](const std::string& sentence) {

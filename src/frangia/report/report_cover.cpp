@@ -21,7 +21,7 @@ std::size_t lines_of(const std::string& text, std::size_t characters) {
   return 1 + (text.empty() ? 0 : (characters_of(text) - 1) / characters);
 }
 
-/// The largest deviation and where it is, beside those of single vertices; empty without a
+/// The largest deviation with its place, and the extremes of single vertices; empty without a
 /// reference, and where nothing was measured.
 std::string largest_deviation(const InspectionReport& report, const ReportWords& words) {
   if (!report.surface || !report.deviation) return {};

@@ -21,8 +21,8 @@ namespace frangia {
                                                          const Run& run = {});
 
 /// Pictures of the part in which each feature has its number, its index plus 1, as few as show
-/// those that can be seen; up to three. `names` are what the labels say behind the numbers. Those
-/// of `drawn` are labelled anew, which costs nothing; one more is drawn for what they hide.
+/// those that can be seen; up to three. `names` are what the labels say behind the numbers.
+/// Pictures of `drawn` are used again with these labels; one more is rendered for what they hide.
 ///
 /// @errors   Error(Cancelled)
 [[nodiscard]] std::vector<ReportPicture> feature_pictures(const Mesh& mesh,

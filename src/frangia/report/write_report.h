@@ -18,7 +18,7 @@ struct ReportSources {
   std::string reference_name;         ///< for people; empty: that of its file
   const Scan* scan = nullptr;         ///< of the mesh; null: not known
   std::string version;                ///< of the software
-  std::vector<std::string> warnings;  ///< besides those of the inspection, such as of reading
+  std::vector<std::string> warnings;  ///< of reading the files; the inspection has its own
   double scale_mm = 0.0;              ///< end of the color scales; 0: chosen
 };
 

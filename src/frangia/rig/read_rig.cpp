@@ -246,6 +246,14 @@ Projector read_projector(TomlReader reader, RigContent content, const Run& run) 
   if (projector.position_mm.norm() == 0.0) {
     reader.fail("position_mm", "is the camera's own centre; triangulation needs a baseline");
   }
+  constexpr double kNearest_mm = 2.0;  // no lenses of camera and projector stand closer
+  if (!projector.is_label && projector.position_mm.norm() < kNearest_mm) {
+    reader.warn("position_mm",
+                fmt::format("is {:.3g} mm from the camera, so that the lengths of this file may be "
+                            "metres; they are read as millimetres",
+                            projector.position_mm.norm()),
+                run);
+  }
   reader.warn_of_unused_keys(run);
   return projector;
 }

@@ -37,6 +37,10 @@ class TomlReader {
   [[noreturn]] void fail(std::string_view key, std::string_view what) const {
     throw Error(ErrorKind::Input, fmt::format("{}: {} {}", file_.string(), shown(key), what));
   }
+  /// Warns with a sentence of the same form.
+  void warn(std::string_view key, std::string_view what, const Run& run) const {
+    run.warn(fmt::format("{}: {} {}", file_.string(), shown(key), what));
+  }
   /// Whether the table contains the key.
   [[nodiscard]] bool has(std::string_view key) const {
     known_.insert(std::string(key));

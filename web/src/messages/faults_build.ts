@@ -2,11 +2,6 @@ import type { Rows } from './rows';
 
 /** Failures and warnings of a build, and refusals of the app. `tools/check_faults.py` explains them. */
 export const FAULTS_BUILD = {
-  'fault.lengthsInMetres': [
-    '{0}: camera and projector of rig.toml are {1} mm apart, so that its lengths may be metres; they are read as millimetres',
-    '{0}: Kamera und Projektor stehen nach rig.toml {1} mm auseinander, so dass die Längen Meter sein können; sie gelten als Millimeter',
-    '{0}: secondo rig.toml camera e proiettore distano {1} mm, quindi le lunghezze potrebbero essere metri; sono lette come millimetri',
-  ],
   'fault.saturatedPixels': [
     '{0} % of the pixels are saturated; expose shorter, close the aperture, or correct white_level in rig.toml',
     '{0} % der Pixel sind gesättigt; kürzer belichten oder die Blende schließen',

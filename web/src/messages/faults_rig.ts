@@ -214,6 +214,11 @@ export const FAULTS_RIG = {
   'fault.table': ['must be a table, [{0}]', 'muss eine Tabelle sein, [{0}]', 'deve essere una tabella, [{0}]'],
   'fault.written': ['must be written as [[{0}]]', 'muss als [[{0}]] geschrieben werden', 'va scritto come [[{0}]]'],
   'fault.unknownHere': ['is unknown here{0}', 'ist hier unbekannt{0}', 'qui è sconosciuta{0}'],
+  'fault.lengthsInMetres': [
+    'is {0} mm from the camera, so that the lengths of this file may be metres; they are read as millimetres',
+    'ist {0} mm von der Kamera entfernt, so dass die Längen dieser Datei Meter sein können; sie gelten als Millimeter',
+    'dista {0} mm dalla camera, quindi le lunghezze di questo file potrebbero essere metri; sono lette come millimetri',
+  ],
   'fault.unknownIgnored': [
     '{0}: {1} is unknown and ignored',
     '{0}: {1} ist unbekannt und wird nicht beachtet',

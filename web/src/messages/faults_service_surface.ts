@@ -173,9 +173,9 @@ export const FAULTS_SERVICE_SURFACE = {
     'la superficie non ha questo triangolo; sceglierne un altro',
   ],
   'fault.curvatureOfBoundary': [
-    'the curvature of a boundary is unknown; pick a place beside it',
-    'die Krümmung eines Rands ist unbekannt; eine Stelle daneben wählen',
-    'la curvatura di un bordo è ignota; scegliere un punto accanto',
+    'the curvature at a boundary is unknown; pick a place inside the surface',
+    'die Krümmung an einem Rand ist unbekannt; eine Stelle innerhalb der Oberfläche wählen',
+    'la curvatura su un bordo è ignota; scegliere un punto interno alla superficie',
   ],
   'fault.surfaceWithoutSigma': [
     'this surface states no sigma; select by something else',

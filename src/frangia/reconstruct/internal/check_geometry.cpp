@@ -47,19 +47,6 @@ void check_parallax(const Scan& scan) {
                           vertical ? "horizontal" : "vertical"));
 }
 
-/// A rig whose lengths are metres passes for one that is a thousand times as small.
-void check_unit(const Scan& scan, const Run& run) {
-  constexpr double kLeast_mm = 2.0;  // no lenses of camera and projector stand closer
-  const double baseline_mm = scan.rig.projector.position_mm.norm();
-  if (scan.rig.projector.is_label || baseline_mm >= kLeast_mm) return;
-  run.warn(
-      fmt::format("{}: camera and projector of rig.toml are {:.3g} mm apart, so that its lengths "
-                  "may be metres; "
-                  "they are read as millimetres",
-                  scan.folder.string(),
-                  baseline_mm));
-}
-
 /// Fringe orders that nothing determines leave distances open, or label no points.
 void check_fringe_orders(const Scan& scan, const DecodePlan& plan, const Run& run) {
   if (is_absolute(plan)) return;
@@ -80,7 +67,6 @@ void check_fringe_orders(const Scan& scan, const DecodePlan& plan, const Run& ru
 void check_geometry(const Scan& scan, const DecodePlan& plan, const Run& run) {
   check_turntable(scan);
   check_parallax(scan);
-  check_unit(scan, run);
   check_fringe_orders(scan, plan, run);
 }
 

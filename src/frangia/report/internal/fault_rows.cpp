@@ -5,11 +5,13 @@
 #include <optional>
 
 #include "frangia/core/error.h"
+#include "frangia/report/internal/text_form.h"
 
 namespace frangia::report {
 namespace {
 
-constexpr std::size_t kMostDepth = 12;  // of sentences in sentences
+constexpr std::size_t kMostDepth = 12;         // of sentences in sentences
+constexpr std::size_t kMostCharacters = 1000;  // of a sentence; a longer one is a user's text
 
 /// Reads a string of TypeScript in single or double quotes; `at` is its first quote, and then
 /// behind it.
@@ -22,21 +24,6 @@ std::string quoted_text(std::string_view source, std::size_t& at) {
   }
   ++at;
   return text;
-}
-
-bool is_place(std::string_view text) {
-  return text.size() >= 3 && text[0] == '{' && text[2] == '}' &&
-         std::isdigit(static_cast<unsigned char>(text[1])) != 0;
-}
-
-std::size_t fixed_of(std::string_view text) {
-  std::size_t fixed = 0;
-  while (!text.empty()) {
-    const bool place = is_place(text);
-    if (!place) ++fixed;
-    text.remove_prefix(place ? 3 : 1);
-  }
-  return fixed;
 }
 
 /// All rows; those with the most characters of their own first, because what begins or ends with a
@@ -56,54 +43,24 @@ const std::vector<FaultRow>& all_rows() {
   return rows;
 }
 
-using PlacedValues = std::array<std::string_view, 10>;
-
-/// Whether a sentence has the form of a row; then its values, each as short as possible.
-bool has_form(std::string_view form, std::string_view sentence, PlacedValues& values) {
-  while (!form.empty() && !is_place(form)) {
-    if (sentence.empty() || sentence.front() != form.front()) return false;
-    form.remove_prefix(1);
-    sentence.remove_prefix(1);
-  }
-  if (form.empty()) return sentence.empty();
-  std::string_view& value = values.at(static_cast<std::size_t>(form[1] - '0'));
-  form.remove_prefix(3);
-  if (form.empty()) {
-    value = sentence;
-    return true;
-  }
-  const std::string_view next = is_place(form) ? std::string_view() : form.substr(0, 1);
-  for (std::size_t end = sentence.find(next);
-       end != std::string_view::npos && end <= sentence.size();
-       end = end < sentence.size() ? sentence.find(next, end + 1) : std::string_view::npos) {
-    value = sentence.substr(0, end);
-    const std::string_view kept = value;
-    if (has_form(form, sentence.substr(end), values)) {
-      value = kept;
-      return true;
-    }
-  }
-  return false;
-}
-
 std::string worded(std::string_view sentence, std::size_t column, std::size_t depth);
 
 std::optional<std::string> by_row(std::string_view sentence,
                                   std::size_t column,
                                   std::size_t depth) {
   for (const FaultRow& row : all_rows()) {
-    PlacedValues values;
+    Values values;
     const std::string_view english = row.text[0];
-    if (row.fixed == 0 || !has_form(english, sentence, values)) continue;
+    if (row.fixed == 0 || !has_form(english, sentence, ValueKind::Any, values)) continue;
     const bool leads_with_name = english.starts_with("{0}: ");  // of a file or a feature: it stays
     std::string text;
     std::string_view form = row.text.at(column);
     while (!form.empty()) {
-      const bool place = is_place(form);
+      const auto place = place_at(form);
       if (place) {
-        const std::string_view value = values.at(static_cast<std::size_t>(form[1] - '0'));
-        text += leads_with_name && form[1] == '0' ? std::string(value)
-                                                  : worded(value, column, depth + 1);
+        const std::string_view value = values.at(place->slot());
+        text += leads_with_name && place->index == 0 ? std::string(value)
+                                                     : worded(value, column, depth + 1);
       } else {
         text += form.front();
       }
@@ -176,7 +133,7 @@ std::vector<FaultRow> parse_fault_rows(std::string_view source) {
 }
 
 std::string worded_fault(std::string_view sentence, std::size_t column) {
-  if (column == 0) return std::string(sentence);
+  if (column == 0 || sentence.size() > kMostCharacters) return std::string(sentence);
   return worded(sentence, column, 0);
 }
 

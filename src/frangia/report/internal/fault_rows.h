@@ -23,7 +23,7 @@ struct FaultRow {
 [[nodiscard]] std::vector<FaultRow> parse_fault_rows(std::string_view source);
 
 /// A sentence of the library in the language of a column, as the app words it; what has no row,
-/// such as a name, stays.
+/// such as a name, stays, and so does a sentence of more than 1000 characters.
 [[nodiscard]] std::string worded_fault(std::string_view sentence, std::size_t column);
 
 }  // namespace frangia::report

@@ -84,8 +84,7 @@ bool fit_exposure(const FrameMoments& moments, FrameHypothesis& hypothesis) {
     if (sign * one <= 0.0) return false;
     gains.push_back(sign / one);
   }
-  std::vector<double> sorted = gains;
-  const double middle = median(sorted);
+  const double middle = median(gains);
   std::size_t structural = 0;
   for (double& gain : gains) {
     gain /= middle;
