@@ -39,11 +39,6 @@ export const FAULTS_DECODE = {
     'das Licht ist von Bild zu Bild anders, {0} bis {1} des mittleren, wie wenn die Kamera ihre Belichtung selbst einstellt',
     "la luce cambia da un fotogramma all'altro, da {0} a {1} di quella mediana, come se la camera regolasse l'esposizione da sola",
   ],
-  'fault.phaseCorrected': [
-    '{0}; the phase is corrected for it; {1}',
-    '{0}; die Phase ist dafür korrigiert; {1}',
-    '{0}; la fase è corretta di conseguenza; {1}',
-  ],
   'fault.switchOffExposure': [
     'switch off automatic exposure and gain of the camera, and capture the frames again',
     'automatische Belichtung und Verstärkung der Kamera ausschalten und die Bilder neu aufnehmen',

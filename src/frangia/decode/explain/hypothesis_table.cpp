@@ -54,7 +54,7 @@ std::vector<Words> words() {
        "the frame is left out"},
       {FrameCause::Exposure,
        "g_k of two frames or more differ by more than 10 %",
-       "corrected with five frames or more, else the view is left out"},
+       "the view is left out"},
       {FrameCause::Lamp,
        "L_k from frame j on, or in frame k alone",
        "the smaller part is left out"},

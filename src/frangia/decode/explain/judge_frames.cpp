@@ -168,11 +168,8 @@ FrameVerdict judge_by_evidence(const FrameStack& stack,
   }
   if (!found.has_fault()) return out;
   out.finding = of_pattern(found);
-  constexpr std::size_t kFramesOfGains = 5;  // fewer do not tell gains from the fringes they change
-  const bool corrected =
-      found.best.cause == FrameCause::Exposure && stack.frames.size() >= kFramesOfGains;
-  const bool stays = found.best.cause == FrameCause::Covered || corrected;
-  out.action = stays ? FrameAction::Use : FrameAction::LeaveOutView;
+  out.action =
+      found.best.cause == FrameCause::Covered ? FrameAction::Use : FrameAction::LeaveOutView;
   constexpr std::size_t kFewSteps = 4;  // show some combinations of the errors of their steps alone
   if (found.explanation.best.size() == 1 &&
       (found.best.cause == FrameCause::Exchanged || found.best.cause == FrameCause::Late ||

@@ -151,9 +151,6 @@ std::optional<SequenceCheck> report_frames(const std::vector<FrameVerdict>& verd
     }
     if (verdict.action == FrameAction::Use && !verdict.remedy_rad.empty())
       run.warn(fmt::format("{}; decoded with the shifts that fit", verdict.finding));
-    if (verdict.action == FrameAction::Use && found.best.cause == FrameCause::Exposure)
-      run.warn(fmt::format(
-          "{}; the phase is corrected for it; {}", verdict.finding, found.explanation.remedy));
     if (verdict.action == FrameAction::Use && found.best.cause == FrameCause::Covered)
       run.warn(fmt::format("{}; the pixels where the frames contradict each other are left out; {}",
                            verdict.finding,
