@@ -57,12 +57,23 @@ Json json_of(const SequenceCheck& check) {
   return json;
 }
 
+/// The causes of the best class, each once.
+std::vector<std::string> causes_of(const FrameExplanation& found) {
+  std::vector<std::string> out{name_of(found.best.cause)};
+  for (const FrameHypothesis& one : found.alike) {
+    const std::string cause = name_of(one.cause);
+    if (std::find(out.begin(), out.end(), cause) == out.end()) out.push_back(cause);
+  }
+  return out;
+}
+
 Json json_of(const FrameVerdict& verdict) {
   const FrameExplanation& found = verdict.explanation;
   const double log_odds = found.explanation.log_odds;
   return {{"pattern", found.pattern},
           {"decided", found.decided},
           {"cause", name_of(found.best.cause)},
+          {"causes", causes_of(found)},
           {"frames", found.best.frames},
           {"best", found.explanation.best},
           {"second", found.explanation.second},

@@ -120,7 +120,8 @@ void bind_maps(py::module_& module) {
       .value("UNCERTAIN_ORDER", PixelStatus::UncertainOrder)
       .value("UNRESOLVED", PixelStatus::Unresolved)
       .value("MIXED_PIXEL", PixelStatus::MixedPixel)
-      .value("OUT_OF_FIELD", PixelStatus::OutOfField);
+      .value("OUT_OF_FIELD", PixelStatus::OutOfField)
+      .value("CONTRADICTING", PixelStatus::Contradicting);
 
   py::class_<NoiseModel>(module, "NoiseModel", "Variance of a pixel: floor + slope * counts.")
       .def(py::init([](double floor, double slope) {

@@ -478,6 +478,7 @@ class PixelStatus:
     UNRESOLVED: ClassVar[PixelStatus]
     MIXED_PIXEL: ClassVar[PixelStatus]
     OUT_OF_FIELD: ClassVar[PixelStatus]
+    CONTRADICTING: ClassVar[PixelStatus]
     __members__: ClassVar[dict[str, PixelStatus]]
     def __init__(self, value: int) -> None: ...
     def __int__(self) -> int: ...

@@ -96,7 +96,7 @@ TEST(CountUnexplained, DiscardsThePixelsThatAreCovered) {
       fringes.unexplained_rad, {}, {map.phase_rad, map.sigma_rad, map.status, map.systematic_rad});
   EXPECT_NEAR(share, 42.0 * 42.0 / (200.0 * 160.0), 0.01);
   EXPECT_TRUE(std::isnan(map.phase_rad(80, 80)));
-  EXPECT_EQ(map.status(80, 80), PixelStatus::Unmodulated);
+  EXPECT_EQ(map.status(80, 80), PixelStatus::Contradicting);
   EXPECT_EQ(map.status(20, 20), PixelStatus::Measured);
   EXPECT_EQ(map.systematic_rad(20, 20), 0.0F);
   const std::string place = place_of_unexplained(fringes.unexplained_rad, 0.1F);

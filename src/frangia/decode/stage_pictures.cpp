@@ -39,7 +39,8 @@ const std::vector<StatusLegend>& status_legend() {
       {PixelStatus::UncertainOrder, {240, 170, 40}, "orange", "fringe order uncertain"},
       {PixelStatus::Unresolved, {70, 130, 220}, "blue", "fringe order unresolved"},
       {PixelStatus::MixedPixel, {240, 220, 90}, "yellow", "mixed pixel at a depth edge"},
-      {PixelStatus::OutOfField, {120, 100, 90}, "brown", "phase outside the projector's field"}};
+      {PixelStatus::OutOfField, {120, 100, 90}, "brown", "phase outside the projector's field"},
+      {PixelStatus::Contradicting, {235, 120, 190}, "pink", "frames contradict each other"}};
   return legend;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -13,7 +14,8 @@ struct Explanation {
   double log_odds = 0.0;  ///< natural logarithm of the odds of the best class to the others
   /// RMS of what the best hypothesis leaves beyond the noise, relative to the signal.
   double unexplained = 0.0;
-  std::string remedy{};  ///< what to do or to declare; empty if nothing
+  std::string remedy{};       ///< what to do or to declare; empty if nothing
+  std::size_t likeliest = 0;  ///< of the scored hypotheses: the most likely one of the best class
 
   /// Whether the best class wins by 100 : 1, so that its cause may be named.
   [[nodiscard]] bool is_decided() const;

@@ -47,7 +47,7 @@ std::vector<HypothesisClass> classes_of(std::span<const ScoredHypothesis> hypoth
 std::vector<std::string> texts_of(const HypothesisClass& alike) {
   std::vector<std::string> texts;
   for (const ScoredHypothesis* one : alike.members)
-    texts.push_back(one->text);
+    if (std::find(texts.begin(), texts.end(), one->text) == texts.end()) texts.push_back(one->text);
   return texts;
 }
 
@@ -96,6 +96,7 @@ Explanation choose(std::span<const ScoredHypothesis> hypotheses) {
   out.best = texts_of(classes.front());
   out.unexplained = classes.front().members.front()->unexplained;
   out.remedy = classes.front().members.front()->remedy;
+  out.likeliest = static_cast<std::size_t>(classes.front().members.front() - hypotheses.data());
   out.log_odds = std::numeric_limits<double>::infinity();
   if (classes.size() == 1) return out;
   out.second = texts_of(classes[1]);

@@ -40,7 +40,7 @@ FRINGE_FAULTS = {
     "exchanged frames": (made.exchanged, ORDER),
     "frames late by one": (made.late, {"late", "repeated"}),
     "all frames in reversed order": (made.reversed_order, ORDER),
-    "torn frame": (made.torn, {"lost"}),
+    "torn frame": (made.torn, {"lost", "covered"}),
     "frame of something else": (made.something_else, {"lost"}),
     "mean of the frames": (made.mean, {"lost"}),
     "no fringes at all": (made.no_fringes, {"unexplained", "no fringes"}),
@@ -229,7 +229,7 @@ def write(folder, case, seed):
 
 def named_causes(answer, warnings):
     """What the program says is wrong, in the words of JSON."""
-    causes = [one["cause"] for one in answer["explanations"] if one["text"]]
+    causes = [cause for one in answer["explanations"] if one["text"] for cause in one["causes"]]
     causes += ["no fringes" for one in answer["explanations"] if "show no fringes with its shifts" in one["text"]]
     causes += [fit["kind"] for check in answer["checks"] if not check["consistent"] for fit in check["fits"]]
     causes += ["unexplained" for check in answer["checks"] if not check["consistent"] and not check["fits"]]

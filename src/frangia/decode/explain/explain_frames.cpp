@@ -116,6 +116,39 @@ double log_prior(const FrameHypothesis& hypothesis, const FrameScore& score, dou
          hypothesis.parameters * price_of_parameter(samples);
 }
 
+/// A frame at another gain lets the light of the room be anything; where a dark room explains the
+/// frames as well, it has fewer unknowns.
+void prefer_dark_room(const FrameSample& sample, FrameHypothesis& hypothesis, FrameScore& score) {
+  FrameHypothesis dark = hypothesis;
+  dark.lamp_on.reset();
+  FrameScore of_dark = score_frames(sample, dark);
+  if (of_dark.log_evidence(1.0) <= score.log_evidence(1.0)) return;
+  hypothesis = std::move(dark);
+  score = std::move(of_dark);
+}
+
+/// Makes one class of the likely movements, of which none wins by itself: that something moved may
+/// be sure where it is open which frames saw it.
+void join_movements(const std::vector<Candidate>& candidates,
+                    double highest,
+                    std::vector<ScoredHypothesis>& scored) {
+  constexpr double kLikely = 4.6;  // log of 100
+  std::vector<std::size_t> likely;
+  bool is_moved = false;
+  for (std::size_t i = 0; i < scored.size(); ++i) {
+    const FrameHypothesis& one = candidates[i].hypothesis;
+    const bool moved = one.cause == FrameCause::Moved;
+    if (scored[i].log_evidence < highest - kLikely || !(moved || displaced_alone(one))) continue;
+    likely.push_back(i);
+    is_moved = is_moved || moved;
+  }
+  if (!is_moved || likely.size() < 2) return;
+  for (const std::size_t i : likely) {
+    scored[i].prediction = likely.front();
+    scored[i].text = "the part or the camera moved while the frames were taken";
+  }
+}
+
 /// Names what a lost frame shows.
 std::string text_of(const FrameHypothesis& hypothesis, const FrameSample& sample, int white_level) {
   std::string text = describe(hypothesis);
@@ -192,6 +225,7 @@ FrameExplanation explain_frames(const FrameStack& stack,
       const bool by_others = one.cause == FrameCause::Exposure && sample.has_reference();
       if (!covers && !by_others && one.cause != FrameCause::Exchanged) continue;
       FrameScore score = score_frames(sample, one);
+      if (one.cause == FrameCause::Gain) prefer_dark_room(sample, one, score);
       one.displacement_px = score.largest_displacement_px;
       candidates.push_back({std::move(one), std::move(score)});
     }
@@ -215,22 +249,25 @@ FrameExplanation explain_frames(const FrameStack& stack,
                       prediction});
   }
   out.explanation = choose(scored);
-  const auto best = std::find_if(scored.begin(), scored.end(), [&](const ScoredHypothesis& one) {
-    return one.text == out.explanation.best.front();
-  });
-  std::size_t winner = static_cast<std::size_t>(best - scored.begin());
+  if (!out.explanation.is_decided()) {
+    join_movements(candidates, scored[out.explanation.likeliest].log_evidence, scored);
+    out.explanation = choose(scored);
+  }
+  std::size_t winner = out.explanation.likeliest;
   if (!out.explanation.is_decided() && candidates.size() > 1) {
     // No cause is named. Without evidence against them the frames count as described.
     constexpr std::size_t kBroad = 1;
-    winner = best->log_evidence - scored.front().log_evidence < std::log(100.0) ? 0 : kBroad;
+    const double gain = scored[winner].log_evidence - scored.front().log_evidence;
+    winner = gain < std::log(100.0) ? 0 : kBroad;
   }
   out.best = candidates[winner].hypothesis;
   const Eigen::VectorXd& errors_rad = candidates[winner].score.step_errors_rad;
   for (Eigen::Index k = 0; k < errors_rad.size(); ++k)  // without their mean, which is a phase
     out.best.shifts_rad[static_cast<std::size_t>(k)] += errors_rad(k) - errors_rad.mean();
+  out.alike.push_back(out.best);
   for (std::size_t i = 0; i < candidates.size(); ++i)
-    if (scored[i].prediction == scored[winner].prediction)
-      out.alike_rad.push_back(candidates[i].hypothesis.shifts_rad);
+    if (i != winner && scored[i].prediction == scored[winner].prediction)
+      out.alike.push_back(candidates[i].hypothesis);
   const FrameScore& score = candidates[winner].score;
   if (!covers && !out.has_fault()) return {.pattern = stack.pattern.name};
   out.are_fringes = score.unexplained < kNoFringes;

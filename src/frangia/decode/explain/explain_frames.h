@@ -19,10 +19,7 @@ struct FrameExplanation {
   bool decided = false;     ///< lit pixels suffice for an explanation
   Explanation explanation;  ///< the classes of hypotheses, and the odds
   FrameHypothesis best;     ///< the most likely hypothesis of the best class
-  /// The shifts of all hypotheses of the best class.
-  ///
-  /// @units    rad
-  std::vector<std::vector<double>> alike_rad;
+  std::vector<FrameHypothesis> alike;  ///< all hypotheses of the best class, as `best` to begin with
   /// Standard uncertainty of the phase by what the best hypothesis leaves unexplained; 0 where that
   /// is within the uncertainty of the noise model.
   ///

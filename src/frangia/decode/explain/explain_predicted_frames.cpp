@@ -312,10 +312,7 @@ FrameExplanation explain_predicted_frames(const PredictedFrames& frames,
   }
   out.decided = true;
   out.explanation = choose(scored);
-  const auto best = std::find_if(scored.begin(), scored.end(), [&](const ScoredHypothesis& one) {
-    return one.text == out.explanation.best.front();
-  });
-  out.best = hypotheses[best->prediction];
+  out.best = hypotheses[scored[out.explanation.likeliest].prediction];
   return out;
 }
 

@@ -60,12 +60,15 @@ std::string clause_of(FrameCause cause, std::size_t frame, const FrameHypothesis
       return frame == 0 ? "the part moved while the frames were taken"
                         : fmt::format("the part moved before frame {}", frame);
     case FrameCause::Steps:
-      return frame == 0
-                 ? "the shifts differ from those of scan.toml, or all that is seen moved in depth"
-                 : fmt::format(
-                       "the shifts from frame {} on differ from those of scan.toml, "
-                       "or all that is seen moved before it",
-                       frame);
+      if (frame == 0)
+        return all.has_free_steps
+                   ? "the shifts differ from those of scan.toml, or all that is seen moved in depth"
+                   : "the steps differ from those of scan.toml by one factor, or all that is seen "
+                     "moved evenly in depth";
+      return fmt::format(
+          "the shifts from frame {} on differ from those of scan.toml, "
+          "or all that is seen moved before it",
+          frame);
     case FrameCause::Start:
       return "the shifts begin elsewhere";
     case FrameCause::Direction:
@@ -184,11 +187,16 @@ std::vector<FrameHypothesis> frame_hypotheses(const Pattern& pattern) {
     add(FrameCause::Steps, 0, 0, 1);
     out.back().has_free_steps = true;
     out.back().frames.clear();
+    std::vector<double> evenly;
+    for (std::size_t k = 0; k < frames; ++k)
+      evenly.push_back(static_cast<double>(k) / static_cast<double>(frames - 1));
+    add(FrameCause::Steps, 0, 0, 1);  // each by the same factor
+    out.back().frames.clear();
+    out.back().path = evenly;
     add(FrameCause::Moved, 0, 0, 1);  // all the time
     out.back().frames.clear();
     out.back().moves_part = true;
-    for (std::size_t k = 0; k < frames; ++k)
-      out.back().path.push_back(static_cast<double>(k) / static_cast<double>(frames - 1));
+    out.back().path = evenly;
     add(FrameCause::Moved, 0, 0, 1);  // all that is seen, anyhow
     out.back().frames.clear();
     for (std::size_t k = 0; k < frames; ++k)
@@ -288,11 +296,22 @@ std::string describe(const FrameHypothesis& hypothesis) {
   return text;
 }
 
+std::optional<std::size_t> displaced_alone(const FrameHypothesis& hypothesis) {
+  if (hypothesis.displaced.size() == 1) return hypothesis.displaced.front();
+  if (hypothesis.cause != FrameCause::Moved || hypothesis.frames.size() != 1) return std::nullopt;
+  const std::size_t last = hypothesis.shifts_rad.size() - 1;
+  if (hypothesis.frames.front() == 1) return 0;
+  if (hypothesis.frames.front() == last) return last;
+  return std::nullopt;
+}
+
 bool is_lit_by_lamp(const FrameHypothesis& hypothesis, std::size_t frame) {
   return hypothesis.lamp_on && frame >= *hypothesis.lamp_on && frame < hypothesis.lamp_off;
 }
 
 bool predict_alike(const FrameHypothesis& a, const FrameHypothesis& b) {
+  const std::optional<std::size_t> alone = displaced_alone(a);
+  if (alone && alone == displaced_alone(b)) return true;
   if (a.in_part != b.in_part || (a.in_part && a.frames != b.frames) || a.displaced != b.displaced)
     return false;
   if (a.free != b.free || a.path != b.path || a.moves_part != b.moves_part ||

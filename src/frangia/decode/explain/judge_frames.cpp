@@ -33,11 +33,14 @@ std::vector<std::size_t> useless_frames(const FrameHypothesis& fault) {
         out.push_back(k);
       return out;
     }
+    case FrameCause::Moved:  // before the last frame; behind the first one, the others see it moved
+      if (displaced_alone(fault) == fault.shifts_rad.size() - 1)
+        return {fault.shifts_rad.size() - 1};
+      return {};
     case FrameCause::AsDescribed:
     case FrameCause::Exchanged:
     case FrameCause::Exposure:
     case FrameCause::Late:
-    case FrameCause::Moved:
     case FrameCause::Steps:
     case FrameCause::Start:
     case FrameCause::Direction:
@@ -45,6 +48,15 @@ std::vector<std::size_t> useless_frames(const FrameHypothesis& fault) {
       return {};
   }
   return fault.frames;
+}
+
+/// The frames that all hypotheses of a class make useless; none where they blame different ones, so
+/// that nothing says which to leave out.
+std::vector<std::size_t> useless_frames(const FrameExplanation& found) {
+  std::vector<std::size_t> out = useless_frames(found.best);
+  for (const FrameHypothesis& one : found.alike)
+    if (useless_frames(one) != out) return {};
+  return out;
 }
 
 /// Whether frames with these shifts determine the phase with at most twice the noise of as many
@@ -66,18 +78,25 @@ bool determine_phase(const std::vector<double>& shifts_rad) {
   return noise <= kMostNoise * std::sqrt(2.0 / static_cast<double>(frames));
 }
 
-/// Whether mean, modulation and phase by these frames are those of other patterns, at nearly all
-/// pixels. Three frames have no other check of themselves.
+/// Whether mean, modulation and phase that these frames have by a hypothesis are those of other
+/// patterns, at nearly all pixels. Three frames have no other check of themselves.
 bool agree_with(std::span<const FrameStack* const> references,
                 const FrameStack& stack,
-                const NoiseModel& noise) {
+                const NoiseModel& noise,
+                const FrameHypothesis& hypothesis) {
   if (references.empty()) return true;
   constexpr double kMost = 0.15;  // of the pixels; depth edges and indirect light are fewer
   const FrameSample sample = sample_blocks(stack, noise, references);
   if (sample.counts.rows() == 0) return true;
-  const FrameScore score = score_frames(sample, frame_hypotheses(stack.pattern).front());
+  const FrameScore score = score_frames(sample, hypothesis);
   if (score.reference_gains.size() == 0) return true;
   return (score.reference_gains < 0.0).cast<double>().mean() < kMost;
+}
+
+bool agree_as_described(std::span<const FrameStack* const> references,
+                        const FrameStack& stack,
+                        const NoiseModel& noise) {
+  return agree_with(references, stack, noise, frame_hypotheses(stack.pattern).front());
 }
 
 std::string of_pattern(const FrameExplanation& found) {
@@ -94,7 +113,7 @@ bool remain_sound(const FrameStack& rest,
   const bool checked = rest.frames.size() > kWithoutResidual || options.has_other_check;
   if (!checked || !determine_phase(rest.pattern.shifts_rad)) return false;
   again = explain_frames(rest, noise, options.references);
-  return is_sound(again) && agree_with(options.references, rest, noise);
+  return is_sound(again) && agree_as_described(options.references, rest, noise);
 }
 
 /// Whether a fault is one of some frames, which others might show instead.
@@ -173,16 +192,16 @@ FrameVerdict judge_by_evidence(const FrameStack& stack,
   constexpr std::size_t kFewSteps = 4;  // show some combinations of the errors of their steps alone
   if (found.explanation.best.size() == 1 &&
       (found.best.cause == FrameCause::Exchanged || found.best.cause == FrameCause::Late ||
-       (found.best.cause == FrameCause::Steps && stack.frames.size() > kFewSteps)) &&
+       (found.best.cause == FrameCause::Steps &&
+        (stack.frames.size() > kFewSteps || !found.best.has_free_steps))) &&
       found.best.faults == 1) {
     FrameStack remedied = stack;
     remedied.pattern.shifts_rad = found.best.shifts_rad;
     if (is_sound(explain_frames(remedied, noise, options.references)))
       out.remedy_rad = found.best.shifts_rad;
   }
-  out.left_out = useless_frames(found.best);
-  // Hypotheses that predict alike but blame other frames do not say which one to leave out.
-  if (out.left_out.empty() || found.explanation.best.size() > 1 || !options.may_leave_out) {
+  out.left_out = useless_frames(found);
+  if (out.left_out.empty() || !options.may_leave_out) {
     out.left_out.clear();
     return out;
   }
@@ -230,11 +249,15 @@ FrameVerdict judge_frames(const FrameStack& stack,
     return out;
   // What the frames that remain predict of the other patterns confirms the cause.
   if (out.action == FrameAction::LeaveOutFrames &&
-      agree_with(options.references, without_frames(stack, out.left_out), noise))
+      agree_as_described(options.references, without_frames(stack, out.left_out), noise))
     return out;
   out = judge_by_evidence(stack, noise, options);
   const bool isolated = out.action == FrameAction::LeaveOutFrames ||
                         (out.action == FrameAction::Use && out.explanation.has_fault());
+  // No frame is left that a lamp has not lit: its own model has to agree with the others.
+  if (out.explanation.has_fault() && out.explanation.best.cause == FrameCause::Lamp &&
+      agree_with(options.references, stack, noise, out.explanation.best))
+    return out;
   constexpr std::size_t kOneMore = 4;  // than three, of which none can be left out to see
   if (!isolated && options.may_leave_out && out.explanation.decided &&
       stack.frames.size() >= kOneMore && blames_frames(out.explanation.best.cause))

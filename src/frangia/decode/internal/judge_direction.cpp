@@ -116,8 +116,10 @@ JudgedFrames judge_direction(const DirectionInput& input) {
   bool changed = false;
   for (FrameVerdict& verdict : judge_patterns(fringes, input, has_other_check, out.noise)) {
     out.unexplained_rad[verdict.explanation.pattern] = verdict.explanation.unexplained_rad;
-    if (is_undecided_order(verdict))
-      out.orders_rad[verdict.explanation.pattern] = verdict.explanation.alike_rad;
+    if (is_undecided_order(verdict)) {
+      for (const FrameHypothesis& one : verdict.explanation.alike)
+        out.orders_rad[verdict.explanation.pattern].push_back(one.shifts_rad);
+    }
     if (!verdict.remedy_rad.empty() && input.options.accept_remedy)
       verdict.action = FrameAction::Use;
     changed = changed || verdict.action == FrameAction::LeaveOutFrames ||

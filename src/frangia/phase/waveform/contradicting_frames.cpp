@@ -26,6 +26,9 @@ constexpr int kSurroundings_px = 10;  ///< reach of the pixels that say whether 
 /// Share of the lit pixels around one that contradict each other where it is within a region of
 /// them. Beyond a straight border it is half of them at most.
 constexpr float kWithin = 0.6F;
+/// Limit of the uncertainty over that of a measured pixel from which on something else must have
+/// been seen: few levels and compression, where the light is low, leave less.
+constexpr float kSomethingElse = 2.0F;
 
 /// What is summed over a window.
 struct WindowSum {
@@ -194,24 +197,27 @@ double count_unexplained(const Image<float>& unexplained_rad,
   }
   const std::span<float> systematic = images.systematic_rad.pixels();
   std::size_t measured = 0;
-  std::size_t discarded = 0;
+  std::size_t contradicting = 0;
   for (std::size_t i = 0; i < phase.size(); ++i) {
     if (std::isnan(phase[i])) continue;
     ++measured;
     if (local[i] <= use.counted_rad) continue;
     if (local[i] > use.max_sigma_rad) {
-      ++discarded;
+      const bool contradicts = local[i] > kSomethingElse * use.max_sigma_rad;
+      if (contradicts) ++contradicting;
       phase[i] = kMissing;
       images.sigma_rad.pixels()[i] = kMissing;
       systematic[i] = kMissing;
-      images.status.pixels()[i] = PixelStatus::Unmodulated;
+      images.status.pixels()[i] =
+          contradicts ? PixelStatus::Contradicting : PixelStatus::Unmodulated;
       continue;
     }
     const double more = std::pow(local[i], 2) - use.counted_rad * use.counted_rad;
     systematic[i] =
         static_cast<float>(std::sqrt(std::pow(systematic[i], 2) + use.weight * use.weight * more));
   }
-  return static_cast<double>(discarded) / static_cast<double>(std::max<std::size_t>(1, measured));
+  return static_cast<double>(contradicting) /
+         static_cast<double>(std::max<std::size_t>(1, measured));
 }
 
 std::string place_of_unexplained(const Image<float>& unexplained_rad, float max_sigma_rad) {
@@ -219,7 +225,7 @@ std::string place_of_unexplained(const Image<float>& unexplained_rad, float max_
   std::vector<int> rows;
   for (int y = 0; y < unexplained_rad.height(); ++y) {
     for (int x = 0; x < unexplained_rad.width(); ++x) {
-      if (!(unexplained_rad(x, y) > max_sigma_rad)) continue;
+      if (!(unexplained_rad(x, y) > kSomethingElse * max_sigma_rad)) continue;
       columns.push_back(x);
       rows.push_back(y);
     }

@@ -42,15 +42,16 @@ struct PhaseImages {
 };
 
 /// Adds the local uncertainty to the systematic part, and discards the pixels where it is too
-/// large; they count as unmodulated. Returns their share of the measured pixels.
+/// large; they count as unmodulated. Beyond twice the limit, which few levels or compression do not
+/// explain, they count as contradicting: returns the share of these of the measured pixels.
 ///
 /// @shape    `unexplained_rad` as unexplained_phase returns it; an empty one changes nothing
 double count_unexplained(const Image<float>& unexplained_rad,
                          const UnexplainedUse& use,
                          const PhaseImages& images);
 
-/// Where most pixels lie whose uncertainty is larger than this, for people: "columns 210 to 330 and
-/// rows 120 to 380".
+/// Where most pixels lie whose uncertainty is larger than twice this, for people: "columns 210 to
+/// 330 and rows 120 to 380".
 ///
 /// @missing  empty without such pixels
 [[nodiscard]] std::string place_of_unexplained(const Image<float>& unexplained_rad,

@@ -17,7 +17,8 @@ enum class PixelStatus : std::uint8_t {
   UncertainOrder,  ///< probability of a wrong fringe order too high
   Unresolved,      ///< fringe order of its region unknown
   MixedPixel,      ///< sees two surfaces at a depth edge
-  OutOfField       ///< no point in front of camera and projector has this phase
+  OutOfField,      ///< no point in front of camera and projector has this phase
+  Contradicting    ///< its frames contradict each other: something else was seen in some of them
 };
 
 /// The phase modulo 2 pi of all pixels.

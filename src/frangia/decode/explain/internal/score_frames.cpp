@@ -32,6 +32,22 @@ constexpr double kModelError = 0.005;
 /// brighter everywhere by less than a quarter of it is no sound one.
 constexpr double kBroad = 0.35;
 
+/// The least squares solution of two unknowns of which none is negative.
+Eigen::Vector2d solve_positive(const Eigen::Matrix2d& normal, const Eigen::Vector2d& right) {
+  const double determinant = normal(0, 0) * normal(1, 1) - normal(0, 1) * normal(1, 0);
+  const double both = normal(1, 1) * right(0) - normal(0, 1) * right(1);
+  const double other = normal(0, 0) * right(1) - normal(1, 0) * right(0);
+  constexpr double kSingular = 1e-9;  // equal modulations do not tell one from the other
+  if (determinant > kSingular * normal(0, 0) * normal(1, 1) && both > 0.0 && other > 0.0)
+    return {both / determinant, other / determinant};
+  const Eigen::Vector2d first(std::max(0.0, right(0) / normal(0, 0)), 0.0);
+  const Eigen::Vector2d second(0.0, std::max(0.0, right(1) / normal(1, 1)));
+  const auto gain = [&](const Eigen::Vector2d& x) {
+    return x.dot(right) - 0.5 * x.dot(normal * x);
+  };
+  return gain(first) > gain(second) ? first : second;
+}
+
 /// The fringes of all pixels as one hypothesis sees them.
 class FrameFit {
  public:
@@ -160,7 +176,7 @@ class FrameFit {
       if (is_lit_by_lamp(hypothesis_, k)) {
         // Alike at all pixels, or as their albedo, and it falls off smoothly. The albedo is that of
         // the fitted fringes: the brightest count holds noise of the residual.
-        const double light = kPriorLamp * (values_(pixel, 0) + b);
+        const double light = kPriorLamp * (values_(pixel, 0) + amplitude);
         effects(i, column) = kPriorLamp * mean_scale_;
         effects(i, column + 1) = light;
         effects(i, column + 2) = light * sample_.x(pixel);
@@ -236,14 +252,14 @@ class FrameFit {
         residual_.row(i) =
             rest_.row(i) - product(rows[static_cast<std::size_t>(i)], found).transpose();
       }
-      relative = excess_over_modulation(relative);
+      relative = excess_over_modulation();
       if (round + 1 == kRounds) break;
       refine_values(found, effects);
       find_rows();
     }
     if (count == 0) {
       for (int round = 0; round < kRounds; ++round)
-        relative = excess_over_modulation(relative);
+        relative = excess_over_modulation();
     }
     out.unexplained = relative;
     out.nuisances = normal;
@@ -272,21 +288,27 @@ class FrameFit {
     out.excess = relative < kModelError ? 0.0 : excess / counted_.sum();
   }
 
-  /// Updates the variance of the residuals by what they show beyond the noise, relative to the
-  /// modulation.
-  double excess_over_modulation(double relative) {
+  /// Updates the variance of the residuals by what they show beyond the noise: counts that the
+  /// noise model lacks, such as those of coarse levels or compression, and a share of the
+  /// modulation. Returns the RMS of both over the modulation.
+  double excess_over_modulation() {
     const auto freedom = static_cast<double>(residual_.cols());
-    double excess = 0.0;
-    double scale = 0.0;
+    Eigen::Matrix2d normal = Eigen::Matrix2d::Zero();
+    Eigen::Vector2d right = Eigen::Vector2d::Zero();
     for (Eigen::Index i = 0; i < pixels_; ++i) {
       const double square = residual_.row(i).squaredNorm() / freedom;
-      excess += counted_(i) * (std::min(square, kLimit * variance_(i)) - sample_.variance(i));
-      scale += counted_(i) * modulation_(i) * modulation_(i);
+      const double beyond = std::min(square, kLimit * variance_(i)) - sample_.variance(i);
+      const Eigen::Vector2d row(1.0, modulation_(i) * modulation_(i));
+      const double weight = counted_(i) / (variance_(i) * variance_(i));
+      normal += weight * row * row.transpose();
+      right += weight * beyond * row;
     }
-    relative = std::sqrt(std::max(0.0, excess / scale));
-    const double counted = std::max(relative, kModelError);
-    variance_ = sample_.variance + counted * counted * modulation_.square();
-    return relative;
+    const Eigen::Vector2d parts = solve_positive(normal, right);
+    const double scale = (counted_ * modulation_.square()).sum() / counted_.sum();
+    const double counts_squared = parts(0);
+    const double relative = std::max(std::sqrt(parts(1)), kModelError);
+    variance_ = sample_.variance + counts_squared + relative * relative * modulation_.square();
+    return std::sqrt(counts_squared / scale + parts(1));
   }
 
   [[nodiscard]] double log_density_of_rest(Eigen::Index i) const {

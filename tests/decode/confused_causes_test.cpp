@@ -1,0 +1,131 @@
+// Causes that resemble each other, by closed formulas: the right one is named, or both.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "frangia/core/angles.h"
+#include "frangia/decode/explain/explain_frames.h"
+#include "frangia/decode/explain/judge_frames.h"
+
+#include "support/rendered_frames.h"
+
+namespace frangia {
+namespace {
+
+using testing::RenderedFrames;
+using testing::RenderedScene;
+
+TEST(ConfusedCauses, AFrameOfFourFifthsOfTheLightIsNoFlicker) {
+  for (const int steps : {5, 6, 8}) {
+    for (const unsigned seed : {1U, 2U, 3U}) {
+      RenderedFrames frames({.ambient = 0.5, .seed = seed}, steps);
+      for (double& light : frames.frames[2])
+        light *= 0.8;
+      const FrameExplanation found = explain_frames(frames.stack(), frames.noise());
+      EXPECT_TRUE(found.has_fault()) << steps << " steps, seed " << seed;
+      EXPECT_EQ(name_of(found.best.cause), name_of(FrameCause::Gain))
+          << steps << " steps, seed " << seed << ": " << describe(found.explanation);
+    }
+  }
+}
+
+/// The frames as a lamp beside the projector lights them from frame 2 on: as the albedo.
+void light_by_lamp(RenderedFrames& frames) {
+  for (std::size_t i = 0; i < frames.frames[0].size(); ++i) {
+    double brightest = 0.0;
+    for (const auto& frame : frames.frames)
+      brightest = std::max(brightest, frame[i]);
+    for (std::size_t k = 2; k < frames.frames.size(); ++k)
+      frames.frames[k][i] += 0.15 * brightest;
+  }
+}
+
+TEST(ConfusedCauses, ALampIsNoUnevenSteps) {
+  // Gains of the frames and errors of their steps together show nearly what a lamp does.
+  for (const int steps : {6, 8}) {
+    for (const unsigned seed : {1U, 2U, 3U}) {
+      RenderedFrames frames({.ambient = 20.0, .light = 150.0, .seed = seed}, steps);
+      light_by_lamp(frames);
+      const FrameExplanation found = explain_frames(frames.stack(), frames.noise());
+      EXPECT_TRUE(found.has_fault()) << steps << " steps, seed " << seed;
+      EXPECT_EQ(name_of(found.best.cause), name_of(FrameCause::Lamp))
+          << steps << " steps, seed " << seed << ": " << describe(found.explanation);
+    }
+  }
+}
+
+TEST(ConfusedCauses, StepsOfFourFramesThatAreTooLongAreNoMovedPart) {
+  RenderedFrames coarse({.period_px = 90.0, .seed = 3}, 4);
+  FrameStack reference = coarse.stack();
+  reference.pattern.name = "coarse";
+  reference.pattern.period_px = 200.0;
+  const std::array<const FrameStack*, 1> references{&reference};
+  for (const double factor : {0.93, 1.05}) {
+    RenderedFrames frames({.seed = 3}, {0.0, 90.0 * factor, 180.0 * factor, 270.0 * factor});
+    FrameStack stack = frames.stack();
+    for (std::size_t k = 0; k < 4; ++k)
+      stack.pattern.shifts_rad[k] = 0.25 * kTwoPi * static_cast<double>(k);
+    const FrameVerdict verdict =
+        judge_frames(stack, frames.noise(), {.has_other_check = true, .references = references});
+    EXPECT_EQ(name_of(verdict.explanation.best.cause), name_of(FrameCause::Steps))
+        << factor << ": " << verdict.finding;
+    ASSERT_EQ(verdict.remedy_rad.size(), 4U) << factor << ": " << verdict.finding;
+    EXPECT_NEAR(deg_from_rad(verdict.remedy_rad[3] - verdict.remedy_rad[0]), 270.0 * factor, 1.5);
+  }
+}
+
+TEST(ConfusedCauses, AnOuterFrameThatIsDisplacedIsAPartThatMovedBesideIt) {
+  for (const int steps : {4, 5, 6}) {
+    for (const bool is_last : {false, true}) {
+      RenderedFrames frames({.seed = 6}, steps);
+      for (std::vector<double>& frame : frames.frames) {  // as a lens blurs it
+        const std::vector<double> sharp = frame;
+        for (std::size_t i = 1; i + 1 < sharp.size(); ++i)
+          frame[i] = 0.25 * sharp[i - 1] + 0.5 * sharp[i] + 0.25 * sharp[i + 1];
+      }
+      std::vector<double>& outer = is_last ? frames.frames.back() : frames.frames.front();
+      std::rotate(outer.begin(), outer.begin() + 1, outer.end());
+      const FrameVerdict verdict =
+          judge_frames(frames.stack(), frames.noise(), {.has_other_check = true});
+      const FrameExplanation& found = verdict.explanation;
+      EXPECT_TRUE(found.has_fault()) << steps << ": " << describe(found.explanation);
+      for (const FrameCause cause : {FrameCause::Displaced, FrameCause::Moved}) {
+        EXPECT_TRUE(std::any_of(found.alike.begin(),
+                                found.alike.end(),
+                                [&](const auto& one) { return one.cause == cause; }))
+            << steps << ": " << describe(found.explanation);
+      }
+      // A part that moved behind the first frame is elsewhere in all others.
+      const std::vector<std::size_t> left_out =
+          is_last ? std::vector<std::size_t>{static_cast<std::size_t>(steps) - 1}
+                  : std::vector<std::size_t>{};
+      EXPECT_EQ(verdict.left_out, left_out) << steps << ": " << verdict.finding;
+    }
+  }
+}
+
+TEST(ConfusedCauses, FramesOfFewLevelsAreNotCovered) {
+  for (const int steps : {4, 6}) {
+    for (const unsigned seed : {1U, 2U, 3U}) {
+      RenderedFrames frames({.shadow = 0.4, .seed = seed}, steps);
+      FrameStack stack = frames.stack();
+      constexpr int kCounts = 8;  // of a level
+      for (Frame& frame : stack.frames)
+        for (std::uint8_t& count : std::get<Image<std::uint8_t>>(frame).pixels())
+          count = static_cast<std::uint8_t>(count / kCounts * kCounts + kCounts / 2);
+      const FrameExplanation found = explain_frames(stack, frames.noise());
+      EXPECT_FALSE(found.has_fault())
+          << steps << " steps, seed " << seed << ": " << describe(found.explanation);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace frangia
