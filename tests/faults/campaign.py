@@ -48,6 +48,16 @@ class Progress:
         if self.path:
             self.path.unlink(missing_ok=True)
 
+    def blocks(self, size):
+        """The same, several trials at a time, which may be tried at once: what is before a block is recorded."""
+        while self.done < self.answer.tried:
+            block = range(self.done, min(self.done + size, self.answer.tried))
+            yield block
+            self.done = block.stop
+            self._save(self.done)
+        if self.path:
+            self.path.unlink(missing_ok=True)
+
     def chance(self, number):
         """Random choices of one trial."""
         return random.Random(f"{self.key.split()[1]} {number}")

@@ -227,11 +227,37 @@ def is_plain(output):
     return not any(ord(c) < 32 and c != "\n" or 127 <= ord(c) < 160 or c in "\u202a\u202b\u202d\u202e" for c in text)
 
 
+def sanitizer_options(reports):
+    """The environment in which a report of a sanitizer is a crash: otherwise it ends with exit code 1, as a refusal does.
+    What is still allocated at the end of a program is no fault. A process that the program starts has no output: each
+    report is a file whose name begins with `reports`."""
+    options = f"abort_on_error=1:detect_leaks=0:log_path={reports}"
+    return {**os.environ, "ASAN_OPTIONS": options, "UBSAN_OPTIONS": f"{options}:print_stacktrace=1"}
+
+
+def is_ours(report):
+    """Whether a report of a sanitizer is about our code; libraries of others may fail in a process of their own."""
+    frames = re.findall(r"#\d+ \S+ in (\S+)", report)
+    callers = [name for name in frames if not name.startswith(("__", "operator")) and "interceptor" not in name]
+    return "runtime error" in report or not callers or "frangia" in callers[0]
+
+
 def fault_of(program, command, folder):
     """What is wrong with a run; None when nothing is."""
+    with tempfile.TemporaryDirectory(prefix="frangia-reports-") as name:
+        what, output = ending_of(program, command, folder, sanitizer_options(pathlib.Path(name) / "report"))
+        reports = [file.read_text(errors="replace") for file in sorted(pathlib.Path(name).iterdir())]
+    if what is None and any(is_ours(report) for report in reports):
+        what = "a sanitizer reports a process that it started"
+    return what, output + "".join(reports).encode()
+
+
+def ending_of(program, command, folder, environment):
+    """What is wrong with how a run ends, and its output."""
     process = subprocess.Popen(
         [program, *command],
         cwd=folder,
+        env=environment,
         stdin=subprocess.DEVNULL,
         stdout=subprocess.PIPE,
         stderr=subprocess.STDOUT,

@@ -2,6 +2,7 @@
 
 With `--asan PROGRAM`, a program built with sanitizers reads the files, without limits of memory.
 """
+import concurrent.futures
 import contextlib
 import os
 import pathlib
@@ -15,9 +16,10 @@ import mutate_inputs
 from campaign import ROOT, Answer
 from mutate_inputs import CALIBRATIONS, SMALL_RIG, Case, mutate, sheet_ply
 
-CAD = ROOT / "tests" / "data" / "cad"
+CAD = ROOT / "tests" / "data" / "cad-samples"  # small and sound: thousands are read, each by a program of its own
 STEP_S = 3  # processor time of a CAD file
 MOST_GROWTH_MB = 256
+BLOCK = 40  # trials between two records of what is done
 KINDS = ["cad", "mat", "json", "project"]
 
 
@@ -170,21 +172,27 @@ def run(campaign):
         cases = commands_cases(folder)
         cases["json"].append(batch_case(program, folder))
         projects = Projects(program, folder, mutate_inputs.SLOWDOWN == 1)
+
+        def fault_of(number):
+            seed = campaign.seed * 1_000_000 + number
+            chance = random.Random(seed)
+            kind = KINDS[number % len(KINDS)]
+            if kind != "project":
+                return reading_fault(program, chance.choice(cases[kind]), seed, campaign.work / "found")
+            file = chance.choice(projects.files)
+            what = projects.fault_of(mutate((projects.sample / file).read_bytes(), chance), file)
+            return what and f"project, {file}, seed {seed}: {what}"
+
+        # One server opens the projects, one after the other, while the verbs read the files.
+        workers = concurrent.futures.ThreadPoolExecutor(os.cpu_count() if campaign.is_long else 1)
         try:
-            for i in progress.rest():
-                seed = campaign.seed * 1_000_000 + i
-                chance = random.Random(seed)
-                kind = KINDS[i % len(KINDS)]
-                if kind == "project":
-                    file = chance.choice(projects.files)
-                    data = mutate((projects.sample / file).read_bytes(), chance)
-                    what = projects.fault_of(data, file)
-                    fault = what and f"project, {file}, seed {seed}: {what}"
-                else:
-                    fault = reading_fault(program, chance.choice(cases[kind]), seed, campaign.work / "found")
-                if fault:
-                    failures.append(fault)
+            for block in progress.blocks(BLOCK):
+                files = [workers.submit(fault_of, i) for i in block if KINDS[i % len(KINDS)] != "project"]
+                found = [fault_of(i) for i in block if KINDS[i % len(KINDS)] == "project"]
+                found += [future.result() for future in files]
+                failures.extend(fault for fault in found if fault)
         finally:
+            workers.shutdown(cancel_futures=True)
             projects.stop()
     answer.measured = f"{answer.tried} mutated inputs, {len(failures)} faults"
     return answer
