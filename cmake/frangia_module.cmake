@@ -95,7 +95,9 @@ target_compile_options(frangia_build_flags INTERFACE
   $<$<CXX_COMPILER_ID:GNU>:--param=ggc-min-expand=200 --param=ggc-min-heapsize=524288>
   -pthread -Winvalid-pch -fno-math-errno -fno-trapping-math -ffp-contract=off
   $<$<BOOL:${FRANGIA_WERROR}>:-Werror>)
-if(FRANGIA_SANITIZE)
+if(FRANGIA_SANITIZE_MODULES)
+  add_link_options(-fsanitize=${FRANGIA_SANITIZE})
+elseif(FRANGIA_SANITIZE)
   add_compile_options(-fsanitize=${FRANGIA_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
   add_link_options(-fsanitize=${FRANGIA_SANITIZE})
   # With the address sanitizer Eigen allocates by functions of its own, and would free what Eigen's code in Debian's
