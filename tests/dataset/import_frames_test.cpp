@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
+#include <sys/stat.h>
 
 #include "frangia/core/angles.h"
 #include "frangia/core/error.h"
@@ -289,6 +290,12 @@ TEST_F(ImportFrames, WritesTheCameraAloneWhereNothingElseIsKnown) {
   EXPECT_EQ(bytes_of(target() / "rig.toml"),
             "format = \"frangia-rig\"\nversion = 1\n\n[camera]\nsize_px = [8, 6]\nwhite_level = "
             "255\n");
+}
+
+TEST_F(ImportFrames, DoesNotWaitForAPipeInThePlaceOfASize) {
+  write_fringes("a");
+  ASSERT_EQ(::mkfifo((images() / "projector_info.txt").c_str(), 0600), 0);
+  expect_complaint("projector_info.txt: is a named pipe");
 }
 
 TEST_F(ImportFrames, RefusesWhatIsIncompleteOrAmbiguous) {

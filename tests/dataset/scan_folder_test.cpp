@@ -13,6 +13,7 @@
 #include "frangia/rig/read_rig.h"
 #include "frangia/rig/write_rig.h"
 
+#include "support/error_of.h"
 #include "support/small_folder.h"
 #include "support/temporary_folder.h"
 
@@ -134,6 +135,18 @@ TEST(ReadScanFault, AFrameThatIsALinkInsideTheScanIsNamed) {
   std::filesystem::remove(path);
   std::filesystem::create_symlink("fringe-1.png", path);
   expect_names(complaint(folder), "fringe-2.png: is a link to fringe-1.png");
+}
+
+TEST(ReadScanFault, ARecordOfTheFramesThatIsALinkIsNamed) {
+  const SmallFolder folder;
+  const TemporaryFolder outside;
+  std::ofstream(outside.path() / "manifest.txt") << "frame views/000/fringe-0.png 00000000\n";
+  std::filesystem::create_directory_symlink(outside.path(), folder.path() / "capture");
+  const auto fault_of = [&](const auto& read) {
+    return testing::error_of([&] { static_cast<void>(read(folder.path())); });
+  };
+  expect_names(fault_of(read_stored_frames), "capture: is a link to " + outside.path().string());
+  expect_names(fault_of(read_began_s), "capture: is a link to " + outside.path().string());
 }
 
 TEST(ReadScanFault, AFileOfTheScanThatIsALinkIsNamed) {

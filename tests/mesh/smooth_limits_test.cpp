@@ -86,13 +86,14 @@ TEST(SmoothLimits, AreNoneWithoutSigmas) {
   EXPECT_EQ(SmoothLimits(mesh, edges, {.max_sigmas = 0.0}).allowed(8, far), far);
 }
 
-TEST(SmoothLimits, RefuseNegativeNumbersAndASelectionOfAnotherMesh) {
+TEST(SmoothLimits, RefuseNegativeAndHugeNumbersAndASelectionOfAnotherMesh) {
   const Mesh mesh = folded_strip();
   const HalfEdges edges(mesh);
   const auto error = [&](const SmoothOptions& options) {
     return testing::error_of([&] { static_cast<void>(SmoothLimits(mesh, edges, options)); });
   };
   EXPECT_NE(error({.iterations = -1}).find("negative"), std::string::npos);
+  EXPECT_NE(error({.iterations = 1'000'000'000}).find("at most 10 000"), std::string::npos);
   EXPECT_NE(error({.max_sigmas = -0.1}).find("negative"), std::string::npos);
   SmoothOptions options;
   options.only.assign(3, 1);

@@ -16,6 +16,7 @@
 
 #include "frangia/core/durable_file.h"
 #include "frangia/core/error.h"
+#include "frangia/core/open_below.h"
 #include "frangia/core/read_file.h"
 #include "frangia/core/text.h"
 
@@ -125,8 +126,10 @@ std::string ask_for_link() {
   std::error_code ignored;
   require(std::filesystem::exists(path, ignored),
           "no server of this user runs; start one with `frangia serve`");
-  const auto json = nlohmann::json::parse(read_text_file(path), nullptr, false);
-  require(json.is_object() && json.contains("port") && json.contains("key"),
+  const auto json =
+      nlohmann::json::parse(read_json_below(path.parent_path(), path.filename()), nullptr, false);
+  require(json.is_object() && json.contains("port") && json["port"].is_number_unsigned() &&
+              json.contains("key") && json["key"].is_string(),
           "the file of the running server is damaged; stop the server and start it again");
   const auto port = json["port"].get<std::uint16_t>();
   const Descriptor socket(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0));
@@ -150,7 +153,7 @@ std::string ask_for_link() {
   const auto link = body == std::string::npos
                         ? nlohmann::json()
                         : nlohmann::json::parse(answer.substr(body + 4), nullptr, false);
-  if (!link.is_object() || !link.contains("url"))
+  if (!link.is_object() || !link.contains("url") || !link["url"].is_string())
     throw Error(ErrorKind::Device, "the server does not answer; stop it and start it again");
   return link["url"].get<std::string>();
 }

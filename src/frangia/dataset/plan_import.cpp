@@ -1,13 +1,14 @@
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <map>
+#include <sstream>
 #include <utility>
 #include <variant>
 
 #include <fmt/format.h>
 
 #include "frangia/core/error.h"
+#include "frangia/core/read_file.h"
 #include "frangia/dataset/import_frames.h"
 #include "frangia/dataset/internal/import_images.h"
 #include "frangia/dataset/internal/import_patterns.h"
@@ -23,9 +24,12 @@ namespace fs = std::filesystem;
 
 /// The size that scan3d-capture writes into the folder of its images.
 std::optional<ProjectorSize> size_beside(const fs::path& folder) {
-  std::ifstream file(folder / "projector_info.txt");
+  constexpr std::uint64_t kMostBytes = 1000;
+  const fs::path file = folder / "projector_info.txt";
+  if (!fs::exists(file)) return std::nullopt;
+  std::istringstream text(read_text_file(file, kMostBytes));
   ProjectorSize size{};
-  if (!(file >> size[0] >> size[1]) || size[0] < 1 || size[1] < 1 || size[0] > 65535 ||
+  if (!(text >> size[0] >> size[1]) || size[0] < 1 || size[1] < 1 || size[0] > 65535 ||
       size[1] > 65535)
     return std::nullopt;
   return size;

@@ -301,15 +301,19 @@ bool take_checksum(std::string_view& line) {
   return crc32(std::span(line.data(), line.size())) == stated;
 }
 
-constexpr std::uint64_t kMostBytes = 200'000'000;  // a line has about 80
+/// The manifest of a captured scan; empty without one.
+std::string manifest_of(const std::filesystem::path& scan) {
+  constexpr std::uint64_t kMostBytes = 200'000'000;  // a line has about 80
+  const auto inner = std::filesystem::path("capture") / kManifestName;
+  if (!std::filesystem::exists(path_below(scan, inner))) return {};
+  return read_below(scan, inner, kMostBytes);
+}
 
 }  // namespace
 
 double read_began_s(const std::filesystem::path& scan) {
-  const auto file = scan / "capture" / kManifestName;
-  if (!std::filesystem::exists(file)) return kMissing;
   constexpr std::string_view kBegan = "began ";
-  std::istringstream lines(read_text_file(file, kMostBytes));
+  std::istringstream lines(manifest_of(scan));
   for (std::string line; std::getline(lines, line);) {
     std::string_view text = line;
     if (text.starts_with(kBegan) && take_checksum(text))
@@ -319,11 +323,9 @@ double read_began_s(const std::filesystem::path& scan) {
 }
 
 std::map<std::string, StoredFrame> read_stored_frames(const std::filesystem::path& scan) {
-  const auto file = scan / "capture" / kManifestName;
   std::map<std::string, StoredFrame> frames;
-  if (!std::filesystem::exists(file)) return frames;
   constexpr std::string_view kAt = "at=";
-  std::istringstream lines(read_text_file(file, kMostBytes));
+  std::istringstream lines(manifest_of(scan));
   for (std::string line; std::getline(lines, line);) {
     std::string_view text = line;
     if (!text.starts_with("frame ") || !take_checksum(text)) continue;

@@ -6,6 +6,10 @@
 
 namespace frangia {
 
+/// More iterations are a slip of the hand: they take hours, and a command of the app all the
+/// others.
+inline constexpr int kMostSmoothIterations = 10'000;
+
 /// Strength and limits of smoothing.
 struct SmoothOptions {
   int iterations = 10;  ///< number of smoothing passes; more passes smooth more
@@ -22,7 +26,8 @@ struct SmoothOptions {
 /// Boundary vertices do not move. Vertices that move beyond their sigma are marked as displaced.
 ///
 /// @missing  a mesh without sigma has no limit; a vertex whose sigma is NaN does not move
-/// @errors   Error(Input) for a negative option, or when `only` is not one flag per triangle;
+/// @errors   Error(Input) for a negative option, for more than kMostSmoothIterations, or when
+/// `only` is not one flag per triangle;
 ///          Error(Cancelled)
 /// @source   Taubin 1995, A Signal Processing Approach to Fair Surface Design
 [[nodiscard]] Mesh smooth_taubin(Mesh mesh, const SmoothOptions& options = {}, const Run& run = {});

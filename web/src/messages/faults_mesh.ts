@@ -203,6 +203,11 @@ export const FAULTS_MESH = {
     'dieses Programm kann nicht neu vernetzen (FRANGIA_CGAL)',
     'questo programma non può rigenerare la mesh (FRANGIA_CGAL)',
   ],
+  'fault.smoothingTakesMost': [
+    'smoothing takes at most 10 000 iterations; choose fewer',
+    'geglättet wird in höchstens 10 000 Durchgängen; weniger wählen',
+    'si leviga in al massimo 10 000 iterazioni; sceglierne meno',
+  ],
   'fault.someTrianglesStill': [
     'some triangles still intersect; select them with `select_self_intersections`, delete them and fill the holes',
     'einige Dreiecke schneiden sich noch; sie auswählen, löschen und die Löcher füllen',

@@ -52,6 +52,8 @@ SmoothLimits::SmoothLimits(const Mesh& mesh, const HalfEdges& edges, const Smoot
     : initial_mm_(mesh.vertices_mm), movable_(mesh.vertices_mm.size(), 1) {
   require(options.iterations >= 0 && options.max_sigmas >= 0.0,
           "the iterations and sigmas of smoothing must not be negative");
+  require(options.iterations <= kMostSmoothIterations,
+          "smoothing takes at most 10 000 iterations; choose fewer");
   if (!options.only.empty()) {
     require(options.only.size() == mesh.triangles.size(),
             "smoothing needs one selection flag per triangle");
