@@ -8,13 +8,14 @@ import importlib
 import os
 import pathlib
 import shutil
+import subprocess
 import sys
 import tempfile
 import time
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 
-from campaign import Campaign  # noqa: E402
+from campaign import ROOT, Campaign  # noqa: E402
 
 STUDIES = [
     "kills",
@@ -34,16 +35,31 @@ STUDIES = [
 BEGIN, END = "<!-- begin table: written by `./run faults` -->", "<!-- end table -->"
 
 
-def write_row(page, answer):
+def revision():
+    """What was tried: the revision, and whether the sources are its own."""
+
+    def said_by_git(*words):
+        return subprocess.run(["git", *words], cwd=ROOT, capture_output=True, text=True).stdout.strip()
+
+    changed = said_by_git("status", "--porcelain", "--", "src", "apps")
+    return said_by_git("rev-parse", "--short=8", "HEAD") + (" and changes" if changed else "")
+
+
+def write_row(page, answer, tried_at):
     text = page.read_text()
     rows = {
         line.split("`")[1]: line for line in text.split(BEGIN)[1].split(END)[0].splitlines() if line.startswith("| `")
     }
-    rows[
-        answer.name
-    ] = f"| `{answer.name}` | {answer.title} | {answer.tried} | {len(answer.failures)} | {answer.measured} |"
+    cells = [f"`{answer.name}`", answer.title, answer.tried, len(answer.failures), answer.measured, tried_at]
+    rows[answer.name] = f"| {' | '.join(str(cell) for cell in cells)} |"
     ordered = [rows[name] for name in STUDIES if name in rows]
-    table = ["", "| study | what was done | tried | failed | measured |", "|---|---|---|---|---|", *ordered, ""]
+    table = [
+        "",
+        "| study | what was done | tried | failed | measured | revision |",
+        "|---|---|---|---|---|---|",
+        *ordered,
+        "",
+    ]
     temporary = page.with_suffix(".tmp")
     temporary.write_text(text.split(BEGIN)[0] + BEGIN + "\n".join(table) + "\n" + END + text.split(END)[1])
     os.replace(temporary, page)
@@ -63,7 +79,7 @@ def main():
     for name in chosen.names:
         if name not in STUDIES:
             sys.exit(f"faults: there is no study '{name}'; the studies are {', '.join(STUDIES)}")
-    failed = 0
+    failed, tried_at = 0, revision()
     for name in chosen.names or STUDIES:
         work = tempfile.mkdtemp(prefix="frangia-faults-")
         begin = time.monotonic()
@@ -78,7 +94,7 @@ def main():
             print(f"  {failure}", flush=True)
         failed += len(answer.failures)
         if chosen.page:
-            write_row(chosen.page, answer)
+            write_row(chosen.page, answer, tried_at)
         if answer.failures:
             print(f"  the files of the failed runs are in {work}", flush=True)
         else:
