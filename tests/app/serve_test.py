@@ -242,6 +242,24 @@ class Serve(ServerTest):
         ).stdout.strip()
         self.assertEqual(self.server.ask("POST", "/api/session", {"token": link.split("#token=")[1]}, key=None)[0], 200)
 
+    def test_damaged_runtime_file_is_named(self):
+        with tempfile.TemporaryDirectory() as name:
+            for text in (
+                '{"port": "x", "key": "y"}',
+                '{"port": 1, "key": 2}',
+                '{"port": -1, "key": "y"}',
+                "[" * 200000,
+            ):
+                (pathlib.Path(name) / "frangia-serve.json").write_text(text)
+                found = subprocess.run(
+                    [PROGRAM, "serve", "--new-link"],
+                    env={**self.server.environment, "XDG_RUNTIME_DIR": name},
+                    capture_output=True,
+                    text=True,
+                )
+                self.assertEqual(found.returncode, 3, text[:40])
+                self.assertTrue("is damaged" in found.stderr or "nested" in found.stderr, found.stderr)
+
     def test_one_browser_operates_and_others_take_over(self):
         link = json.loads(self.server.ask("POST", "/api/links", {})[2])["url"]
         session = json.loads(self.server.ask("POST", "/api/session", {"token": link.split("#token=")[1]}, key=None)[2])
