@@ -33,6 +33,17 @@ class VersionsOfASurface : public ServiceTest {
     static_cast<void>(command("open-project", {{"name", "box"}}));
     static_cast<void>(finish());
   }
+  /// The same, stopped before the surface is read.
+  void open_and_stop() {
+    at_changes([this] {
+      for (const Json seen = state(); const Json& job : seen.at("jobs"))
+        if (job.at("state") == "running")
+          static_cast<void>(service_->command("stop-job", Json{{"job", job.at("number")}}.dump()));
+    });
+    static_cast<void>(command("open-project", {{"name", "box"}}));
+    EXPECT_EQ(finish().at("state"), "stopped");
+    at_changes({});
+  }
   Json run(const std::string& name, const Json& arguments = Json::object()) {
     static_cast<void>(command(name, arguments));
     return finish();
@@ -179,14 +190,7 @@ TEST_F(VersionsOfASurface, AreThereAfterTheirReadingWasStopped) {
   ASSERT_EQ(run("edit", {{"operation", "keep-largest"}, {"value", "1"}}).at("state"), "done");
   const std::string mesh = service_->mesh();
   restart();
-  at_changes([this] {
-    for (const Json seen = state(); const Json& job : seen.at("jobs"))
-      if (job.at("state") == "running")
-        static_cast<void>(service_->command("stop-job", Json{{"job", job.at("number")}}.dump()));
-  });
-  static_cast<void>(command("open-project", {{"name", "box"}}));
-  EXPECT_EQ(finish().at("state"), "stopped");
-  at_changes({});
+  open_and_stop();
   EXPECT_FALSE(now().at("surface_loading").get<bool>());
   EXPECT_TRUE(now().at("surface").is_null());
   ASSERT_EQ(now().at("versions").size(), 1U) << "there is one all the same";
@@ -196,6 +200,18 @@ TEST_F(VersionsOfASurface, AreThereAfterTheirReadingWasStopped) {
   EXPECT_EQ(run("redo").at("state"), "done");
   EXPECT_EQ(service_->mesh().size(), mesh.size());
   EXPECT_EQ(now().at("surface").at("steps").size(), 1U);
+}
+
+TEST_F(VersionsOfASurface, AreThoseOfTheDiskWhenTheirProjectIsOpenedAgain) {
+  open_box();
+  ASSERT_EQ(run("edit", {{"operation", "keep-largest"}, {"value", "1"}}).at("state"), "done");
+  static_cast<void>(command("close-project"));
+  std::filesystem::remove(project() / "versions.json");  // somebody restores an older state
+  open_and_stop();
+  EXPECT_TRUE(now().at("surface").is_null());
+  EXPECT_EQ(run("open-version", {{"version", 1}}).at("state"), "done");
+  ASSERT_FALSE(now().at("surface").is_null());
+  EXPECT_EQ(now().at("surface").at("steps").size(), 0U);
 }
 
 TEST_F(VersionsOfASurface, TakeACommandOnceHoweverOftenItArrives) {

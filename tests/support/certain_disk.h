@@ -39,11 +39,11 @@ class CertainDisk {
     }
     names_[node_of(path)] = names_in(path);
   }
-  /// A new file or folder may have the number of one that was removed.
+  /// A new file or folder may have the number of one that was removed here, and that the disk holds
+  /// as long as a name of it is certain.
   void create(const std::filesystem::path& path) {
     const std::lock_guard lock(mutex_);
-    bytes_.erase(node_of(path));
-    names_.erase(node_of(path));
+    ++lives_[number_of(path)];
   }
   /// Writes what is certain. With `all_names`, changes of names have arrived as well, as they may.
   void write_to(const std::filesystem::path& folder, bool all_names) {
@@ -53,23 +53,30 @@ class CertainDisk {
   }
 
  private:
+  /// A file or folder: its number, and how many had that before.
+  using Node = std::pair<::ino_t, int>;
   struct Name {
-    ::ino_t node = 0;
+    Node node;
     bool folder = false;
   };
   using Names = std::map<std::string, Name>;
 
-  static ::ino_t node_of(const std::filesystem::path& path) {
+  static ::ino_t number_of(const std::filesystem::path& path) {
     struct ::stat state {};
     return ::lstat(path.c_str(), &state) == 0 ? state.st_ino : 0;
   }
-  static Names names_in(const std::filesystem::path& folder) {
+  [[nodiscard]] Node node_of(const std::filesystem::path& path) const {
+    const ::ino_t number = number_of(path);
+    const auto known = lives_.find(number);
+    return {number, known == lives_.end() ? 0 : known->second};
+  }
+  [[nodiscard]] Names names_in(const std::filesystem::path& folder) const {
     Names names;
     for (const auto& entry : std::filesystem::directory_iterator(folder))
       names[entry.path().filename().string()] = {node_of(entry.path()), entry.is_directory()};
     return names;
   }
-  void write(::ino_t node,
+  void write(const Node& node,
              const std::filesystem::path& present,
              const std::filesystem::path& target,
              bool all_names) const {
@@ -94,8 +101,9 @@ class CertainDisk {
   std::filesystem::path root_;
   std::string without_;
   std::mutex mutex_;
-  std::map<::ino_t, std::string> bytes_;
-  std::map<::ino_t, Names> names_;
+  std::map<::ino_t, int> lives_;
+  std::map<Node, std::string> bytes_;
+  std::map<Node, Names> names_;
 };
 
 }  // namespace frangia::testing

@@ -172,8 +172,9 @@ class Service::Implementation {
   /// The current version, read from disk unless it is in memory. `otherwise` is the error without
   /// one.
   const SurfaceModel& model_of(const ProjectFolder& project, const char* otherwise, const Run& run);
-  /// Drops the model of another project.
-  void use(const ProjectFolder& project);
+  /// Drops the model unless it was read since the present project was opened: the files of one that
+  /// was closed may have changed.
+  void use_opened();
   /// A change of the surface from its beginning to its end.
   void change_surface(const ProjectFolder& project,
                       const CommandKey& key,
@@ -226,8 +227,9 @@ class Service::Implementation {
   std::vector<std::string> discarded_;
   std::shared_ptr<const DeviceSearch> search_;
   std::optional<OpenProject> project_;
+  int openings_ = 0;
   // The following are of the queue's thread.
-  std::filesystem::path model_folder_;   ///< whose model it is, see ProjectFolder::derived
+  int model_opening_ = 0;                ///< whose model it is, see OpenProject::opening
   std::unique_ptr<SurfaceModel> model_;  ///< null until it is read
   int shown_ = 0;                        ///< previews and comparisons so far
   JobQueue queue_;                       ///< last: its thread uses everything else

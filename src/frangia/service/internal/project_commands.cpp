@@ -166,12 +166,12 @@ void Service::Implementation::open(const ProjectFolder& folder) {
   read_rig_of(folder, project);
   {
     const std::lock_guard lock(mutex_);
+    project.opening = ++openings_;
     project_ = std::move(project);
   }
   on_change_();
   const int job = queue_.start("open", [this, folder, loads, writable](const Run& run) {
-    use(folder);
-    model_.reset();
+    use_opened();
     if (!loads) return;
     static_cast<void>(model_of(folder, "there is no surface", run));
     refine(run);

@@ -61,6 +61,7 @@ struct ProjectReference {
 /// The open project as the service knows it.
 struct OpenProject {
   ProjectFolder folder;
+  int opening = 0;                   ///< how many projects were opened until this one was
   std::shared_ptr<FolderLock> lock;  ///< against other programs; null where nobody may write
   bool can_scan = false;             ///< its rig names devices
   bool scan_complete = false;        ///< scan.toml exists

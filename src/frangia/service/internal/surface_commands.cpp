@@ -116,16 +116,21 @@ std::shared_ptr<const SurfaceVersions> Service::Implementation::versions_of(
   return read;
 }
 
-void Service::Implementation::use(const ProjectFolder& project) {
-  if (model_folder_ == project.derived) return;
+void Service::Implementation::use_opened() {
+  int opening = 0;
+  {
+    const std::lock_guard lock(mutex_);
+    if (project_) opening = project_->opening;
+  }
+  if (model_opening_ == opening) return;
   model_.reset();
-  model_folder_ = project.derived;
+  model_opening_ = opening;
 }
 
 const SurfaceModel& Service::Implementation::model_of(const ProjectFolder& project,
                                                       const char* otherwise,
                                                       const Run& run) {
-  use(project);
+  use_opened();
   const auto versions = versions_of(project);
   const SurfaceVersion* current = versions->find(versions->current);
   require(current != nullptr, otherwise);
@@ -174,7 +179,7 @@ void Service::Implementation::open_version(const ProjectFolder& project,
                                            const CommandKey& key,
                                            int number,
                                            const Run& run) {
-  use(project);
+  use_opened();
   SurfaceVersions versions = *versions_of(project);
   const SurfaceVersion* version = versions.find(number);
   require(version != nullptr, "version: there is no surface of this number");
@@ -223,7 +228,7 @@ void Service::Implementation::add_version(
     const CommandKey& key,
     const std::function<void(const std::filesystem::path&)>& write,
     const Run& run) {
-  use(project);
+  use_opened();
   SurfaceVersions versions = *versions_of(project);
   if (versions.find(key) != nullptr) return;
   Uncommitted fresh(new_version_folder(project));
