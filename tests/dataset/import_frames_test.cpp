@@ -295,7 +295,7 @@ TEST_F(ImportFrames, WritesTheCameraAloneWhereNothingElseIsKnown) {
 TEST_F(ImportFrames, DoesNotWaitForAPipeInThePlaceOfASize) {
   write_fringes("a");
   ASSERT_EQ(::mkfifo((images() / "projector_info.txt").c_str(), 0600), 0);
-  expect_complaint("projector_info.txt: is a named pipe");
+  expect_complaint("projector_info.txt: this is not a regular file");
 }
 
 TEST_F(ImportFrames, RefusesWhatIsIncompleteOrAmbiguous) {
