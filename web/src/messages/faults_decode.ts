@@ -120,6 +120,11 @@ export const FAULTS_DECODE = {
     'das Teil bewegte sich, während die Bilder aufgenommen wurden',
     'il pezzo si è mosso durante la ripresa dei fotogrammi',
   ],
+  'fault.partOrCameraMoved': [
+    'the part or the camera moved while the frames were taken',
+    'das Teil oder die Kamera bewegte sich, während die Bilder aufgenommen wurden',
+    'il pezzo o la camera si è mosso durante la ripresa dei fotogrammi',
+  ],
   'fault.partMovedBefore': [
     'the part moved before frame {0}',
     'das Teil bewegte sich vor Bild {0}',
@@ -129,6 +134,11 @@ export const FAULTS_DECODE = {
     'the shifts differ from those of scan.toml, or all that is seen moved in depth',
     'die Verschiebungen sind andere als in scan.toml, oder alles Sichtbare bewegte sich in der Tiefe',
     'gli sfasamenti non sono quelli di scan.toml, o tutto ciò che si vede si è mosso in profondità',
+  ],
+  'fault.stepsDifferFactor': [
+    'the steps differ from those of scan.toml by one factor, or all that is seen moved evenly in depth',
+    'die Schritte weichen um einen Faktor von denen in scan.toml ab, oder alles Sichtbare bewegte sich gleichmäßig in der Tiefe',
+    'i passi differiscono da quelli di scan.toml per un fattore, o tutto ciò che si vede si è mosso in modo uniforme in profondità',
   ],
   'fault.shiftsFrameDiffer': [
     'the shifts from frame {0} on differ from those of scan.toml, or all that is seen moved before it',

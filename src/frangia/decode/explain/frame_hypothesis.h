@@ -78,8 +78,8 @@ struct FrameHypothesis {
 /// Whether a frame has the light of another lamp.
 [[nodiscard]] bool is_lit_by_lamp(const FrameHypothesis& hypothesis, std::size_t frame);
 
-/// The only frame that shows what is seen elsewhere than the others do: it is displaced, or the part
-/// moved behind the first frame or before the last.
+/// The only frame that shows what is seen elsewhere than the others do: it is displaced, or the
+/// part moved behind the first frame or before the last.
 [[nodiscard]] std::optional<std::size_t> displaced_alone(const FrameHypothesis& hypothesis);
 
 /// Whether two hypotheses predict the same frames for any phases, so that no frames tell them
