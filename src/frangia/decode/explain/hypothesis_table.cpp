@@ -62,7 +62,7 @@ std::vector<Words> words() {
        "frames from j on, or all, are displaced: image, and phase from place to place",
        "the view is left out"},
       {FrameCause::Steps,
-       "delta_k + an error of each frame, or of those from j on",
+       "delta_k + an error of each frame, of those from j on, or of all by one factor",
        "`accept_remedy` decodes with these shifts"},
       {FrameCause::Late, "frames from j on show delta_(k-1)", "`accept_remedy` likewise"},
       {FrameCause::Exchanged, "delta_i and delta_k exchanged", "`accept_remedy` likewise"},
