@@ -12,7 +12,7 @@ namespace {
 
 TEST(StatusLegend, HasARowForEachStatusInTheirOrderWithAColorOfItsOwn) {
   const auto& legend = status_legend();
-  ASSERT_EQ(legend.size(), static_cast<std::size_t>(PixelStatus::OutOfField) + 1);
+  ASSERT_EQ(legend.size(), static_cast<std::size_t>(PixelStatus::Contradicting) + 1);
   for (std::size_t i = 0; i < legend.size(); ++i) {
     EXPECT_EQ(legend[i].status, static_cast<PixelStatus>(i));
     for (std::size_t j = 0; j < i; ++j)
