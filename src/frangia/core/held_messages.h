@@ -19,6 +19,19 @@ class HeldMessages {
     held.on_note = [this](const std::string& text) { texts_.emplace_back(false, text); };
     return held;
   }
+  /// Makes an attempt, a function of a run, with its messages held back. Where it throws, they are
+  /// given to `run`, since they may say why.
+  ///
+  /// @errors   those of the attempt
+  template <typename Attempt>
+  decltype(auto) during(const Run& run, const Attempt& attempt) {
+    try {
+      return attempt(in_place_of(run));
+    } catch (...) {
+      pass_on(run);
+      throw;
+    }
+  }
   /// Gives them to `run`, in their order.
   void pass_on(const Run& run) const {
     for (const auto& [is_warning, text] : texts_)

@@ -316,17 +316,18 @@ Reconstruction reconstruct_by(ScanAngles angles,
   EarlyIndirectLight indirect_light{.found = false};
   std::size_t unresolved = 0;
   HeldMessages held;
-  const Run attempt = held.in_place_of(run);
-  for (MeasuredSetup& setup : setups) {
-    unresolved += resolve_fringe_orders(setup.measured, scan.rig, rays, correction, attempt);
-    const EarlyIndirectLight early =
-        register_setup(setup, lit, can, options, targets, out.turntable_top_height_mm, attempt);
-    indirect_light.found = indirect_light.found || early.found;
-    indirect_light.corrected = indirect_light.corrected || early.corrected;
-    indirect_light.corrects = indirect_light.corrects && early.corrects;
-    out.points += setup.measured.points;
-    add_outliers(outliers, setup);
-  }
+  held.during(run, [&](const Run& attempt) {
+    for (MeasuredSetup& setup : setups) {
+      unresolved += resolve_fringe_orders(setup.measured, scan.rig, rays, correction, attempt);
+      const EarlyIndirectLight early =
+          register_setup(setup, lit, can, options, targets, out.turntable_top_height_mm, attempt);
+      indirect_light.found = indirect_light.found || early.found;
+      indirect_light.corrected = indirect_light.corrected || early.corrected;
+      indirect_light.corrects = indirect_light.corrects && early.corrects;
+      out.points += setup.measured.points;
+      add_outliers(outliers, setup);
+    }
+  });
   if (angles == ScanAngles::Stated) {
     std::optional<ScanWithAngles> found = with_found_angles(scan, setups);
     if (!found && may_hide_angles(setups))

@@ -321,7 +321,9 @@ RegistrationReport register_views(ViewStore& views,
   std::vector<std::size_t> outliers;
   for (;;) {
     HeldMessages held;
-    Attempt found = register_once(views, camera, used, options, held.in_place_of(run));
+    Attempt found = held.during(run, [&](const Run& attempt) {
+      return register_once(views, camera, used, options, attempt);
+    });
     const auto& own = found.report.outliers;
     outliers.insert(outliers.end(), own.begin(), own.end());
     if (!found.at_fault || 4 * (outliers.size() + 1) > views.size()) {
