@@ -1,8 +1,5 @@
 # Compiles the modules of FRANGIA_SANITIZE_MODULES and their tests with sanitizers, and everything else as the release
 # preset does, whose objects a compiler cache has. `apps` is the program.
-#
-# The checks that are left out concern accesses that the address sanitizer reports, or that x86 allows; they take a
-# quarter of the time of the compiler.
 foreach(module IN LISTS FRANGIA_SANITIZE_MODULES)
   set(targets frangia_${module} frangia_${module}_cgal frangia_${module}_occt frangia_${module}_module test_${module})
   if(module STREQUAL apps)
@@ -11,7 +8,7 @@ foreach(module IN LISTS FRANGIA_SANITIZE_MODULES)
   foreach(target IN LISTS targets)
     if(TARGET ${target} AND NOT target STREQUAL frangia_core)  # others use its precompiled header
       target_compile_options(${target} PRIVATE -g1 -O1 -UNDEBUG -fsanitize=${FRANGIA_SANITIZE} -fno-sanitize-recover=all
-        -fno-sanitize=null,alignment,object-size -fno-omit-frame-pointer -Wno-maybe-uninitialized)
+        -fno-omit-frame-pointer -Wno-maybe-uninitialized)
       target_compile_definitions(${target} PRIVATE EIGEN_MALLOC_ALREADY_ALIGNED=1)
       set_target_properties(${target} PROPERTIES DISABLE_PRECOMPILE_HEADERS ON)
     endif()

@@ -127,26 +127,27 @@ void prefer_dark_room(const FrameSample& sample, FrameHypothesis& hypothesis, Fr
   score = std::move(of_dark);
 }
 
-/// Makes one class of the likely movements, of which none wins by itself: that something moved may
-/// be sure where it is open which frames saw it.
-void join_movements(const std::vector<Candidate>& candidates,
-                    double highest,
-                    std::vector<ScoredHypothesis>& scored) {
-  constexpr double kLikely = 4.6;  // log of 100
+/// The same hypotheses, of which the likely movements are one class: that something moved may be
+/// sure where it is open which frames saw it.
+std::vector<ScoredHypothesis> join_movements(const std::vector<Candidate>& candidates,
+                                             double highest,
+                                             std::vector<ScoredHypothesis> scored) {
   std::vector<std::size_t> likely;
   bool is_moved = false;
   for (std::size_t i = 0; i < scored.size(); ++i) {
     const FrameHypothesis& one = candidates[i].hypothesis;
     const bool moved = one.cause == FrameCause::Moved;
-    if (scored[i].log_evidence < highest - kLikely || !(moved || displaced_alone(one))) continue;
+    if (scored[i].log_evidence < highest - kNamedLogOdds || !(moved || displaced_alone(one)))
+      continue;
     likely.push_back(i);
     is_moved = is_moved || moved;
   }
-  if (!is_moved || likely.size() < 2) return;
+  if (!is_moved || likely.size() < 2) return scored;
   for (const std::size_t i : likely) {
     scored[i].prediction = likely.front();
     scored[i].text = "the part or the camera moved while the frames were taken";
   }
+  return scored;
 }
 
 /// Names what a lost frame shows.
@@ -250,15 +251,20 @@ FrameExplanation explain_frames(const FrameStack& stack,
   }
   out.explanation = choose(scored);
   if (!out.explanation.is_decided()) {
-    join_movements(candidates, scored[out.explanation.likeliest].log_evidence, scored);
-    out.explanation = choose(scored);
+    auto joined =
+        join_movements(candidates, scored[out.explanation.likeliest].log_evidence, scored);
+    const Explanation of_joined = choose(joined);
+    if (of_joined.is_decided()) {
+      scored = std::move(joined);
+      out.explanation = of_joined;
+    }
   }
   std::size_t winner = out.explanation.likeliest;
   if (!out.explanation.is_decided() && candidates.size() > 1) {
     // No cause is named. Without evidence against them the frames count as described.
     constexpr std::size_t kBroad = 1;
     const double gain = scored[winner].log_evidence - scored.front().log_evidence;
-    winner = gain < std::log(100.0) ? 0 : kBroad;
+    winner = gain < kNamedLogOdds ? 0 : kBroad;
   }
   out.best = candidates[winner].hypothesis;
   const Eigen::VectorXd& errors_rad = candidates[winner].score.step_errors_rad;
@@ -324,7 +330,7 @@ std::optional<Ceiling> find_ceiling(std::span<const FrameStack> stacks, const No
   if (at < kLeastShare * all || at < kOverNeighbours * most) return std::nullopt;
   // Poisson counts of the mean `most` against the count that was found.
   const double log_odds = at * std::log(at / most) - (at - most) + std::log(kPriorCeiling);
-  if (log_odds < std::log(100.0)) return std::nullopt;
+  if (log_odds < kNamedLogOdds) return std::nullopt;
   return Ceiling{ceiling, at / all, log_odds};
 }
 

@@ -19,8 +19,8 @@ struct FrameExplanation {
   bool decided = false;     ///< lit pixels suffice for an explanation
   Explanation explanation;  ///< the classes of hypotheses, and the odds
   FrameHypothesis best;     ///< the most likely hypothesis of the best class
-  std::vector<FrameHypothesis>
-      alike;  ///< all hypotheses of the best class, as `best` to begin with
+  /// All hypotheses of the best class; the first one is `best`.
+  std::vector<FrameHypothesis> alike;
   /// Standard uncertainty of the phase by what the best hypothesis leaves unexplained; 0 where that
   /// is within the uncertainty of the noise model.
   ///

@@ -254,8 +254,8 @@ FrameVerdict judge_frames(const FrameStack& stack,
   out = judge_by_evidence(stack, noise, options);
   const bool isolated = out.action == FrameAction::LeaveOutFrames ||
                         (out.action == FrameAction::Use && out.explanation.has_fault());
-  // No frame is left that a lamp has not lit: its own model has to agree with the others.
-  if (out.explanation.has_fault() && out.explanation.best.cause == FrameCause::Lamp &&
+  // Or the model of the cause itself agrees with them: no frame is left that a lamp has not lit.
+  if (!isolated && out.explanation.has_fault() &&
       agree_with(options.references, stack, noise, out.explanation.best))
     return out;
   constexpr std::size_t kOneMore = 4;  // than three, of which none can be left out to see

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "frangia/decode/explain/internal/frame_design.h"
+#include "frangia/decode/explain/internal/frame_priors.h"
 #include "frangia/decode/explain/internal/log_densities.h"
 
 namespace frangia {
@@ -20,7 +21,6 @@ constexpr double kLostFrame = 0.2;    ///< part beyond which a frame counts as l
 constexpr double kWitnesses = 2.0;    ///< that the pixels of a block are at least
 constexpr std::size_t kNearest = 6;   ///< blocks around one that tell what it is
 constexpr std::size_t kFewest = 4;    ///< blocks of a part
-constexpr double kNamedOdds = 4.605;  ///< log of 100
 constexpr int kLabelRounds = 5;
 
 /// Pixels `begin` to `end` of a sample.
@@ -208,7 +208,7 @@ std::optional<CoveredPart> find_covered_part(const FrameSample& sample, const Pa
       kWitnesses * static_cast<double>(count) / ((1.0 - counted).sum());  // over the pixels
   std::size_t chosen = best;
   for (std::size_t i = 0; i < sums.size(); ++i)
-    if (i != best && witnesses * (sums[best] - sums[i]) < kNamedOdds) chosen = 0;
+    if (i != best && witnesses * (sums[best] - sums[i]) < kNamedLogOdds) chosen = 0;
   CoveredPart out{all[chosen], std::move(sound)};
   out.hypothesis.part = part;
   if (out.hypothesis.frames.size() == 1 && part > kLostFrame) {

@@ -4,6 +4,8 @@ namespace frangia {
 
 /// Odds of a structural fault before the data.
 inline constexpr double kPriorFault = 0.01;
+/// Log of the odds of 100 : 1 from which on something is named, as `Explanation::is_decided`.
+inline constexpr double kNamedLogOdds = 4.605;
 /// Prior standard deviation of the gain of a frame, of lamp and exposure.
 inline constexpr double kPriorGain = 0.03;
 /// Gain of a frame, and its logarithm, beyond which it is at fault; less is flicker.
