@@ -43,6 +43,13 @@ TEST(AngleClasses, FollowRefinedAnglesByTheirOwnUnknownsAlone) {
   EXPECT_NEAR(even.as.spacing_rad, rad_from_deg(40.5), 1e-9);
 }
 
+TEST(AngleClasses, FollowAViewBackToItsStatedAngle) {
+  const std::vector<double> given = in_rad({0, 45, 90, 135});
+  const ClassedAngles back = followed(given, turned_alone(given, 2, rad_from_deg(2.0)), given);
+  EXPECT_TRUE(back.as.views.empty());
+  EXPECT_EQ(followed(given, back, given).angles_rad, back.angles_rad);
+}
+
 TEST(AngleClasses, AreTheSimplestThatTurnsFollow) {
   const std::vector<double> given = in_rad({0, 45, 90, 135});
   EXPECT_EQ(simplest_of(given, in_rad({0, 4.5, 9, 13.5})).kind, AngleClass::Scaled);
@@ -53,9 +60,10 @@ TEST(AngleClasses, AreTheSimplestThatTurnsFollow) {
 }
 
 TEST(AngleClasses, ChangeTurnsBetweenViewsAndNotThoseOfAll) {
-  EXPECT_NEAR(largest_change_rad(in_rad({0, 45, 90}), in_rad({350, 35, 80})), 0.0, 1e-9);
-  EXPECT_NEAR(
-      largest_change_rad(in_rad({0, 45, 90}), in_rad({0, 45, 300})), rad_from_deg(150.0), 1e-9);
+  EXPECT_NEAR(largest_change(in_rad({0, 45, 90}), in_rad({350, 35, 80})).change_rad, 0.0, 1e-9);
+  const ViewChange change = largest_change(in_rad({0, 45, 90}), in_rad({0, 45, 300}));
+  EXPECT_EQ(change.view, 2U);
+  EXPECT_NEAR(change.change_rad, rad_from_deg(150.0), 1e-9);
 }
 
 }  // namespace

@@ -116,7 +116,7 @@ TEST(ExplainAngles, FindsStepsThatAreFarFromTheStatedAngles) {
     EXPECT_EQ(found.best, PoseCause::Turned) << found.text;
     EXPECT_EQ(found.views, std::vector<std::size_t>{lost.first});
     EXPECT_NEAR(found.turned_rad, rad_from_deg(lost.by_deg), rad_from_deg(0.02)) << found.text;
-    EXPECT_LT(out.error_mm, 0.003);
+    EXPECT_LT(out.error_mm, 0.004);
   }
 }
 

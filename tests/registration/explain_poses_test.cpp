@@ -37,6 +37,27 @@ TEST(ExplainPoses, JoinsBothGroupsOfAPartThatSlid) {
   ASSERT_EQ(out.warnings.size(), 1U);
 }
 
+TEST(ExplainPoses, CorrectsFaultsOfACurvedPartAsFarAsItsNoiseLets) {
+  const RayScene bust(make_part("bust"));
+  FaultyScan slid(8);
+  slid.slide(4, Eigen::Vector3d(0.12, 0.09, 0.0));
+  FaultyScan wobbled(8);
+  wobbled.wobble(rad_from_deg(0.03), 0.03);
+  FaultyScan drifted(8);
+  drifted.drift_projector(rad_from_deg(0.05), 0.1);
+  const auto expect_corrected = [&](const FaultyScan& scan, PoseCause cause) {
+    const Registered out = registered(scan, bust);
+    EXPECT_EQ(out.report.explanation.best, cause) << out.report.text();
+    EXPECT_TRUE(out.report.outliers.empty()) << out.report.text();
+    EXPECT_EQ(out.report.untrusted_reason(), "");
+    EXPECT_LT(out.error_mm, 0.008) << out.report.text();
+    EXPECT_LT(out.error.share_beyond, 0.05) << out.error.over_sigma;
+  };
+  expect_corrected(slid, PoseCause::PartMoved);
+  expect_corrected(wobbled, PoseCause::Wobble);
+  expect_corrected(drifted, PoseCause::RigDrift);
+}
+
 TEST(ExplainPoses, StatesHowFarASlideAlongFlatFacesIsOpen) {
   FaultyScan scan(8);
   scan.slide(4, Eigen::Vector3d(0.32, 0.24, 0.0));

@@ -64,7 +64,7 @@ TEST(MovedPart, IsNotTrustworthyWhenNothingExplainsWhatViewsDisagreeAbout) {
   const MisalignedTable table(6);
   const CameraModel model = small_camera_model(150, 750.0);
   ViewStore views = table.take(knobbly, model);
-  for (const std::size_t i : {1U, 3U, 5U}) {  // every other view is pushed, each elsewhere
+  for (std::size_t i = 1; i < 6; ++i) {  // every view is pushed, each elsewhere
     const double way = rad_from_deg(130.0) * static_cast<double>(i);
     const Shape pushed = [&](const Eigen::Vector3d& p) {
       return knobbly(p - Eigen::Vector3d(1.0 * std::cos(way), 1.0 * std::sin(way), 0.8));

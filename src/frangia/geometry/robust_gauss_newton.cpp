@@ -31,6 +31,10 @@ Eigen::VectorXd solve_step(const Linearization& at, double damping) {
 
 }  // namespace
 
+double gate_of_median(double median_residual) {
+  return kTukeyConstant * kSigmaFromMedian * median_residual;
+}
+
 void GaussNewtonOptions::check() const {
   require(gate > 0.0, "GaussNewtonOptions: gate must be above 0");
   require(min_gate >= 0.0, "GaussNewtonOptions: min_gate must not be negative");
@@ -51,8 +55,7 @@ GaussNewtonResult minimize_robustly(const RobustProblem& problem,
     const Eigen::VectorXd step = solve_step(at, options.damping);
     problem.update(step);
     ++result.iterations;
-    const double closed =
-        std::max(options.min_gate, kTukeyConstant * kSigmaFromMedian * at.median_residual);
+    const double closed = std::max(options.min_gate, gate_of_median(at.median_residual));
     const double length = std::sqrt(std::max(0.0, step.dot(at.hessian * step)));
     result.converged =
         closed > kGateConverged * result.gate && length < options.tolerance * at.unit_weight_sigma;

@@ -31,6 +31,10 @@ namespace frangia {
   return square < 1.0 ? (1.0 - square) * (1.0 - 5.0 * square) : 0.0;
 }
 
+/// The gate at 4.685 robust standard deviations (1.4826 medians) of the absolute residuals, where
+/// Tukey's biweight has 95 % of the efficiency of least squares.
+[[nodiscard]] double gate_of_median(double median_residual);
+
 /// A nonlinear least-squares problem, linearized at its current state.
 ///
 /// @shape    n unknowns: `hessian` n x n, `gradient` n
@@ -72,12 +76,11 @@ struct GaussNewtonResult {
 
 /// Minimizes the robust sum of squares of a problem by iteratively reweighted Gauss-Newton.
 ///
-/// After each step the gate closes to 4.685 robust standard deviations (1.4826 medians) of the
-/// residuals, where Tukey's biweight has 95 % of the efficiency of least squares. The iteration
-/// stops when the gate closes by less than 10 % and the step is shorter than `tolerance` standard
-/// deviations of the estimate in every direction: sqrt(d^T H d) < tolerance * unit_weight_sigma.
-/// The equations are scaled to a unit diagonal before they are solved, so that the result does not
-/// depend on the units of the unknowns.
+/// After each step the gate closes to `gate_of_median` of the residuals. The iteration stops when
+/// the gate closes by less than 10 % and the step is shorter than `tolerance` standard deviations
+/// of the estimate in every direction: sqrt(d^T H d) < tolerance * unit_weight_sigma. The equations
+/// are scaled to a unit diagonal before they are solved, so that the result does not depend on the
+/// units of the unknowns.
 ///
 /// @errors   Error(Input) as `GaussNewtonOptions::check`; Error(Cancelled) when `run` is cancelled
 /// @source   Holland & Welsch 1977

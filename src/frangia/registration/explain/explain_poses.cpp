@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "frangia/core/statistics.h"
+#include "frangia/geometry/robust_gauss_newton.h"
 #include "frangia/registration/explain/internal/cause_motions.h"
 #include "frangia/registration/explain/internal/correct_poses.h"
 #include "frangia/registration/explain/internal/describe_explanation.h"
@@ -160,9 +161,14 @@ PoseRound scored_round(const Registration& work,
   const PoseChart chart = make_chart(
       placed.bundle, placed.surfels, placed.bundle.state, times_of(work.stations), work.options);
   PoseRound round{.bundle = placed.bundle, .chart = chart, .poses = placed.object_from_rig};
-  round.bundle.gate_mm = work.reach_mm;
-  if (poses == ScoredPoses::Free)
+  if (poses == ScoredPoses::Free) {
+    round.bundle.gate_mm = work.reach_mm;
     free_poses(round.bundle, placed.surfels, round.poses, round.chart, work.options, work.run);
+  } else {
+    // Surfaces that do not belong together lie within the reach, too.
+    const double closed_mm = std::max(round.bundle.min_gate_mm, gate_of_median(placed.apart_mm));
+    round.bundle.gate_mm = std::min(work.reach_mm, closed_mm);
+  }
   round.surfaces = surfaces_of(placed.surfels, round.poses);
   score_pairs(round, placed.surfels, given, model, placed.rig_at);
   return round;
@@ -296,11 +302,15 @@ ExplainedPoses explain_poses(const Registration& work,
     if (winner.cause != PoseCause::RigMoved) explanation.terms = terms_of(*model, changes, drifts);
     if (drifts && explanation.decided) {
       all.rigs = rigs_of_views(*model, round.rig->basis, of_rig);
+      all.fits = fits(round.sums.fit, work);
       const PoseSpread own = spread_of_winner(round, round.posterior(winner.best), work);
       all.spread = (own + spread_of_causes(round, winner, work)).of_views();
     }
   }
-  if (moves_views(winner.cause)) all.corrected = correct_poses(round, winner, work, dense);
+  if (moves_views(winner.cause)) {
+    all.corrected = correct_poses(round, winner, work, dense);
+    all.fits = fits(all.corrected->wide, work);
+  }
   const bool by_table = all.rigs.empty() && changes_rig(winner.cause);
   if (!all.corrected && all.spread.empty()) {
     all.spread = spread_of_causes(round, by_table ? as_stated(round) : winner, work).of_views();

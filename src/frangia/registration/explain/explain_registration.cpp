@@ -17,8 +17,8 @@ void take_angles(Registration& work, const ExplainedAngles& angles) {
 }
 
 /// Whether views may be far from where they belong, where no cause is linear in what moves them.
-bool may_be_far(const PoseExplanation& found, const Registration& work) {
-  switch (found.best) {
+bool may_be_far(const ExplainedPoses& found, const Registration& work) {
+  switch (found.explanation.best) {
     case PoseCause::AsStated:
       return !fits_by_table(work);
     case PoseCause::ViewMoved:
@@ -28,7 +28,7 @@ bool may_be_far(const PoseExplanation& found, const Registration& work) {
     case PoseCause::Unexplained:
       return true;
     default:
-      return !found.decided || !fits_by_table(work);
+      return !found.explanation.decided || !(found.fits || fits_by_table(work));
   }
 }
 
@@ -73,7 +73,7 @@ ExplainedPoses explain_registration(RegistrationReport& report,
   for (;;) {
     ExplainedPoses found = explain_poses(work, given, dense);
     const PoseExplanation& explanation = found.explanation;
-    if (may_be_far(explanation, work)) {
+    if (may_be_far(found, work)) {
       if (auto turned = explain_by_angles(report, work, found, given, dense))
         return std::move(*turned);
     }

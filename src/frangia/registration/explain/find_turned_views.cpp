@@ -129,8 +129,12 @@ class AllTurns {
             [&](const std::vector<double>& angles_rad) { return fits_.fit_of(angles_rad); },
             [](int /*steps*/) { return true; });
         break;
-      case AngleClass::Scaled:
+      case AngleClass::Scaled: {
+        // A part that repeats itself fits with any share of the angles, of which one is found.
+        const std::size_t farthest = largest_change(given_, found.angles_rad).view;
+        add(farthest, farthest + 1, kTwoPi);
         break;
+      }
     }
     return all;
   }
@@ -297,8 +301,8 @@ class AllTurns {
   std::vector<std::size_t> views_;  ///< with surfaces
 };
 
-/// The angles of a class near to given ones to which the views are refined.
-ClassedAngles refined(const Registration& work, ClassedAngles found) {
+/// The angles of a class near to given ones to which some surfels of the views are refined.
+ClassedAngles refined(const Registration& work, const SurfelLists& some, ClassedAngles found) {
   constexpr int kTurns = 2;
   constexpr double kOpen_rad = 2.0 * kTurnStep_rad;  // how near the search comes
   Bundle bundle = work.bundle;
@@ -309,7 +313,7 @@ ClassedAngles refined(const Registration& work, ClassedAngles found) {
     bundle.gate_mm = work.reach_mm;
     bundle.given.angles_rad = found.angles_rad;
     bundle.state = bundle.given;
-    optimize_bundle(bundle, work.surfels, work.options.max_iterations, work.run);
+    optimize_bundle(bundle, some, work.options.max_iterations, work.run);
     found = followed(given, found, bundle.state.angles_rad);
   }
   return found;
@@ -357,23 +361,25 @@ bool find_turned_views(const Registration& work,
                        const TryAngles& try_angles) {
   constexpr double kNoticeable_rad = 0.5 * kTurnStep_rad;  // smaller ones are nearly linear
   constexpr double kBetter = 0.05;                         // of the fit
+  constexpr std::size_t kSome = 500;                       // surfels of a view, which find angles
   const TableState& given = work.bundle.given;
   if (!given.part_poses.empty() || given.angles_rad.size() < 3 || has_copies(work)) return false;
   const auto tries = [&](const ClassedAngles& angles) {
     work.run.check();
-    return largest_change_rad(given.angles_rad, angles.angles_rad) > kNoticeable_rad &&
+    return largest_change(given.angles_rad, angles.angles_rad).change_rad > kNoticeable_rad &&
            try_angles(worded(angles, work));
   };
+  const SurfelLists some = pick_all_surfels(work.bundle.maps, kSome);
   if (free) {
     const ClassedAngles angles =
         simplest_of(given.angles_rad, turned_to(given, free->object_from_rig));
-    if (angles.kind != AngleClass::All && tries(refined(work, angles))) return true;
+    if (angles.kind != AngleClass::All && tries(refined(work, some, angles))) return true;
   }
   const AllTurns search(work);
   const double before = search.fit_as_given();
   for (const ClassedAngles& one : search.candidates()) {
     if (one.fit < before + kBetter * std::max(one.fit, std::abs(before))) continue;
-    const ClassedAngles near = refined(work, one);
+    const ClassedAngles near = refined(work, some, one);
     if (tries(near) && is_unique(work, search, near)) return true;
   }
   return false;

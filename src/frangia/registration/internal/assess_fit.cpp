@@ -235,13 +235,16 @@ void Registration::leave_out(std::size_t view) {
     surfel = {};
 }
 
-bool fits_by_table(const Registration& work) {
-  const BundleSums sums = sum(work.bundle, work.surfels);
+bool fits(const BundleSums& sums, const Registration& work) {
   if (contradiction_of(sums, work.surfels) > work.options.max_contradiction) return false;
   const std::vector<std::size_t> outliers = find_outliers(sums, work.options.outlier_overlap);
   return std::all_of(outliers.begin(), outliers.end(), [&](std::size_t view) {
     return work.surfels[view].empty();  // left out already
   });
+}
+
+bool fits_by_table(const Registration& work) {
+  return fits(sum(work.bundle, work.surfels), work);
 }
 
 void leave_out_outliers(RegistrationReport& report, Registration& work) {

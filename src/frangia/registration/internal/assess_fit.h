@@ -92,7 +92,10 @@ struct Registration {
   void leave_out(std::size_t view);
 };
 
-/// Whether the table places all views where none contradicts the others or fits none.
+/// Whether no view contradicts the others or fits none, by the pairs of some places.
+[[nodiscard]] bool fits(const BundleSums& sums, const Registration& work);
+
+/// Whether the table places all views so.
 [[nodiscard]] bool fits_by_table(const Registration& work);
 
 /// Leaves out views that fit no other one.

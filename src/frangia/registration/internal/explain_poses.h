@@ -29,6 +29,8 @@ struct ExplainedPoses {
   PoseExplanation explanation;
   std::optional<CorrectedPoses> corrected{};
   std::vector<Rig> rigs{};  ///< of each view, where the rig drifts
+  /// Whether `fits` holds in the poses of `corrected`, or with `rigs`.
+  bool fits = false;
   /// By what the views leave open between causes, where the poses are not corrected; those of
   /// `corrected` have it.
   ViewMotions spread{};

@@ -67,9 +67,10 @@ class FreePoseComparison {
                             std::pow(static_cast<double>(target->sigma_mm), 2);
     const double weight = tukey_weight(distance, gate_mm_) / variance;
     const Eigen::Vector3d normal = rig_from_world.linear().transpose() * pair.normal;
-    const Eigen::Vector3d foot = rig_from_world.inverse() * target->point_mm.cast<double>();
+    const Eigen::Matrix<double, 6, 1> own =
+        point_to_plane_jacobian(normal, rig_from_world.inverse() * pair.middle);
     Eigen::Matrix<double, 12, 1> row;
-    row << point_to_plane_jacobian(normal, point), -point_to_plane_jacobian(normal, foot);
+    row << own, -own;
     add_equation(sums, {0, index + 1}, row, weight, distance);
     sums.distances_mm.push_back(std::abs(distance));
     sums.over_sigma.push_back(static_cast<float>(std::abs(distance) / std::sqrt(variance)));

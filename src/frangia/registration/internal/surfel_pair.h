@@ -48,6 +48,9 @@ struct SurfelPair {
   Eigen::Vector3d target_normal;  ///< unit
   Eigen::Vector3d normal;         ///< unit, mean of both normals
   double normal_cosine = 0.0;     ///< between both normals
+  /// Between both points. A motion of either surface changes the distance as it moves this point of
+  /// it along `normal`, which turns half with each: so a motion of both changes nothing.
+  Eigen::Vector3d middle;
 
   SurfelPair(const Eigen::Vector3d& point_mm,
              const Eigen::Vector3d& point_normal,
@@ -55,7 +58,8 @@ struct SurfelPair {
       : offset(point_mm - target.point_mm.cast<double>()),
         target_normal(target.normal.cast<double>()),
         normal((target_normal + point_normal).normalized()),
-        normal_cosine(target_normal.dot(point_normal)) {}
+        normal_cosine(target_normal.dot(point_normal)),
+        middle(point_mm - 0.5 * offset) {}
 
   [[nodiscard]] bool faces_alike() const { return normal_cosine >= kMinNormalCosine; }
 

@@ -126,7 +126,9 @@ struct BundleAccumulator {
     const double distance = pair.distance_mm();
     if (!(std::abs(distance) < options.gate_mm)) return std::abs(distance);
     const double weight = tukey_weight(distance, options.gate_mm) / variance;
-    const PairJacobian jacobian = transfer.jacobian(pair.normal, surfel.point_mm.cast<double>());
+    const PairJacobian jacobian = transfer.jacobian(
+        pair.normal,
+        surfel.point_mm.cast<double>() - 0.5 * (transfer.rotation().transpose() * pair.offset));
     add_row(jacobian, weight, distance, to);
     tally.add({1, 0, weight, weight * distance});
     if (closing > 1 && std::min(from, to) == 0 && std::max(from, to) == closing) {

@@ -177,6 +177,7 @@ ClassedAngles followed(const std::vector<double>& given_rad,
       return evenly_spaced(given_rad, found.as.spacing_rad + share_of(from_first(more), steps));
     }
     case AngleClass::Alone: {
+      if (found.as.views.empty()) return found;  // turned back to where it is stated
       const std::size_t view = found.as.views.front();
       return turned_alone(given_rad, view, found.as.turned_rad + more[view]);
     }
@@ -211,12 +212,14 @@ std::vector<double> turned_to(const TableState& given,
   return turns;
 }
 
-double largest_change_rad(const std::vector<double>& given_rad,
+ViewChange largest_change(const std::vector<double>& given_rad,
                           const std::vector<double>& angles_rad) {
   const std::vector<double> turned = difference(angles_rad, given_rad);
-  double most = 0.0;
-  for (const double one : turned)
-    most = std::max(most, std::abs(wrap_rad(one - turned.front())));
+  ViewChange most;
+  for (std::size_t view = 0; view < turned.size(); ++view) {
+    const double change_rad = std::abs(wrap_rad(turned[view] - turned.front()));
+    if (change_rad > most.change_rad) most = {view, change_rad};
+  }
   return most;
 }
 

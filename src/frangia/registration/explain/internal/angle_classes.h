@@ -58,8 +58,14 @@ struct ClassedAngles {
 [[nodiscard]] std::vector<double> turned_to(const TableState& given,
                                             const std::vector<Eigen::Isometry3d>& object_from_rig);
 
-/// Largest difference of the turns between two views.
-[[nodiscard]] double largest_change_rad(const std::vector<double>& given_rad,
+/// How much farther a view turned than the first one.
+struct ViewChange {
+  std::size_t view = 0;
+  double change_rad = 0.0;  ///< at least 0
+};
+
+/// Of the view whose turn differs most from that of the first.
+[[nodiscard]] ViewChange largest_change(const std::vector<double>& given_rad,
                                         const std::vector<double>& angles_rad);
 
 }  // namespace frangia

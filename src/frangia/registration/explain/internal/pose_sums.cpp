@@ -61,7 +61,6 @@ class PoseAccumulator {
     const Eigen::Vector3d seen = surfel.point_mm.cast<double>();
     const Eigen::Vector3d point = own * seen;
     const Eigen::Vector3d facing = own.linear() * surfel.normal.cast<double>();
-    has_own_drift_ = false;
     bool observed = false;
     bool matched = false;
     for (std::size_t i = 0; i < rig_from_object_.size(); ++i) {
@@ -98,10 +97,15 @@ class PoseAccumulator {
     const double weight = tukey_weight(distance, bundle_.gate_mm) / variance;
     const Eigen::Isometry3d& back = views_.object_from_rig[to];
     const Eigen::Vector3d normal = back.linear() * pair.normal;
-    const Eigen::Vector3d foot = back * target->point_mm.cast<double>();
-    own_.template head<6>() = row_of_motion(point, normal);
-    other_.template head<6>() = -row_of_motion(foot, normal);
-    if (views_.rig != nullptr) differentiate_by_rig(surfel, *target, normal, pair.normal);
+    const Eigen::Vector3d middle = back * pair.middle;
+    own_.template head<6>() = row_of_motion(middle, normal);
+    other_.template head<6>() = -own_.template head<6>();
+    if (views_.rig != nullptr) {
+      const Eigen::Isometry3d& own = views_.object_from_rig[from_];
+      own_.tail(views_.rig->count) =
+          row_of_rig(own.inverse() * middle, own.linear().transpose() * normal);
+      other_.tail(views_.rig->count) = -row_of_rig(pair.middle, pair.normal);
+    }
     add_equation(weight, distance, paired);
     tally.add({1, 0, weight, weight * distance});
     sums.weight += weight;
@@ -111,21 +115,10 @@ class PoseAccumulator {
     return std::abs(distance);
   }
 
-  void differentiate_by_rig(const SurfelMap::Surfel& surfel,
-                            const SurfelMap::Surfel& target,
-                            const Eigen::Vector3d& normal,
-                            const Eigen::Vector3d& normal_to) {
+  [[nodiscard]] Eigen::VectorXd row_of_rig(const Eigen::Vector3d& point,
+                                           const Eigen::Vector3d& normal) const {
     const RigChanges& rig = *views_.rig;
-    if (!has_own_drift_) {
-      own_drift_ =
-          rig.drift.of(surfel.point_mm.cast<double>(), rig.pattern).transpose().cast<double>();
-    }
-    has_own_drift_ = true;
-    own_.tail(rig.count) =
-        own_drift_ * (views_.object_from_rig[from_].linear().transpose() * normal);
-    other_.tail(rig.count) =
-        -(rig.drift.of(target.point_mm.cast<double>(), rig.pattern).transpose().cast<double>() *
-          normal_to);
+    return rig.drift.of(point, rig.pattern).transpose().cast<double>() * normal;
   }
 
   void add_equation(double weight, double distance, std::size_t paired) {
@@ -152,8 +145,6 @@ class PoseAccumulator {
   ViewRow<size> own_;    ///< derivatives of a distance by the unknowns of its view
   ViewRow<size> other_;  ///< and of the paired view
   std::vector<Eigen::Isometry3d> rig_from_object_;  ///< of the paired views
-  Eigen::MatrixXd own_drift_;  ///< of the surfel by the changes of the rig, changes x 3
-  bool has_own_drift_ = false;
 };
 
 /// Adds a chunk's equations, of which the lower triangle is known, to those of all views.

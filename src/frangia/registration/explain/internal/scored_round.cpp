@@ -153,8 +153,9 @@ void score(PoseRound& round) {
 }
 
 double noticeable_mm(const PoseRound& round) {
-  constexpr double kCommon = 2.5;  // times what pairs of two views still have in common
-  return std::max(kCommon * round.noise.shared_mm, round.noise.scatter_mm);
+  constexpr double kCommon = 2.5;   // times what pairs of two views still have in common
+  constexpr double kScatter = 0.5;  // of a pair: what moves all of them by more is no noise
+  return std::max(kCommon * round.noise.shared_mm, kScatter * round.noise.scatter_mm);
 }
 
 bool is_beyond_prior(const PoseRound& round) {
@@ -249,6 +250,10 @@ std::size_t winner_of(const PoseRound& round) {
   std::size_t best = first;
   for (std::size_t i = first + 1; i < round.causes.size(); ++i) {
     const ScoredCause& cause = round.causes[i];
+    // A table's play differs by its size alone from views that are all elsewhere.
+    const bool by_size =
+        cause.cause == PoseCause::Wobble && round.causes[first].cause == PoseCause::Unexplained;
+    if (by_size && cause.log_odds < round.causes[first].log_odds - kNamed) continue;
     if (cause.log_odds > kNamed && freedom_of(cause.cause) < freedom_of(round.causes[best].cause) &&
         are_alike(round, first, i))
       best = i;

@@ -115,9 +115,13 @@ double left_mm(const PoseRound& scored, const Eigen::VectorXd& motion) {
 }  // namespace
 
 ViewMotions PoseSpread::of_views() const {
+  const Eigen::Index views = columns.rows() / 6;
+  Rows6 common = Rows6::Zero(6, columns.cols());
+  for (Eigen::Index view = 0; view < views; ++view)
+    common += columns.middleRows(6 * view, 6) / static_cast<double>(views);
   ViewMotions motions;
-  for (Eigen::Index at = 0; at < columns.rows(); at += 6)
-    motions.emplace_back(columns.middleRows(at, 6));
+  for (Eigen::Index view = 0; view < views; ++view)
+    motions.emplace_back(columns.middleRows(6 * view, 6) - common);
   return motions;
 }
 

@@ -16,6 +16,7 @@ namespace frangia {
 struct PoseSpread {
   Eigen::MatrixXd columns;
 
+  /// Without what all views have in common: it moves the surface as a whole, and no pair shows it.
   [[nodiscard]] ViewMotions of_views() const;
 };
 
