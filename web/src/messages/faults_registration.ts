@@ -187,9 +187,9 @@ export const FAULTS_REGISTRATION = {
     "raffinare l'apparato dalla scansione o calibrarlo",
   ],
   'fault.letProjectorWarm': [
-    'let the projector warm up before a scan',
-    'den Projektor vor einem Scan warmlaufen lassen',
-    'lasciare scaldare il proiettore prima di una scansione',
+    'let camera and projector warm up before a scan, and fasten them',
+    'Kamera und Projektor vor einem Scan warmlaufen lassen und befestigen',
+    'lasciare scaldare camera e proiettore prima di una scansione, e fissarli',
   ],
   'fault.tiltAxis': ['the tilt of the axis', 'die Neigung der Achse', "l'inclinazione dell'asse"],
   'fault.positionAxis': ['the position of the axis', 'die Lage der Achse', "la posizione dell'asse"],

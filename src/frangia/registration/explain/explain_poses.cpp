@@ -257,17 +257,30 @@ PoseRound without_rig(PoseRound round) {
   return round;
 }
 
+PoseChart chart_of(const Registration& work) {
+  return make_chart(
+      work.bundle, work.surfels, work.bundle.state, times_of(work.stations), work.options);
+}
+
+std::optional<DriftModel> drift_of(const TurntableStations& given, const PoseChart& chart) {
+  if (given.rig == nullptr || given.pattern == nullptr) return std::nullopt;
+  return DriftModel(*given.rig, RefineRigOptions{}, chart.setting.distance_mm);
+}
+
 }  // namespace
+
+bool leaves_nothing_to_explain(const Registration& work, const TurntableStations& given) {
+  const PoseChart chart = chart_of(work);
+  const PoseRound placed = scored_as_placed(work, given, drift_of(given, chart), chart);
+  return !changes_rig(placed.causes[winner_of(placed)].cause) && !fits_better_free(placed, work);
+}
 
 ExplainedPoses explain_poses(const Registration& work,
                              const TurntableStations& given,
                              std::size_t dense) {
   ExplainedPoses all;
-  const PoseChart chart = make_chart(
-      work.bundle, work.surfels, work.bundle.state, times_of(work.stations), work.options);
-  std::optional<DriftModel> model;
-  if (given.rig != nullptr && given.pattern != nullptr)
-    model.emplace(*given.rig, RefineRigOptions{}, chart.setting.distance_mm);
+  const PoseChart chart = chart_of(work);
+  const std::optional<DriftModel> model = drift_of(given, chart);
   PoseRound placed = scored_as_placed(work, given, model, chart);
   // Views of a wrong rig slide off each other once they are free: its hypothesis goes first.
   std::optional<PoseRound> again;

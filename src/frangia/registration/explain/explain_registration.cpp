@@ -46,10 +46,10 @@ std::optional<ExplainedPoses> explain_by_angles(RegistrationReport& report,
       find_turned_views(work, before.corrected, [&](const ExplainedAngles& angles) {
         turned.emplace(work);
         take_angles(*turned, angles);
-        if (!fits_by_table(*turned)) return false;
+        if (!fits_by_table(*turned) || !leaves_nothing_to_explain(*turned, given)) return false;
         found = explain_poses(*turned, given, dense);
         explanation = angles.explanation;
-        return found->explanation.best == PoseCause::AsStated;
+        return true;
       });
   if (!is_found) return std::nullopt;
   report.explanation = std::move(explanation);

@@ -48,6 +48,11 @@ struct ExplainedPoses {
                                            const TurntableStations& given,
                                            std::size_t dense);
 
+/// Whether the table places the views where no cause would be looked for: what `explain_poses`
+/// finds is as stated then.
+[[nodiscard]] bool leaves_nothing_to_explain(const Registration& work,
+                                             const TurntableStations& given);
+
 /// Explains what the views disagree about, by angles far from those stated or as `explain_poses`,
 /// and refines the table about what is found. A view that is elsewhere by itself is left out, and
 /// the others are explained again.

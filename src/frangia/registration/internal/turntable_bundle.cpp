@@ -53,15 +53,31 @@ std::vector<Eigen::Index> unknowns_of(const BundleViews& views, std::size_t from
   return unknowns;
 }
 
-/// The columns that a pair depends on.
-struct Row {
-  std::array<Eigen::Index, 18> indices{};
-  std::array<double, 18> values{};
-  std::size_t count = 0;
+/// Derivatives of a pair by axis, angles and, between setups, the poses of the part: the columns of
+/// `PairJacobian` in their order, of which the first six are those within one setup.
+using PairRow = Eigen::Matrix<double, 18, 1>;
+constexpr Eigen::Index kWithinSetup = 6;
 
-  void add(Eigen::Index column, double value) {
-    indices.at(count) = column;
-    values.at(count++) = value;
+PairRow row_of(const PairJacobian& by) {
+  PairRow row;
+  row << by.tilt, by.shift, by.angle_to, by.angle_from, by.setup_to, by.setup_from;
+  return row;
+}
+
+/// Sums over the pairs with one view, in the columns of a `PairRow`.
+struct PairedSums {
+  Eigen::Matrix<double, 18, 18> hessian = Eigen::Matrix<double, 18, 18>::Zero();
+  PairRow gradient = PairRow::Zero();
+  PairRow by_offset = PairRow::Zero();
+
+  /// @shape    `count`: of the columns that may differ from 0
+  template <Eigen::Index count>
+  void add(const PairRow& by, double weight, double distance) {
+    const Eigen::Matrix<double, count, 1> row = by.head<count>();
+    const Eigen::Matrix<double, count, 1> weighted = weight * row;
+    hessian.topLeftCorner<count, count>() += weighted * row.transpose();
+    gradient.head<count>() += distance * weighted;
+    by_offset.head<count>() += weighted;
   }
 };
 
@@ -72,7 +88,7 @@ struct BundleAccumulator {
   std::size_t from;
   std::size_t closing;
   ChunkSums sums;
-  std::vector<Eigen::Index> column_of;  ///< by unknown: its column in `sums`
+  std::vector<PairedSums> paired_sums;  ///< by paired view
 
   BundleAccumulator(const BundleViews& all, const BundleOptions& how, std::size_t view)
       : views(all), options(how), from(view), closing(all.state.closing_view()) {
@@ -82,9 +98,7 @@ struct BundleAccumulator {
     sums.gradient = Eigen::VectorXd::Zero(count);
     sums.by_offset = Eigen::VectorXd::Zero(count);
     sums.tallies.resize(all.pairs[view].size());
-    column_of.resize(static_cast<std::size_t>(all.state.unknowns()));
-    for (Eigen::Index i = 0; i < count; ++i)
-      column_of[static_cast<std::size_t>(sums.unknowns[static_cast<std::size_t>(i)])] = i;
+    paired_sums.resize(all.pairs[view].size());
   }
 
   void add(std::span<const SurfelMap::Surfel> surfels) {
@@ -103,6 +117,8 @@ struct BundleAccumulator {
       sums.observed += observed ? 1 : 0;
       sums.matched += matched ? 1 : 0;
     }
+    for (std::size_t i = 0; i < others.size(); ++i)
+      add_paired(paired_sums[i], others[i]);
   }
 
   /// Returns the absolute distance of a pair; NaN when the other view measured nothing there.
@@ -129,7 +145,11 @@ struct BundleAccumulator {
     const PairJacobian jacobian = transfer.jacobian(
         pair.normal,
         surfel.point_mm.cast<double>() - 0.5 * (transfer.rotation().transpose() * pair.offset));
-    add_row(jacobian, weight, distance, to);
+    if (views.state.setup_of(to) == views.state.setup_of(from)) {
+      paired_sums[paired].add<kWithinSetup>(row_of(jacobian), weight, distance);
+    } else {
+      paired_sums[paired].add<PairRow::RowsAtCompileTime>(row_of(jacobian), weight, distance);
+    }
     tally.add({1, 0, weight, weight * distance});
     if (closing > 1 && std::min(from, to) == 0 && std::max(from, to) == closing) {
       const double by_last = to == closing ? jacobian.angle_to : jacobian.angle_from;
@@ -141,35 +161,36 @@ struct BundleAccumulator {
     return std::abs(distance);
   }
 
-  [[nodiscard]] Row row_of(const PairJacobian& by, std::size_t to) const {
+  /// Adds the sums with one view at the columns of its unknowns; what is held has none.
+  void add_paired(const PairedSums& paired, std::size_t to) {
     const TableState& state = views.state;
-    const auto column = [&](Eigen::Index unknown) {
-      return column_of[static_cast<std::size_t>(unknown)];
+    std::array<Eigen::Index, 18> columns{0, 1, 2, 3};
+    const auto column_of = [&](bool is_held, Eigen::Index unknown) {
+      if (is_held) return Eigen::Index{-1};
+      const auto at = std::lower_bound(sums.unknowns.begin(), sums.unknowns.end(), unknown);
+      return static_cast<Eigen::Index>(at - sums.unknowns.begin());
     };
-    Row row;
-    for (Eigen::Index i = 0; i < 2; ++i) {
-      row.add(i, by.tilt[i]);
-      row.add(i + 2, by.shift[i]);
-    }
-    if (to != 0) row.add(column(static_cast<Eigen::Index>(to) + 3), by.angle_to);
-    if (from != 0) row.add(column(static_cast<Eigen::Index>(from) + 3), by.angle_from);
+    columns[4] = column_of(to == 0, static_cast<Eigen::Index>(to) + 3);
+    columns[5] = column_of(from == 0, static_cast<Eigen::Index>(from) + 3);
     const std::size_t setup_to = state.setup_of(to);
     const std::size_t setup_from = state.setup_of(from);
-    if (setup_to == setup_from) return row;
-    for (Eigen::Index i = 0; i < 6; ++i) {
-      if (setup_to != 0) row.add(column(state.index_of_setup(setup_to) + i), by.setup_to[i]);
-      if (setup_from != 0) row.add(column(state.index_of_setup(setup_from) + i), by.setup_from[i]);
+    const bool within = setup_to == setup_from;
+    for (std::size_t i = 0; i < 6; ++i) {
+      const auto more = static_cast<Eigen::Index>(i);
+      columns.at(6 + i) = column_of(within || setup_to == 0, state.index_of_setup(setup_to) + more);
+      columns.at(12 + i) =
+          column_of(within || setup_from == 0, state.index_of_setup(setup_from) + more);
     }
-    return row;
-  }
-
-  void add_row(const PairJacobian& by, double weight, double distance, std::size_t to) {
-    const Row row = row_of(by, to);
-    for (std::size_t i = 0; i < row.count; ++i) {
-      sums.gradient[row.indices[i]] += weight * row.values[i] * distance;
-      sums.by_offset[row.indices[i]] += weight * row.values[i];
-      for (std::size_t j = 0; j < row.count; ++j)
-        sums.hessian(row.indices[i], row.indices[j]) += weight * row.values[i] * row.values[j];
+    for (std::size_t i = 0; i < columns.size(); ++i) {
+      const Eigen::Index column = columns.at(i);
+      if (column < 0) continue;
+      const auto own = static_cast<Eigen::Index>(i);
+      sums.gradient[column] += paired.gradient[own];
+      sums.by_offset[column] += paired.by_offset[own];
+      for (std::size_t j = 0; j < columns.size(); ++j) {
+        if (columns.at(j) >= 0)
+          sums.hessian(columns.at(j), column) += paired.hessian(static_cast<Eigen::Index>(j), own);
+      }
     }
   }
 };

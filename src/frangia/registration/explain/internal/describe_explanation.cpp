@@ -244,7 +244,7 @@ std::string remedy_of(const PoseExplanation& found, WrongRig wrong_rig) {
                  ? "calibrate the rig again"
                  : "refine the rig by `refine_rig`, or calibrate it";
     case PoseCause::RigDrift:
-      return "let the projector warm up before a scan";
+      return "let camera and projector warm up before a scan, and fasten them";
     case PoseCause::TableMoved:
       return "fix the table against the rig";
     case PoseCause::RigMoved:
