@@ -12,14 +12,17 @@ import { applyPreferences } from './preferences';
 import { blankPage, notices } from './shell';
 import { acts } from './ui';
 import { StationClouds } from './station_clouds';
-import type { State } from './types';
+import type { Job, State } from './types';
 import { type Hit, type Ray, Viewer } from './viewer';
+
+const isFailed = (job: Job): boolean => job.state === 'failed';
 
 /** The window: steps, picture, panel, and the line at the bottom. What each step does is in a part of its own. */
 @customElement('frangia-app')
 export class FrangiaApp extends App {
   private clouds!: StationClouds;
   private seenFailure = 0;
+  private begun = false; // a state has arrived
   private projectShown = '';
   private wantSurface = false;
   /** What the panel shows; it begins at its top when this changes. */
@@ -67,7 +70,8 @@ export class FrangiaApp extends App {
     if (state) {
       const name = state.project?.name ?? '';
       if (name !== this.projectShown) this.onProject(state);
-      const failed = state.jobs.filter((job) => job.state === 'failed').at(-1);
+      this.begun = true;
+      const failed = state.jobs.filter(isFailed).at(-1);
       if (failed && failed.number > this.seenFailure) {
         this.seenFailure = failed.number;
         this.problem = failed.error;
@@ -89,9 +93,9 @@ export class FrangiaApp extends App {
     this.projectShown = state.project?.name ?? '';
     this.meshes.forget();
     this.clouds.forget();
-    // What could not be opened leaves no project behind, but says why, also where both come in one state.
+    // What could not be opened says why, also where its failure comes in one state with the project, or without it.
     if (state.project) {
-      this.seenFailure = Math.max(0, ...state.jobs.filter((job) => job.state === 'failed').map((job) => job.number));
+      if (!this.begun) this.seenFailure = Math.max(0, ...state.jobs.filter(isFailed).map((job) => job.number));
       this.problem = '';
     }
     this.arranging.deviceDraft = null;
