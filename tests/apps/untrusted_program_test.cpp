@@ -28,12 +28,13 @@ TEST(UntrustedProgram, AnnouncesAnUntrustworthyResultInTheFirstLine) {
                                 (folder.path() / "a.ply").string();
   const Answer answer = run_program(arguments);
   EXPECT_EQ(answer.exit_code, 5) << answer.output;
-  EXPECT_EQ(answer.output.find("the result is not trustworthy: the views disagree by "), 0U)
+  EXPECT_EQ(answer.output.find("the result is not trustworthy: the views contradict each other"),
+            0U)
       << answer.output;
   const Answer json = run_program("--json " + arguments + " 2>/dev/null");
   EXPECT_EQ(json.exit_code, 5);
   EXPECT_NE(json.output.find("\"trustworthy\": false"), std::string::npos) << json.output;
-  EXPECT_NE(json.output.find("\"reason\": \"the views disagree by"), std::string::npos);
+  EXPECT_NE(json.output.find("\"reason\": \"the views contradict each other"), std::string::npos);
 }
 
 TEST(UntrustedProgram, AnnouncesScansThatContradictEachOtherInTheFirstLine) {
