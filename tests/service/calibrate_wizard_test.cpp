@@ -125,6 +125,30 @@ TEST_F(LiveServiceTest, FindsTheAxisOfItsTurntableAndScansNoStationsBefore) {
   command("start-scan");
 }
 
+TEST_F(LiveServiceTest, FindsTheAxisByThePartThatStandsOnTheTable) {
+  command("create-project", {{"name", "figure"}, {"part", "bust"}, {"stations", 2}});
+  ASSERT_TRUE(wait([&] { return !busy(); }));
+  const std::filesystem::path file = folder_.path() / "figure" / "rig.toml";
+  const Turntable truth = read_rig(file).turntable.value();
+  Rig rig = read_rig(file);
+  rig.turntable.reset();
+  command("close-project");
+  const std::filesystem::path fresh = folder_.path() / "figure" / "fresh.toml";
+  write_rig(fresh, rig, Durability::Buffered, file);
+  std::filesystem::rename(fresh, file);
+  command("open-project", {{"name", "figure"}});
+  ASSERT_TRUE(wait([&] { return !busy(); }));
+  command("find-axis", {{"part", true}});
+  ASSERT_TRUE(wait([&] { return !busy(); }));
+  const Json axis = project().at("axis");
+  ASSERT_FALSE(axis.is_null()) << service_.state();
+  EXPECT_EQ(axis.at("views").get<int>(), 8);
+  const Turntable found = read_rig(file).turntable.value();
+  EXPECT_LT(std::acos(std::min(1.0, found.axis.dot(truth.axis))), 0.002);
+  const Eigen::Vector3d between = found.point_mm - truth.point_mm;
+  EXPECT_LT((between - between.dot(truth.axis) * truth.axis).norm(), 0.2);
+}
+
 TEST_F(LiveServiceTest, ShowsTheCameraOfARigThatIsNotCalibrated) {
   command("create-project", {{"name", "maker"}, {"example", "simulated-maker"}, {"stations", 2}});
   ASSERT_TRUE(wait([&] { return !busy(); }));

@@ -4,6 +4,8 @@ import { type Residuals, type RigGeometry, type Table, TABLES } from './types';
 
 /** A board that was printed here names itself by its markers; another one is described. */
 export type BoardKind = 'printed' | 'own';
+/** What stands on the turntable while its axis is looked for. */
+export type AxisBy = 'board' | 'part';
 /** The settings of each table as they stand in the form: lines of rig.toml, empty for no device. */
 export type DeviceDraft = Record<Table, string>;
 /** The stages of the step Rig. */
@@ -16,6 +18,7 @@ export const driverOf = (lines: string): string => /^\s*driver\s*=\s*"([^"]*)"/m
 export class Arranging {
   deviceDraft: DeviceDraft | null = null;
   boardKind: BoardKind = 'printed';
+  axisBy: AxisBy = 'board';
   residuals: Residuals | null = null;
   /** Index of the map on the stage; -1 shows the rig. */
   residualMap = -1;
@@ -60,6 +63,10 @@ export class Arranging {
   }
   setBoardKind(kind: BoardKind): void {
     this.boardKind = kind;
+    this.app.requestUpdate();
+  }
+  setAxisBy(by: AxisBy): void {
+    this.axisBy = by;
     this.app.requestUpdate();
   }
   draftDevices(draft: DeviceDraft | null): void {

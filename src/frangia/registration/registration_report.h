@@ -33,11 +33,12 @@ struct RegistrationReport {
   /// angle steps. NaN when these views do not overlap.
   double closure_before_rad = kMissing;
   double closure_after_rad = kMissing;  ///< the same after registration
-  double overlap = 0.0;        ///< share of the points that lie on a surface of another view
-  double condition = 0.0;      ///< condition number of the equations, with the prior
-  double weakest = 0.0;        ///< factor by which the views improve on the prior in the direction
-                               ///< that they determine worst; 1 is no improvement
-  double axis_sigma_mm = 0.0;  ///< standard deviation of the axis in its weakest direction
+  double overlap = 0.0;         ///< share of the points that lie on a surface of another view
+  double condition = 0.0;       ///< condition number of the equations, with the prior
+  double weakest = 0.0;         ///< factor by which the views improve on the prior in the direction
+                                ///< that they determine worst; 1 is no improvement
+  double axis_sigma_mm = 0.0;   ///< standard deviation of the axis in its weakest direction
+  double axis_sigma_rad = 0.0;  ///< of its tilt, at most: by that much at the radius of the part
   std::vector<std::string> undetermined;  ///< unknowns that the part's shape does not determine
   std::vector<std::size_t> outliers;      ///< views that fit no other; they are emptied
   /// Of each further setup: the part's pose relative to the first setup, both at angle 0, in the

@@ -5,10 +5,12 @@
 #include <fmt/format.h>
 
 #include "frangia/acquisition/calibrate_capture.h"
+#include "frangia/acquisition/capture_scan.h"
 #include "frangia/calibrate/solve/calibrate_turntable.h"
 #include "frangia/core/angles.h"
 #include "frangia/core/folder_lock.h"
 #include "frangia/dataset/scan_folder.h"
+#include "frangia/reconstruct/find_turntable_axis.h"
 #include "frangia/rig/read_rig.h"
 #include "frangia/rig/write_rig.h"
 #include "frangia/service/internal/opened_devices.h"
@@ -39,6 +41,38 @@ void capture_turned_board(const Scan& plan,
   static_cast<void>(calibrate_capture(plan, opened.devices(), lock, options, run));
 }
 
+void capture_turned_part(const Scan& plan,
+                         const ProjectFolder& project,
+                         const CaptureSettings& settings,
+                         const CaptureSetup& setup,
+                         const Run& run) {
+  std::filesystem::remove_all(plan.folder);  // another search; another part may stand there
+  const FolderLock lock(plan.folder);
+  OpenedDevices opened(project.rig(), plan.rig, setup.drivers(), setup, run);
+  CaptureOptions options;
+  options.camera = settings.camera;
+  run.stage("poses");
+  const CaptureReport report = capture_scan(plan, opened.devices(), lock, options, run);
+  if (!report.skipped.empty()) throw Error(ErrorKind::Device, report.skipped.front().sentence());
+}
+
+/// A scan whose views are kept until the next search.
+Scan planned(const ProjectFolder& project, const Run& run) {
+  Scan plan;
+  plan.folder = project.axis();
+  plan.name = "axis";
+  plan.rig = read_rig(project.rig(), run);
+  return plan;
+}
+
+/// Puts a rig with its axis in the place of the project's rig, which stays in the history.
+void replace_rig(const ProjectFolder& project, const Rig& rig) {
+  keep_rig(project, RigChange::Axis);
+  const std::filesystem::path fresh = project.folder / "rig-with-axis.toml";
+  write_rig(fresh, rig, Durability::Synced, project.rig());
+  std::filesystem::rename(fresh, project.rig());
+}
+
 }  // namespace
 
 FoundAxis calibrate_axis(const ProjectFolder& project,
@@ -46,10 +80,7 @@ FoundAxis calibrate_axis(const ProjectFolder& project,
                          const CaptureSettings& settings,
                          const CaptureSetup& setup,
                          const Run& run) {
-  Scan plan;
-  plan.folder = project.axis();
-  plan.name = "axis";
-  plan.rig = read_rig(project.rig(), run);
+  Scan plan = planned(project, run);
   plan.board = board;
   plan.patterns = calibration_patterns(plan.rig);
   for (int i = 0; i < kViews; ++i) {
@@ -60,16 +91,37 @@ FoundAxis calibrate_axis(const ProjectFolder& project,
   run.stage("axis");
   const TurntableCalibration found = calibrate_turntable(
       read_scan(plan.folder, run, RigContent::StartValues), plan.rig, {}, 5.0, run);
-  keep_rig(project, RigChange::Axis);
-  const std::filesystem::path fresh = project.folder / "rig-with-axis.toml";
-  write_rig(fresh, found.rig, Durability::Synced, project.rig());
-  std::filesystem::rename(fresh, project.rig());
+  replace_rig(project, found.rig);
   const TurntableSolution& solution = found.solution;
   return {.views = found.views.size(),
           .axis_sigma_deg = deg_from_rad(solution.axis_sigma_rad),
           .point_sigma_mm = solution.point_sigma_mm,
           .angles_rms_deg = deg_from_rad(solution.angle_rms_rad),
           .distance_mm = solution.turntable.point_mm.norm()};
+}
+
+FoundAxis calibrate_axis_by_part(const ProjectFolder& project,
+                                 const CaptureSettings& settings,
+                                 const CaptureSetup& setup,
+                                 const Run& run) {
+  constexpr int kAround = 8;
+  Scan plan = planned(project, run);
+  plan.patterns = patterns_of(settings, plan.rig);
+  for (int i = 0; i < kAround; ++i)
+    plan.views.push_back({kTwoPi * i / kAround, fmt::format("views/{:03}", i), 0});
+  capture_turned_part(plan, project, settings, setup, run);
+  run.stage("axis");
+  Scan scan = read_scan(plan.folder, run, RigContent::StartValues);
+  scan.rig = plan.rig;
+  const AxisOfPart found = find_turntable_axis(scan, {}, run);
+  Rig rig = plan.rig;
+  rig.turntable = found.table;
+  replace_rig(project, rig);
+  return {.views = found.views,
+          .axis_sigma_deg = deg_from_rad(found.table.axis_sigma_rad),
+          .point_sigma_mm = found.table.point_sigma_mm,
+          .angles_rms_deg = deg_from_rad(found.table.angle_sigma_rad),
+          .distance_mm = found.table.point_mm.norm()};
 }
 
 }  // namespace frangia

@@ -12,9 +12,9 @@ namespace frangia {
 
 /// The axis of a turntable in the figures that matter to a user.
 struct FoundAxis {
-  std::size_t views = 0;        ///< with the board
+  std::size_t views = 0;        ///< that show it
   double axis_sigma_deg = 0.0;  ///< standard deviation of its direction
-  double point_sigma_mm = 0.0;  ///< standard deviation of its place at the board
+  double point_sigma_mm = 0.0;  ///< standard deviation of its place at what stands on the table
   double angles_rms_deg = 0.0;  ///< by how much the views are off the angles that were commanded
   double distance_mm = 0.0;     ///< from the camera
 };
@@ -29,5 +29,13 @@ struct FoundAxis {
                                        const CaptureSettings& settings,
                                        const CaptureSetup& setup,
                                        const Run& run);
+
+/// The same with any part that stands on the table: eight views all around.
+///
+/// @errors   as open_devices, capture_scan and find_turntable_axis; rig.toml is then unchanged
+[[nodiscard]] FoundAxis calibrate_axis_by_part(const ProjectFolder& project,
+                                               const CaptureSettings& settings,
+                                               const CaptureSetup& setup,
+                                               const Run& run);
 
 }  // namespace frangia

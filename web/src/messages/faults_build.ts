@@ -34,9 +34,35 @@ export const FAULTS_BUILD = {
     'la vista {0} non combacia con nessun’altra e manca: controllare se il pezzo si è mosso prima',
   ],
   'fault.noAxis': [
-    '{0}: the views are at different angles, but rig.toml has no [turntable]; find its axis with `frangia calibrate turntable`',
+    '{0}: the views are at different angles, but rig.toml has no [turntable]; find its axis with `frangia calibrate turntable`, by a board or by this scan',
     'die Ansichten stehen in verschiedenen Winkeln, aber die Achse des Drehtischs ist unbekannt; im Schritt Aufbau finden',
     "le viste sono ad angoli diversi, ma l'asse della tavola è ignoto; trovarlo nel passo Apparato",
+  ],
+  'fault.partShowsNoAxis': [
+    'the part does not show the axis of the turntable, because {0}; stand a part without symmetry on the table, or a board',
+    'das Teil zeigt die Achse des Drehtischs nicht: {0}; ein Teil ohne Symmetrie oder ein Brett auf den Tisch stellen',
+    "il pezzo non mostra l'asse della tavola: {0}; mettere sulla tavola un pezzo senza simmetrie o una scacchiera",
+  ],
+  'fault.axisOnePose': [
+    'its views do not fit together in exactly one pose',
+    'seine Ansichten passen nicht in genau einer Lage zusammen',
+    'le sue viste non combaciano in una sola posa',
+  ],
+  'fault.axisNoTurn': [
+    'its views fit together in no turn about one axis',
+    'seine Ansichten passen bei keiner Drehung um eine Achse zusammen',
+    'le sue viste non combaciano in nessuna rotazione attorno a un asse',
+  ],
+  'fault.axisOpen': ['its shape leaves open {0}', 'seine Form lässt offen: {0}', 'la sua forma lascia aperto: {0}'],
+  'fault.axisAngles': [
+    'its views have {0} different angles, and an axis needs {1}; capture six stations or more around the part',
+    'seine Ansichten haben {0} verschiedene Winkel, und eine Achse braucht {1}; sechs oder mehr Stationen rund um das Teil aufnehmen',
+    'le sue viste hanno {0} angoli diversi, e un asse ne richiede {1}; acquisire sei o più stazioni attorno al pezzo',
+  ],
+  'fault.axisOrders': [
+    'its fringe orders rest on the axis that is looked for; capture Gray code or coarser fringes, too',
+    'seine Streifenordnungen beruhen auf der gesuchten Achse; auch Gray-Code oder gröbere Streifen aufnehmen',
+    "i suoi ordini di frangia si basano sull'asse cercato; acquisire anche il codice Gray o frange più grosse",
   ],
   'fault.axisUnknown': [
     'the axis of the turntable is unknown: find it in step Rig, or scan a single station',

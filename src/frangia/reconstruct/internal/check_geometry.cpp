@@ -23,7 +23,8 @@ void check_turntable(const Scan& scan) {
     if (std::abs(wrap_rad(view.angle_rad - first)) < kSame) continue;
     throw Error(ErrorKind::Input,
                 fmt::format("{}: the views are at different angles, but rig.toml has no "
-                            "[turntable]; find its axis with `frangia calibrate turntable`",
+                            "[turntable]; find its axis with `frangia calibrate turntable`, by a "
+                            "board or by this scan",
                             scan.folder.string()));
   }
 }

@@ -47,6 +47,7 @@ void assess_observability(RegistrationReport& report,
   report.condition =
       std::sqrt((1.0 + gain.values.tail<1>()[0]) / (1.0 + std::max(0.0, gain.values[0])));
   report.axis_sigma_mm = weakest_axis_sigma_mm(gain, bundle.prior_sigma, part_radius_mm);
+  report.axis_sigma_rad = report.axis_sigma_mm / std::max(1e-9, part_radius_mm);
   const auto angles = static_cast<Eigen::Index>(bundle.state.angles_rad.size()) - 1;
   std::array<double, 3> undetermined{};  // squared components in tilt, shift, angles
   for (Eigen::Index i = 0; i < gain.values.size() && gain.values[i] < kWellDetermined; ++i) {

@@ -6,8 +6,8 @@
 namespace frangia {
 
 /// Finds which unknowns the views determine worse than the prior does, by the eigenvectors of their
-/// information in units of the prior's. Sets `weakest`, `condition`, `axis_sigma_mm` and
-/// `undetermined`.
+/// information in units of the prior's. Sets `weakest`, `condition`, `axis_sigma_mm`,
+/// `axis_sigma_rad` and `undetermined`.
 ///
 /// @units    `part_radius_mm`: how far the part reaches; a tilt of the axis moves it by that arm
 void assess_observability(RegistrationReport& report,

@@ -149,24 +149,34 @@ nlohmann::ordered_json Service::Implementation::start_calibration(CommandArgumen
                  });
 }
 
+namespace {
+
 /// The board that was captured for the calibration, unless another one is described.
-nlohmann::ordered_json Service::Implementation::find_axis(CommandArguments& arguments) {
-  const OpenProject project = opened();
+Board board_of(CommandArguments& arguments, const ProjectFolder& folder) {
   constexpr std::size_t kFewestPoints = 3;
   constexpr std::size_t kMostPoints = 100;
-  Board board;
   if (const auto square_mm = arguments.positive("square_mm")) {
+    Board board;
     board.square_mm = *square_mm;
     board.columns = static_cast<int>(arguments.whole("columns", kFewestPoints, kMostPoints));
     board.rows = static_cast<int>(arguments.whole("rows", kFewestPoints, kMostPoints));
     check_board(board);
-  } else {
-    std::error_code ignored;
-    const std::filesystem::path poses = project.folder.calibration();
-    require(std::filesystem::exists(poses / "scan.toml", ignored),
-            "square_mm: the board is not known; state columns, rows and square_mm");
-    board = read_scan(poses, {}, RigContent::StartValues).board.value();
+    return board;
   }
+  std::error_code ignored;
+  const std::filesystem::path poses = folder.calibration();
+  require(std::filesystem::exists(poses / "scan.toml", ignored),
+          "square_mm: the board is not known; state columns, rows and square_mm");
+  return read_scan(poses, {}, RigContent::StartValues).board.value();
+}
+
+}  // namespace
+
+/// By a board or any part on the table.
+nlohmann::ordered_json Service::Implementation::find_axis(CommandArguments& arguments) {
+  const OpenProject project = opened();
+  std::optional<Board> board;  // none: any part
+  if (!arguments.flag("part")) board = board_of(arguments, project.folder);
   arguments.check_all_read();
   require(project.can_scan, "this project has no rig with devices");
   require(project.rig.has_value(), "calibrate the rig first; the axis needs camera and projector");
@@ -181,7 +191,9 @@ nlohmann::ordered_json Service::Implementation::find_axis(CommandArguments& argu
   stop_live();
   return started(
       "axis", [this, board, settings = project.capture, folder = project.folder](const Run& run) {
-        const FoundAxis found = calibrate_axis(folder, board, settings, options_.capture, run);
+        const FoundAxis found =
+            board ? calibrate_axis(folder, *board, settings, options_.capture, run)
+                  : calibrate_axis_by_part(folder, settings, options_.capture, run);
         change([&](OpenProject& now) {
           now.axis = found;
           now.check.reset();

@@ -2,20 +2,23 @@ import { html } from 'lit';
 import type { App } from '../../parts';
 import { number, t } from '../../messages';
 import { axisIsKnown, hasTable } from '../../rig_facts';
+import { choice } from '../../ui';
+import type { AxisBy } from '../../arranging';
 import { boardFields, boardOf } from './board';
 import type { RigStage } from './stages';
 
-/** Finds the axis of the turntable with the board of the calibration. Null without a turntable or a calibration. */
+/** Finds the axis of the turntable by the board of the calibration, or by any part. Null without a turntable. */
 export function axisStage(app: App): RigStage | null {
   const { project } = app;
   if (!project.can_scan || !hasTable(app)) return null;
   const job = app.job('axis');
   const found = project.axis;
   const known = axisIsKnown(app);
+  const byPart = app.arranging.axisBy === 'part';
   const ownBoard = project.residuals_s > 0; // that of the calibration here
   const find = (event: SubmitEvent) => {
     event.preventDefault();
-    const board = ownBoard ? {} : boardOf(new FormData(event.target as HTMLFormElement));
+    const board = byPart ? { part: true } : ownBoard ? {} : boardOf(new FormData(event.target as HTMLFormElement));
     void (async () => {
       if (!known || (await app.asking.confirm(t('axis.ask'), t('axis.again')))) await app.command('find-axis', board);
     })();
@@ -32,7 +35,8 @@ export function axisStage(app: App): RigStage | null {
           <dt>${t('axis.views')}</dt>
           <dd class="num">${found.views}</dd>
         </dl>`
-      : html`<p class="quiet">${t(!project.rig ? 'axis.later' : known ? 'axis.known' : 'axis.unknown')}</p>`
+      : html`<p class="quiet">${t(!project.rig ? 'axis.later' : known ? 'axis.known' : 'axis.unknown')}</p>
+          ${project.rig ? html`<p class="quiet">${t(byPart ? 'axis.standPart' : 'axis.standBoard')}</p>` : ''}`
   }
   ${
     !project.rig
@@ -43,7 +47,16 @@ export function axisStage(app: App): RigStage | null {
               ${t('axis.stop')}
             </button>`
         : html`<form class="form-plain" @submit=${find}>
-            ${ownBoard ? '' : html`<div class="four">${boardFields()}</div>`}
+            ${choice<AxisBy>(
+              t('axis.by'),
+              app.arranging.axisBy,
+              [
+                ['board', t('axis.byBoard')],
+                ['part', t('axis.byPart')],
+              ],
+              (by) => app.arranging.setAxisBy(by),
+            )}
+            ${ownBoard || byPart ? '' : html`<div class="four">${boardFields()}</div>`}
             <button
               class="btn ${known ? '' : 'primary'} wide"
               id="find-axis"
