@@ -40,7 +40,10 @@ void calibrate_refine_verb(const RefineArguments& arguments, Terminal& terminal)
     print_json(json);
     return;
   }
-  if (!terminal.quiet) print_refinement(result);
+  if (!terminal.quiet) {
+    print_text("{}\n", result.text());
+    print_changes(result);
+  }
   terminal.print_written(arguments.output.string());
 }
 

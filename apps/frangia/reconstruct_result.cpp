@@ -258,7 +258,7 @@ void print_reconstruction(const Reconstruction& result,
   if (result.silhouettes && !result.silhouettes->contradicts())
     print_text("{}\n", result.silhouettes->text());
   if (result.targets) print_text("{}\n", result.targets->text());
-  if (result.refinement) print_refinement(*result.refinement);
+  if (result.refinement) print_changes(*result.refinement);  // a note has said the rest
   print_mesh_summary(terminal, outputs);
   if (!raw.empty()) terminal.print_written(raw.string());
 }

@@ -25,8 +25,7 @@ nlohmann::ordered_json json_of(const RigRefinement& refinement) {
   return json;
 }
 
-void print_refinement(const RigRefinement& refinement) {
-  write_output(refinement.text() + "\n");
+void print_changes(const RigRefinement& refinement) {
   if (refinement.kept_rig && refinement.scale == 1.0) return;
   TextColumn name{"parameter", {}, false};
   TextColumn change{"change", {}};

@@ -9,7 +9,7 @@ namespace frangia {
 /// The findings of a refinement for `--json`.
 [[nodiscard]] nlohmann::ordered_json json_of(const RigRefinement& refinement);
 
-/// Prints the findings, and one line for each parameter that the part determines.
-void print_refinement(const RigRefinement& refinement);
+/// Prints a line for each parameter of a rig that changed.
+void print_changes(const RigRefinement& refinement);
 
 }  // namespace frangia
