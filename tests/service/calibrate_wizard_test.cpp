@@ -90,16 +90,20 @@ TEST_F(LiveServiceTest, CalibratesWithAPrintedBoardThatNamesItself) {
   EXPECT_NEAR(known.projector.position_mm.norm(), baseline, 0.01 * baseline);
 }
 
-/// After the calibration of a new rig nothing says where its turntable is.
+/// As after the calibration of a new rig, which says nothing of its turntable.
+void remove_turntable(const std::filesystem::path& file) {
+  Rig rig = read_rig(file);
+  rig.turntable.reset();
+  const std::filesystem::path fresh = file.parent_path() / "fresh.toml";
+  write_rig(fresh, rig, Durability::Buffered, file);
+  std::filesystem::rename(fresh, file);
+}
+
 TEST_F(LiveServiceTest, FindsTheAxisOfItsTurntableAndScansNoStationsBefore) {
   const std::filesystem::path file = folder_.path() / "live" / "rig.toml";
   const Turntable truth = read_rig(file).turntable.value();
-  Rig rig = read_rig(file);
-  rig.turntable.reset();
   command("close-project");
-  const std::filesystem::path fresh = folder_.path() / "live" / "fresh.toml";
-  write_rig(fresh, rig, Durability::Buffered, file);
-  std::filesystem::rename(fresh, file);
+  remove_turntable(file);
   const Rig simulated = read_rig(folder_.path() / "live" / "true-rig.toml");
   ASSERT_TRUE(simulated.turntable) << "the simulated table turns as before";
   command("open-project", {{"name", "live"}});
@@ -130,12 +134,8 @@ TEST_F(LiveServiceTest, FindsTheAxisByThePartThatStandsOnTheTable) {
   ASSERT_TRUE(wait([&] { return !busy(); }));
   const std::filesystem::path file = folder_.path() / "figure" / "rig.toml";
   const Turntable truth = read_rig(file).turntable.value();
-  Rig rig = read_rig(file);
-  rig.turntable.reset();
   command("close-project");
-  const std::filesystem::path fresh = folder_.path() / "figure" / "fresh.toml";
-  write_rig(fresh, rig, Durability::Buffered, file);
-  std::filesystem::rename(fresh, file);
+  remove_turntable(file);
   command("open-project", {{"name", "figure"}});
   ASSERT_TRUE(wait([&] { return !busy(); }));
   command("find-axis", {{"part", true}});

@@ -94,7 +94,7 @@ void remove_what_stays(ViewStore& views) {
   }
 }
 
-/// The middle of the points of the first view that has some, in the rig frame.
+/// The middle of the points of all views, in the rig frame.
 Eigen::Vector3d middle_of(const std::vector<SurfelMap>& maps) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   double count = 0.0;

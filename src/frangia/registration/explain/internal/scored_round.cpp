@@ -207,12 +207,11 @@ int freedom_of(PoseCause cause) {
     case PoseCause::RigDrift:
     case PoseCause::ViewsMoved:
       return 6;
-    case PoseCause::Wobble:
-      return 7;
+    case PoseCause::Wobble:  // differs by its size alone from views that are all elsewhere
     case PoseCause::Unexplained:
       break;
   }
-  return 8;
+  return 7;
 }
 
 bool are_alike(const PoseRound& round, const CauseMotion& one, const CauseMotion& other) {
@@ -250,10 +249,6 @@ std::size_t winner_of(const PoseRound& round) {
   std::size_t best = first;
   for (std::size_t i = first + 1; i < round.causes.size(); ++i) {
     const ScoredCause& cause = round.causes[i];
-    // A table's play differs by its size alone from views that are all elsewhere.
-    const bool by_size =
-        cause.cause == PoseCause::Wobble && round.causes[first].cause == PoseCause::Unexplained;
-    if (by_size && cause.log_odds < round.causes[first].log_odds - kNamed) continue;
     if (cause.log_odds > kNamed && freedom_of(cause.cause) < freedom_of(round.causes[best].cause) &&
         are_alike(round, first, i))
       best = i;
