@@ -3,6 +3,7 @@
 #include <cmath>
 #include <complex>
 #include <numeric>
+#include <random>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -168,6 +169,32 @@ TEST(FitWaveform, IgnoresSaturatedPixelsAndCountsThoseCutOffAtZero) {
 TEST(FitWaveform, FindsNothingInTooFewPixels) {
   const WaveformFit found = fit({.width = 30, .height = 20, .gamma = 2.2}, 4);
   EXPECT_EQ(found.largest_harmonic(), 0);
+}
+
+TEST(FitWaveform, TakesTheShadingOfARoundPartForNoFlicker) {
+  // A shaft in a lit room: its contrast falls from the side of the projector to the other one.
+  const std::vector<double> shifts = equal_shifts(4, kTwoPi / 4);
+  for (const double start : {0.0, 0.8, 1.6, 2.4, 3.2, 4.0, 4.8, 5.6}) {
+    FrameStack stack{.pattern = {.period_px = 120.0, .shifts_rad = shifts}, .frames = {}};
+    std::mt19937 generator(1);
+    std::normal_distribution<double> noise(0.0, 1.5);
+    for (const double shift : shifts) {
+      Image<std::uint8_t> image(560, 400, 3);
+      for (int y = 40; y < 360; ++y) {
+        for (int x = 182; x < 378; ++x) {
+          const double turned = std::asin((x - 280.0) / 100.0);
+          const double lit = std::max(0.0, std::cos(turned + 0.35));
+          const double phase = start + kTwoPi * (x + 0.02 * y) / stack.pattern.period_px + shift;
+          const double counts = 12.0 + 180.0 * lit * (0.5 + 0.5 * std::cos(phase));
+          image(x, y) = static_cast<std::uint8_t>(std::lround(counts + noise(generator)));
+        }
+      }
+      stack.frames.emplace_back(std::move(image));
+    }
+    const WaveformFit found = fit_waveform(stack, shifts, NoiseModel{2.25 + 1.0 / 12.0, 0.0});
+    EXPECT_EQ(found.flicker_error_rad, 0.0) << start;
+    EXPECT_EQ(found.largest_harmonic(), 0) << start;
+  }
 }
 
 TEST(FitWaveform, TakesTheShadingOfAPartOfOneFringeForNoHarmonic) {

@@ -58,6 +58,28 @@ TEST(ExplainPoses, CorrectsFaultsOfACurvedPartAsFarAsItsNoiseLets) {
   expect_corrected(drifted, PoseCause::RigDrift);
 }
 
+TEST(ExplainPoses, NamesFaultsThatAreSmallerThanTheNoiseOfOnePair) {
+  // Thousands of pairs show them, with the noise of a cheap camera too.
+  const RayScene bust(make_part("bust"));
+  const auto expect_named = [&](FaultyScan scan, PoseCause cause) {
+    scan.phase_sigma_rad = 0.03;
+    const Registered out = registered(scan, bust, false);
+    EXPECT_EQ(out.report.explanation.best, cause) << out.report.text();
+    EXPECT_TRUE(out.report.explanation.decided) << out.report.text();
+  };
+  FaultyScan wobbled(8);
+  wobbled.wobble(rad_from_deg(0.03), 0.03);
+  FaultyScan wrong(8);
+  wrong.drift_projector(rad_from_deg(0.1), 0.5, true);
+  FaultyScan lost(8);
+  for (std::size_t view = 3; view < lost.views.size(); ++view)
+    lost.views[view].angle_rad -= rad_from_deg(1.8);
+  expect_named(wobbled, PoseCause::Wobble);
+  expect_named(wrong, PoseCause::Rig);
+  expect_named(lost, PoseCause::Turned);
+  expect_named(FaultyScan(8), PoseCause::AsStated);
+}
+
 TEST(ExplainPoses, StatesHowFarASlideAlongFlatFacesIsOpen) {
   FaultyScan scan(8);
   scan.slide(4, Eigen::Vector3d(0.32, 0.24, 0.0));

@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "frangia/core/error.h"
+#include "frangia/registration/internal/drift_field.h"
 #include "frangia/registration/internal/drift_model.h"
 #include "frangia/registration/internal/known_length.h"
 #include "frangia/registration/internal/view_transfer.h"
@@ -326,6 +327,23 @@ TEST(PointDrift, IsTheMotionOfATriangulatedPoint) {
               0.01 * kStep * by.col(i).norm() + 2e-4)
         << model.parameters()[static_cast<std::size_t>(i)];
   }
+}
+
+TEST(DriftField, IsTheMotionOfThePointsOfAView) {
+  const Rig rig = true_rig();
+  const DriftModel model(rig, {}, 650.0);
+  const PointDrift drift(model, Eigen::VectorXd::Zero(model.count()));
+  const auto maps = make_surfel_maps(views_of(knobbly, 1), rig.reference().model, 3000);
+  const std::vector<SurfelMap::Surfel> surfels = pick_surfels(maps.front(), 1000);
+  const DriftField field(drift, kColumns, surfels);
+  for (const SurfelMap::Surfel& surfel : surfels) {
+    const Eigen::Vector3d point = surfel.point_mm.cast<double>();
+    const PointDrift::Derivative by = drift.of(point, kColumns);
+    ASSERT_LT((field.of(point) - by).norm(), 1e-3F * by.norm());
+  }
+  const Eigen::Vector3d point(0.0, 0.0, 650.0);
+  EXPECT_EQ(DriftField(drift, kColumns, {}).of(point),
+            PointDrift::Derivative::Zero(3, model.count()));
 }
 
 TEST(DriftModel, AddsNothingToACovarianceThatIsNotMeasured) {

@@ -40,5 +40,17 @@ TEST(WidenDrift, KeepsTheStandardDeviationsOfADriftThatTheyAllow) {
   EXPECT_LT(widening.maxCoeff(), 1.3);
 }
 
+TEST(WidenDrift, GainsWhatTheWiderLensExplains) {
+  // 17 standard deviations of a measurement to a hundredth of one, of which a lens 20 times as wide
+  // leaves hardly any.
+  const Eigen::Vector2d about(3.0, 0.0);
+  const Eigen::Vector2d there(20.0, 0.0);
+  const Eigen::Vector2d wide(20.0, 1.0);
+  const DriftEvidence evidence = measured({1.0, 0.0}, 20.0, about);
+  EXPECT_NEAR(gain_by_widening(two_lenses(), evidence, about, wide), 1e4 * 17.0 * 17.0, 1.0);
+  EXPECT_NEAR(
+      gain_by_widening(two_lenses(), measured({1.0, 0.0}, 20.0, there), there, wide), 0.0, 1.0);
+}
+
 }  // namespace
 }  // namespace frangia

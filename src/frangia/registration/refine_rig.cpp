@@ -173,21 +173,28 @@ class RigFit {
   }
 
   /// Widens the standard deviations of parameters that are farther from the rig's than they allow.
-  /// Returns whether any are.
+  /// Returns whether any are. Where no change that was found is beyond them, one that would spare
+  /// less than the errors that surfaces of sound scans have in common is none.
   [[nodiscard]] bool widen() {
     constexpr double kNoticeably = 1.3;
+    constexpr double kBeyond = 3.0;  // standard deviations
+    constexpr double kCommon = 2.5;  // times the systematic error of a view
     DriftBundle all = bundle_;
     all.free_directions = Eigen::MatrixXd::Identity(model_.count(), model_.count());
-    const DriftEvidence evidence =
-        evidence_of(all, sum_drift(all, kComparedSurfels), all.table_sigma);
-    const Eigen::VectorXd wider = widening_by_evidence(
-        {model_.groups(),
-         static_cast<Eigen::Index>(model_.parameters().size()),
-         [&](const Eigen::VectorXd& widening) -> Eigen::MatrixXd {
-           return least_squares(model_.factor(), model_widened_by(widening).factor());
-         }},
-        evidence,
-        bundle_.state.w);
+    const DriftSums sums = sum_drift(all, kComparedSurfels);
+    const DriftEvidence evidence = evidence_of(all, sums, all.table_sigma);
+    const DriftHypotheses hypotheses{model_.groups(),
+                                     static_cast<Eigen::Index>(model_.parameters().size()),
+                                     [&](const Eigen::VectorXd& widening) -> Eigen::MatrixXd {
+                                       return least_squares(model_.factor(),
+                                                            model_widened_by(widening).factor());
+                                     }};
+    const Eigen::VectorXd wider = widening_by_evidence(hypotheses, evidence, bundle_.state.w);
+    const double pairs = sums.weight(all) * static_cast<double>(sums.distances_mm.size());
+    const double gain = gain_by_widening(hypotheses, evidence, bundle_.state.w, wider);
+    const double effect_mm = bundle_.noise_mm * std::sqrt(gain / pairs);
+    const bool is_beyond = bundle_.state.w.cwiseAbs().maxCoeff() > kBeyond;
+    if (!is_beyond && effect_mm < kCommon * bundle_.systematic_mm) return false;
     if (widening_.size() == 0) widening_ = Eigen::VectorXd::Ones(wider.size());
     if ((wider.cwiseQuotient(widening_)).maxCoeff() < kNoticeably) return false;
     widening_ = wider;

@@ -32,7 +32,7 @@ void score_pairs(PoseRound& round,
                  const Eigen::VectorXd& rig_at) {
   if (model) {
     round.rig_at = rig_at;
-    round.rig = rig_changes(*model, *given.pattern, round.chart.setting.rig_basis, rig_at);
+    round.rig = rig_changes(*model, *given.pattern, surfels, round.chart.setting.rig_basis, rig_at);
     PoseSetting& setting = round.chart.setting;
     setting.rig_changes = model->count();
     setting.projector_moves = model->by_motions_of_projector(setting.tilt_rad, setting.shift_mm);
@@ -60,27 +60,16 @@ PoseRound scored_as_placed(const Registration& work,
   return round;
 }
 
-/// Whether the stated table leaves the views much farther apart than the refined one, which has not
-/// just slid along faces that do not hold it.
-bool contradicts_stated(const PoseRound& round, const Registration& work) {
-  constexpr double kMuch = 2.0;
-  Bundle bundle = round.bundle;
-  bundle.gate_mm = work.reach_mm;
-  const double refined_mm = rms_of(sum(bundle, work.surfels).distances_mm);
-  bundle.state = bundle.given;
-  return rms_of(sum(bundle, work.surfels).distances_mm) > kMuch * refined_mm;
-}
-
 /// Whether views that are moved by themselves fit noticeably better than the table places them, or
-/// the table does so only by changes that are not to be expected. Else they would slide along faces
-/// that do not hold them.
-bool fits_better_free(const PoseRound& round, const Registration& work) {
-  if (is_beyond_prior(round) && contradicts_stated(round, work)) return true;
+/// the table does so only by changes that are not to be expected, of which there is a more probable
+/// cause. Else they would slide along faces that do not hold them.
+bool fits_better_free(const PoseRound& round) {
+  const ScoredCause& cause = round.causes[most_probable_of(round)];
+  if (is_beyond_prior(round) && cause.cause != PoseCause::AsStated && cause.log_odds > kNamed)
+    return true;
   const PosePosterior free =
       round.posterior({PoseCause::Unexplained, {}, 0.001 * round.chart.setting.distance_mm, 0.0});
-  const double effect_mm = round.effect_mm(free.motion - round.stated());
-  constexpr double kSystematic = 2.5;  // times the error that sound views have in common
-  return effect_mm > std::max(kSystematic * round.bundle.systematic_mm, round.noise.scatter_mm);
+  return round.effect_mm(free.motion - round.stated()) > noticeable_mm(round);
 }
 
 const ScoredCause& as_stated(const PoseRound& round) {
@@ -272,7 +261,7 @@ std::optional<DriftModel> drift_of(const TurntableStations& given, const PoseCha
 bool leaves_nothing_to_explain(const Registration& work, const TurntableStations& given) {
   const PoseChart chart = chart_of(work);
   const PoseRound placed = scored_as_placed(work, given, drift_of(given, chart), chart);
-  return !changes_rig(placed.causes[winner_of(placed)].cause) && !fits_better_free(placed, work);
+  return !changes_rig(placed.causes[winner_of(placed)].cause) && !fits_better_free(placed);
 }
 
 ExplainedPoses explain_poses(const Registration& work,
@@ -290,8 +279,7 @@ ExplainedPoses explain_poses(const Registration& work,
     if (model) open_as_placed = open_rig(placed, *model, std::nullopt);
     placed = without_rig(std::move(placed));
   }
-  if (!again && fits_better_free(placed, work))
-    again = scored_where_free(work, given, model, chart);
+  if (!again && fits_better_free(placed)) again = scored_where_free(work, given, model, chart);
   if (!again) {
     all.rig_open = std::move(open_as_placed);
     all.spread = spread_of_causes(placed, as_stated(placed), work).of_views();

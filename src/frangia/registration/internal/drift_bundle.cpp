@@ -46,26 +46,24 @@ class ViewComparison {
 
  private:
   [[nodiscard]] Eigen::Vector3d place_of(const SurfelMap::Surfel& surfel,
-                                         const PointDrift::Derivative& by) const {
-    return (surfel.point_mm + by * moved_).cast<double>();
+                                         const DriftField& field) const {
+    const Eigen::Vector3d point = surfel.point_mm.cast<double>();
+    return point + (field.of(point) * moved_).cast<double>();
   }
 
   void add_pair(const SurfelMap::Surfel& surfel,
                 std::size_t index,
                 const DriftView& to,
                 const ViewTransfer& transfer) {
-    const PointDrift::Derivative& by_from = from_.derivatives[index];
     const auto width = static_cast<std::size_t>(from_.map.surfels.width());
     const auto height = static_cast<std::size_t>(from_.map.surfels.height());
     region_ = (2 * (index % width) < width ? 0 : 1) + (2 * (index / width) < height ? 0 : 2);
-    const Eigen::Vector3d own = place_of(surfel, by_from);
+    const Eigen::Vector3d own = place_of(surfel, from_.field);
     const Eigen::Vector3d point = transfer.apply(own);
     const SurfelMap::Surfel* found = surfel_at(to.map, bundle_.camera, point);
     if (found == nullptr) return;
-    const PointDrift::Derivative& by_to =
-        to.derivatives[static_cast<std::size_t>(found - to.map.surfels.pixels().data())];
     SurfelMap::Surfel target = *found;
-    target.point_mm = place_of(*found, by_to).cast<float>();
+    target.point_mm = place_of(*found, to.field).cast<float>();
     const Eigen::Vector3d facing = transfer.rotation() * surfel.normal.cast<double>();
     const SurfelPair pair(point, facing, target);
     if (facing.dot(point) >= 0.0 || !pair.faces_alike()) return;
@@ -76,9 +74,11 @@ class ViewComparison {
                            std::pow(static_cast<double>(target.sigma_mm), 2));
     const Eigen::Vector3f at_to = pair.normal.cast<float>();
     const Eigen::Vector3f at_from = (transfer.rotation().transpose() * pair.normal).cast<float>();
-    const Eigen::VectorXf by_changes = by_from.transpose() * at_from - by_to.transpose() * at_to;
+    const Eigen::Vector3d middle = own - 0.5 * (transfer.rotation().transpose() * pair.offset);
+    const Eigen::VectorXf by_changes =
+        from_.field.of(middle).transpose() * at_from - to.field.of(pair.middle).transpose() * at_to;
     const Eigen::VectorXd by_rig = (free_.transpose() * by_changes).cast<double>();
-    add_row(by_rig, transfer.jacobian(pair.normal, own), weight, distance, to.station);
+    add_row(by_rig, transfer.jacobian(pair.normal, middle), weight, distance, to.station);
     sums.distances_mm.push_back(static_cast<float>(std::abs(distance)));
   }
 

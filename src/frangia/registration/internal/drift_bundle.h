@@ -7,7 +7,7 @@
 
 #include "frangia/core/run.h"
 #include "frangia/local_fit/surfel_map.h"
-#include "frangia/registration/internal/drift_model.h"
+#include "frangia/registration/internal/drift_field.h"
 #include "frangia/registration/internal/table_state.h"
 #include "frangia/registration/internal/view_pairs.h"
 #include "frangia/rig/camera_model.h"
@@ -18,9 +18,7 @@ namespace frangia {
 struct DriftView {
   SurfelMap map;
   std::size_t station = 0;
-  /// Derivatives by the changes of the rig, one for each surfel of the map, row by row; empty where
-  /// there is no surfel.
-  std::vector<PointDrift::Derivative> derivatives{};
+  DriftField field{};
 };
 
 /// Drift of a rig and its turntable, in one linearization of the triangulation.

@@ -177,7 +177,7 @@ PointDrift::PointDrift(const DriftModel& model, const Eigen::VectorXd& w) : rig_
 PointDrift::Derivative PointDrift::of(const Eigen::Vector3d& point_mm,
                                       const Pattern& pattern) const {
   constexpr double kRelativeStep = 1e-4;  // of the depth, for the gradient of the phase
-  const auto changes = static_cast<Eigen::Index>(changed_.size() / 2);
+  const Eigen::Index changes = count();
   const double depth_mm = point_mm.z();
   const Eigen::Vector3d direction = point_mm / depth_mm;
   Eigen::Vector3d gradient;  // of the phase, rad/mm

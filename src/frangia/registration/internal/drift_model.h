@@ -61,6 +61,10 @@ class PointDrift {
   ///
   /// @missing  zero where the changed rigs do not measure the point
   [[nodiscard]] Derivative of(const Eigen::Vector3d& point_mm, const Pattern& pattern) const;
+  /// Of the changes.
+  [[nodiscard]] Eigen::Index count() const {
+    return static_cast<Eigen::Index>(changed_.size() / 2);
+  }
 
  private:
   Rig rig_;

@@ -15,7 +15,7 @@
 namespace frangia {
 namespace {
 
-/// Surfels of a map. Each has its derivatives, 150 bytes.
+/// Surfels of a map.
 constexpr std::size_t kSurfelsOfView = 30'000;
 
 }  // namespace
@@ -37,7 +37,7 @@ std::vector<DriftView> drift_views(std::span<const RigSurfaces> surfaces,
                                silent)
             : make_surfel_maps(surface.views, rig.reference().model, budget, silent);
     for (std::size_t i = 0; i < maps.size(); ++i)
-      views.push_back({maps[i], surface.stations[i], {}});
+      views.push_back({maps[i], surface.stations[i]});
   }
   return views;
 }
@@ -45,20 +45,13 @@ std::vector<DriftView> drift_views(std::span<const RigSurfaces> surfaces,
 void differentiate(std::vector<DriftView>& views,
                    std::span<const RigSurfaces> surfaces,
                    const PointDrift& drift) {
-  std::size_t view = 0;
-  for (const RigSurfaces& surface : surfaces) {
-    for (std::size_t i = 0; i < surface.stations.size(); ++i, ++view) {
-      const auto surfels = views[view].map.surfels.pixels();
-      auto& derivatives = views[view].derivatives;
-      derivatives.resize(surfels.size());
-      parallel_chunks(surfels.size(), 1024, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t at = begin; at < end; ++at) {
-          if (surfels[at].sigma_mm > 0.0F)
-            derivatives[at] = drift.of(surfels[at].point_mm.cast<double>(), surface.pattern);
-        }
-      });
-    }
-  }
+  constexpr std::size_t kSome = 1000;  // surfels that show the field
+  std::vector<const Pattern*> patterns;
+  for (const RigSurfaces& surface : surfaces)
+    patterns.insert(patterns.end(), surface.stations.size(), &surface.pattern);
+  parallel_chunks(views.size(), 1, [&](std::size_t view, std::size_t /*end*/) {
+    views[view].field = DriftField(drift, *patterns[view], pick_surfels(views[view].map, kSome));
+  });
 }
 
 ViewPairs comparable_pairs(const std::vector<DriftView>& views,
@@ -107,6 +100,11 @@ constexpr double kAllWider = 3.0;
 /// Natural logarithm of the odds that one of the groups is not, before the surfaces are seen.
 constexpr double kDriftNotAsStated = -6.9;
 
+/// The evidence about no change of the rig.
+DriftEvidence from_zero(const DriftEvidence& evidence, const Eigen::VectorXd& w) {
+  return {evidence.hessian, evidence.gradient - product(evidence.hessian, w)};
+}
+
 /// Natural logarithm of the evidence of a prior of w, over that of no change at all.
 double log_evidence(const DriftEvidence& about_zero, const Eigen::MatrixXd& factor) {
   Eigen::MatrixXd hessian = congruence(factor, about_zero.hessian);
@@ -121,8 +119,7 @@ double log_evidence(const DriftEvidence& about_zero, const Eigen::MatrixXd& fact
 Eigen::VectorXd widening_by_evidence(const DriftHypotheses& hypotheses,
                                      const DriftEvidence& evidence,
                                      const Eigen::VectorXd& w) {
-  const DriftEvidence about_zero{evidence.hessian,
-                                 evidence.gradient - product(evidence.hessian, w)};
+  const DriftEvidence about_zero = from_zero(evidence, w);
   const Eigen::VectorXd none = Eigen::VectorXd::Ones(hypotheses.parameters);
   std::vector<Eigen::VectorXd> widenings{none, kAllWider * none};
   const double rare =
@@ -149,6 +146,22 @@ Eigen::VectorXd widening_by_evidence(const DriftHypotheses& hypotheses,
     sum += odds;
   }
   return (squares / sum).cwiseSqrt();
+}
+
+double gain_by_widening(const DriftHypotheses& hypotheses,
+                        const DriftEvidence& evidence,
+                        const Eigen::VectorXd& w,
+                        const Eigen::VectorXd& widening) {
+  const DriftEvidence about_zero = from_zero(evidence, w);
+  const Eigen::MatrixXd factor = hypotheses.factor(widening);
+  Eigen::MatrixXd hessian = congruence(factor, about_zero.hessian);
+  hessian.diagonal().array() += 1.0;
+  const Eigen::VectorXd gradient = transposed_product(factor, about_zero.gradient);
+  const Eigen::VectorXd likely = -product(factor, Cholesky(hessian).solve(gradient));
+  const auto loss = [&](const Eigen::VectorXd& at) {
+    return at.dot(0.5 * product(about_zero.hessian, at) + about_zero.gradient);
+  };
+  return 2.0 * (loss(w) - loss(likely));
 }
 
 }  // namespace frangia

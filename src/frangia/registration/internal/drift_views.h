@@ -21,7 +21,7 @@ namespace frangia {
                                                  bool changed,
                                                  const Run& run);
 
-/// Computes the derivatives of all surfels about a state.
+/// Sets how the points of the views move about a state.
 void differentiate(std::vector<DriftView>& views,
                    std::span<const RigSurfaces> surfaces,
                    const PointDrift& drift);
@@ -60,5 +60,13 @@ struct DriftHypotheses {
 [[nodiscard]] Eigen::VectorXd widening_by_evidence(const DriftHypotheses& hypotheses,
                                                    const DriftEvidence& evidence,
                                                    const Eigen::VectorXd& w);
+
+/// Twice the loss that the most probable change of the rig spares against `w`, where the standard
+/// deviations are wider by these factors: the sum of the squares, over their variances, of what it
+/// changes in the pairs.
+[[nodiscard]] double gain_by_widening(const DriftHypotheses& hypotheses,
+                                      const DriftEvidence& evidence,
+                                      const Eigen::VectorXd& w,
+                                      const Eigen::VectorXd& widening);
 
 }  // namespace frangia

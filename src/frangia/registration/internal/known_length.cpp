@@ -31,7 +31,8 @@ KnownLength measure_known_length(const DriftBundle& bundle, const RefineRigOptio
       if (!(own[i].sigma_mm > 0.0F)) continue;
       points.push_back({object_from_rig * own[i].point_mm.cast<double>(),
                         object_from_rig.linear() * own[i].normal.cast<double>()});
-      derivatives.emplace_back(object_from_rig.linear() * view.derivatives[i].cast<double>());
+      derivatives.emplace_back(object_from_rig.linear() *
+                               view.field.of(own[i].point_mm.cast<double>()).cast<double>());
     }
   }
   const auto pair = find_ball_pair(points);

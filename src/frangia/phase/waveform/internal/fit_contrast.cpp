@@ -163,6 +163,8 @@ class ContrastModel {
 
 /// Normal equations of one tile, without its mean contrast.
 struct TileEquations {
+  int column = 0;
+  int row = 0;
   Matrix4 normal = Matrix4::Zero();
   Vector4 right = Vector4::Zero();
 };
@@ -180,7 +182,8 @@ std::vector<TileEquations> tile_equations(const FringeBins& bins,
     Vector4 mean_slope = Vector4::Zero();
     for (int i = 0; i < 4; ++i)
       mean_slope(i) = (count * slope.col(i)).sum() / pixels;
-    TileEquations equations;
+    TileEquations equations{.column = static_cast<int>(tile) % kContrastTiles,
+                            .row = static_cast<int>(tile) / kContrastTiles};
     for (int bin = 0; bin < kPhaseBins; ++bin) {
       if (count(bin) == 0.0) continue;
       const Vector4 row = slope.row(bin).transpose().matrix() - mean_slope;
@@ -223,14 +226,27 @@ TileEquations sum_of(const std::vector<TileEquations>& tiles) {
   return all;
 }
 
-/// Jackknife: the scatter of the estimates without one tile each.
-Vector4 jackknife_variance(const std::vector<TileEquations>& tiles, const TileEquations& all) {
-  Vector4 variance = Vector4::Zero();
+/// Jackknife: the scatter of the estimates without one column or row of tiles each. Light that
+/// falls on a round part ever more obliquely changes the contrast alike all along it.
+///
+/// @shape    `line`: the column or row of a tile
+Vector4 jackknife_variance(const std::vector<TileEquations>& tiles,
+                           const TileEquations& all,
+                           int TileEquations::*line) {
+  std::array<TileEquations, kContrastTiles> lines{};
   for (const TileEquations& tile : tiles) {
-    const Vector4 without = solve_symmetric(all.normal - tile.normal, all.right - tile.right);
-    variance += without.cwiseAbs2();
+    TileEquations& own = lines.at(static_cast<std::size_t>(tile.*line));
+    own.normal += tile.normal;
+    own.right += tile.right;
   }
-  const auto count = static_cast<double>(tiles.size());
+  Vector4 variance = Vector4::Zero();
+  double count = 0.0;
+  for (const TileEquations& own : lines) {
+    if (own.normal.isZero(0.0)) continue;
+    const Vector4 without = solve_symmetric(all.normal - own.normal, all.right - own.right);
+    variance += without.cwiseAbs2();
+    count += 1.0;
+  }
   return variance * (count - 1.0) / count;
 }
 
@@ -279,7 +295,8 @@ ContrastFit fit_contrast(const FringeBins& bins,
     limit(unknown.head<2>());
     limit(unknown.tail<2>());
   }
-  const Vector4 variance = jackknife_variance(tiles, all);
+  const Vector4 variance = jackknife_variance(tiles, all, &TileEquations::column)
+                               .cwiseMax(jackknife_variance(tiles, all, &TileEquations::row));
   out.harmonic = {unknown(0), unknown(1)};
   // An error of the third harmonic of three frames passes for a second one.
   out.harmonic_sigma = std::hypot(std::sqrt(0.5 * (variance(0) + variance(1))), third.sigma / mean);

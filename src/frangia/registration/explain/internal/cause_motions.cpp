@@ -176,11 +176,15 @@ Eigen::MatrixXd motions_of(const CauseHypothesis& hypothesis,
 
 RigChanges rig_changes(const DriftModel& model,
                        const Pattern& pattern,
+                       const SurfelLists& surfels,
                        const Eigen::MatrixXd& basis,
                        const Eigen::VectorXd& at) {
+  std::vector<SurfelMap::Surfel> all;
+  for (const std::vector<SurfelMap::Surfel>& view : surfels)
+    all.insert(all.end(), view.begin(), view.end());
   // The derivatives hardly change within a drift: those of its mean serve all views.
   const Eigen::VectorXd mean = changes_of_views(at, basis).rowwise().mean();
-  return {PointDrift(model, mean), pattern, basis, model.count()};
+  return {DriftField(PointDrift(model, mean), pattern, all), basis, model.count()};
 }
 
 std::vector<Rig> rigs_of_views(const DriftModel& model,

@@ -23,11 +23,12 @@ namespace frangia {
                                            Eigen::Index unknowns,
                                            std::size_t profile = 0);
 
-/// How points move with further changes of a rig that has changed already.
+/// How the points of the views move with further changes of a rig that has changed already.
 ///
 /// @shape    `at`, `basis`: as `changes_of_views`
 [[nodiscard]] RigChanges rig_changes(const DriftModel& model,
                                      const Pattern& pattern,
+                                     const SurfelLists& surfels,
                                      const Eigen::MatrixXd& basis,
                                      const Eigen::VectorXd& at);
 

@@ -118,7 +118,7 @@ class PoseAccumulator {
   [[nodiscard]] Eigen::VectorXd row_of_rig(const Eigen::Vector3d& point,
                                            const Eigen::Vector3d& normal) const {
     const RigChanges& rig = *views_.rig;
-    return rig.drift.of(point, rig.pattern).transpose().cast<double>() * normal;
+    return rig.field.of(point).transpose().cast<double>() * normal;
   }
 
   void add_equation(double weight, double distance, std::size_t paired) {

@@ -8,15 +8,14 @@
 #include <Eigen/Geometry>
 
 #include "frangia/core/linear_algebra.h"
-#include "frangia/registration/internal/drift_model.h"
+#include "frangia/registration/internal/drift_field.h"
 #include "frangia/registration/internal/optimize_bundle.h"
 
 namespace frangia {
 
 /// How the measured points move with changes of the rig, which may differ from view to view.
 struct RigChanges {
-  PointDrift drift;
-  Pattern pattern;
+  DriftField field;
   Eigen::MatrixXd basis;   ///< functions of time that the changes consist of, views x functions
   Eigen::Index count = 0;  ///< of the terms that change
 

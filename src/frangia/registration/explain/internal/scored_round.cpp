@@ -153,8 +153,8 @@ void score(PoseRound& round) {
 }
 
 double noticeable_mm(const PoseRound& round) {
-  constexpr double kCommon = 2.5;    // times what pairs of two views still have in common
-  constexpr double kScatter = 0.75;  // of a pair: what moves all of them by more is no noise
+  constexpr double kCommon = 2.5;   // times what pairs of two views still have in common
+  constexpr double kScatter = 0.2;  // of a pair
   return std::max(kCommon * round.noise.shared_mm, kScatter * round.noise.scatter_mm);
 }
 

@@ -70,8 +70,8 @@ void weigh(PoseRound& round);
 /// Scores all hypotheses on the pairs of a round.
 void score(PoseRound& round);
 
-/// The smallest effect that is explained: what the scatter of the pairs hides is not blamed, nor
-/// what surfaces of sound scans have in common.
+/// The smallest effect that is explained: what surfaces of sound scans have in common is not
+/// blamed, nor what is far below the scatter of one pair.
 [[nodiscard]] double noticeable_mm(const PoseRound& round);
 
 /// Whether only an improbable change of axis or angles would explain the poses of the views.

@@ -25,7 +25,7 @@ Rows6 rigid_part(const RigChanges& rig,
     const Eigen::Vector3d point = object_from_rig * seen;
     const Eigen::Vector3d normal = object_from_rig.linear() * surfels[i].normal.cast<double>();
     const Eigen::MatrixXd moved =
-        product(object_from_rig.linear(), rig.drift.of(seen, rig.pattern).cast<double>());
+        product(object_from_rig.linear(), rig.field.of(seen).cast<double>());
     Eigen::Matrix<double, 3, 6> by;
     by << 0.0, point.z(), -point.y(), 1.0, 0.0, 0.0, -point.z(), 0.0, point.x(), 0.0, 1.0, 0.0,
         point.y(), -point.x(), 0.0, 0.0, 0.0, 1.0;
