@@ -309,14 +309,15 @@ void DecodedScan::finish() {
   terminal_.finish();
   if (untrusted_.empty() && empty_.size() == scan_.views.size())
     untrusted_.push_back(empty_.front());
+  std::string reason;
   if (!untrusted_.empty()) {
-    terminal_.assess(untrusted_.size() == 1
-                         ? untrusted_.front()
-                         : fmt::format("{} of {} views do not fit; the first: {}",
-                                       untrusted_.size(),
-                                       scan_.views.size(),
-                                       untrusted_.front()));
+    reason = untrusted_.size() == 1 ? untrusted_.front()
+                                    : fmt::format("{} of {} views do not fit; the first: {}",
+                                                  untrusted_.size(),
+                                                  scan_.views.size(),
+                                                  untrusted_.front());
   }
+  terminal_.assess(reason);
   if (terminal_.json) {
     Json json{{"plan", json_of(plan_)},
               {"views", std::move(*views_)},

@@ -98,6 +98,7 @@ ViewResult decode_one(const DecodeTask& task, std::size_t view, const Run& run) 
 
 /// Decodes every view into a folder of its number; at any time one view is in memory.
 void decode_all(const DecodeTask& task, Terminal& terminal, const Run& run) {
+  terminal.hold();
   DecodedScan summary(task.scan, task.plan, task.arguments.folder, terminal);
   for (std::size_t view = 0; view < task.scan.views.size(); ++view) {
     run.report(static_cast<double>(view) / static_cast<double>(task.scan.views.size()));

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include "alike_lines.h"
 #include "exit_codes.h"
 #include "interrupt.h"
 #include "option_names.h"
@@ -57,7 +58,7 @@ void Terminal::show(const std::string& line) {
 
 void Terminal::release() {
   holding_ = false;
-  for (const std::string& line : held_)
+  for (const std::string& line : with_alike_put_together(held_))
     print_line(line);
   held_.clear();
 }

@@ -64,6 +64,26 @@ TEST_F(TerminalProgram, ShowsASummaryByDefaultAndTheRestUnderVerbose) {
   EXPECT_TRUE(shows(all, "contrast") && shows(all, " MB")) << all.output;
 }
 
+TEST_F(TerminalProgram, SaysOnceWhatIsAlikeInSeveralViews) {
+  simulate("ball-bar --views 4 --rig " + std::string(FRANGIA_SOURCE_DIR) +
+           "/examples/python/small-rig.toml --samples 1 --flicker 0.04");
+  const std::string decode = "decode " + path("scan") + " -o " + path("maps");
+  const auto count = [](const Answer& answer, const std::string& part) {
+    int found = 0;
+    for (std::size_t at = 0; (at = answer.output.find(part, at)) != std::string::npos; ++at)
+      ++found;
+    return found;
+  };
+  const std::string of_view = "warning: views/";
+  const Answer brief = run_program(decode);
+  EXPECT_TRUE(shows(brief, " more alike (--verbose): pattern \"")) << brief.output;
+  const int all = count(run_program("--verbose " + decode), of_view);
+  EXPECT_GT(all, 2 * count(brief, of_view)) << brief.output;
+  const Answer json = run_program("--json " + decode + " 2>/dev/null");
+  EXPECT_EQ(count(json, "\"views/00"), all + 4) << json.output;  // and the folders of the views
+  EXPECT_FALSE(shows(json, "alike (")) << json.output;
+}
+
 TEST_F(TerminalProgram, PrintsOneLineForEachView) {
   simulate("ball-bar --rig angular --views 2");
   const std::string reconstruct = "reconstruct " + path("scan") + " -o " + path("a.ply");

@@ -179,6 +179,7 @@ TEST(ExplainPoses, LeavesOutAViewThatAloneIsElsewhere) {
   EXPECT_EQ(out.report.outliers, std::vector<std::size_t>{3});
   ASSERT_EQ(out.warnings.size(), 1U);
   EXPECT_NE(out.warnings[0].find("view 4"), std::string::npos) << out.warnings[0];
+  EXPECT_TRUE(out.report.undetermined.empty()) << out.report.text();  // by a view that is not there
 }
 
 TEST(ExplainPoses, JoinsSeveralViewsThatWereEachElsewhere) {

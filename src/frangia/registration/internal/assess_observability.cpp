@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
+#include <vector>
 
 #include "frangia/core/linear_algebra.h"
 #include "frangia/registration/internal/turntable_bundle.h"
@@ -14,12 +16,35 @@ namespace {
 /// prior's standard deviation by less than a factor of three.
 constexpr double kWellDetermined = 9.0;
 
-/// Information of the pairs in units of the prior's: 1 is as much.
-SymmetricEigen<Eigen::Dynamic> information_gain(const Bundle& bundle, const BundleSums& sums) {
+/// The unknowns but for the angles of views that measure nothing, as those that are left out.
+struct MeasuredUnknowns {
+  std::vector<Eigen::Index> all;
+  Eigen::Index angles = 0;  ///< how many of them follow the four of the axis
+};
+
+MeasuredUnknowns measured_unknowns(const Bundle& bundle) {
+  MeasuredUnknowns measured{.all = {0, 1, 2, 3}};
+  const std::size_t views = bundle.maps.size();
+  for (std::size_t view = 1; view < views; ++view) {
+    const auto surfels = bundle.maps[view].surfels.pixels();
+    if (std::none_of(surfels.begin(), surfels.end(), [](const auto& s) { return s.sigma_mm > 0; }))
+      continue;
+    measured.all.push_back(static_cast<Eigen::Index>(view) + 3);
+    ++measured.angles;
+  }
+  for (auto i = static_cast<Eigen::Index>(views) + 3; i < bundle.prior_sigma.size(); ++i)
+    measured.all.push_back(i);
+  return measured;
+}
+
+/// Information of the pairs on some unknowns in units of the prior's: 1 is as much.
+SymmetricEigen<Eigen::Dynamic> information_gain(const Bundle& bundle,
+                                                const BundleSums& sums,
+                                                const std::vector<Eigen::Index>& unknowns) {
   const Eigen::MatrixXd gain =
-      effective_weight(bundle, sums) *
-      (bundle.prior_sigma.asDiagonal() * sums.hessian * bundle.prior_sigma.asDiagonal());
-  return symmetric_eigen(gain);
+      effective_weight(bundle, sums) * scaled(sums.hessian, bundle.prior_sigma);
+  const Eigen::MatrixXd of_these = gain(unknowns, unknowns);
+  return symmetric_eigen(of_these);
 }
 
 /// Standard deviation of the axis in its weakest direction, at a distance of `arm_mm`.
@@ -42,19 +67,19 @@ void assess_observability(RegistrationReport& report,
                           const Bundle& bundle,
                           const BundleSums& sums,
                           double part_radius_mm) {
-  const auto gain = information_gain(bundle, sums);
+  const MeasuredUnknowns measured = measured_unknowns(bundle);
+  const auto gain = information_gain(bundle, sums, measured.all);
   report.weakest = std::sqrt(1.0 + std::max(0.0, gain.values[0]));
   report.condition =
       std::sqrt((1.0 + gain.values.tail<1>()[0]) / (1.0 + std::max(0.0, gain.values[0])));
   report.axis_sigma_mm = weakest_axis_sigma_mm(gain, bundle.prior_sigma, part_radius_mm);
   report.axis_sigma_rad = report.axis_sigma_mm / std::max(1e-9, part_radius_mm);
-  const auto angles = static_cast<Eigen::Index>(bundle.state.angles_rad.size()) - 1;
   std::array<double, 3> undetermined{};  // squared components in tilt, shift, angles
   for (Eigen::Index i = 0; i < gain.values.size() && gain.values[i] < kWellDetermined; ++i) {
     const Eigen::VectorXd direction = gain.vectors.col(i).cwiseAbs2();
     undetermined[0] += direction.head<2>().sum();
     undetermined[1] += direction.segment<2>(2).sum();
-    undetermined[2] += direction.segment(4, angles).sum();
+    undetermined[2] += direction.segment(4, measured.angles).sum();
   }
   // More than half of a unit vector: the weak direction belongs mainly to these unknowns.
   if (undetermined[0] > 0.5) report.undetermined.emplace_back(kTiltOfAxis);
