@@ -223,6 +223,7 @@ void add_merge_verb(CLI::App& program, Terminal& terminal) {
                    arguments->options.finish.tolerance_mm,
                    "simplify the mesh within this distance, mm")
       ->transform(length_above_zero());
+  add_max_triangles(*verb, arguments->options.finish.max_triangles);
   add_allow_memory(*verb, arguments->read);
   verb->callback([arguments, &terminal] { merge(*arguments, terminal); });
 }

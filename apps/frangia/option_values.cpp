@@ -112,6 +112,19 @@ CLI::Validator from_to(double least, double most) {
                      range);
 }
 
+CLI::Validator whole_from_to(std::size_t least, std::size_t most) {
+  const std::string range = fmt::format("{} to {}", least, most);
+  return {[=](std::string& input) {
+            const auto number = finite(input);
+            if (!number || *number != std::floor(*number) || *number < static_cast<double>(least) ||
+                *number > static_cast<double>(most))
+              return fmt::format("{} is not a whole number from {}", input, range);
+            input = fmt::format("{:.0f}", *number);
+            return std::string();
+          },
+          range};
+}
+
 CLI::Validator one_of(const std::vector<std::string>& words) {
   return {[words](const std::string& input) {
             return is_among(words, input)

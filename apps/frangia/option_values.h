@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -24,6 +25,10 @@ namespace frangia {
 
 /// A finite number from `least` to `most`.
 [[nodiscard]] CLI::Validator from_to(double least, double most);
+
+/// A whole number from `least` to `most`, also as "2e5". For CLI::Option::transform: the option's
+/// variable receives its digits.
+[[nodiscard]] CLI::Validator whole_from_to(std::size_t least, std::size_t most);
 
 /// One of `words`.
 [[nodiscard]] CLI::Validator one_of(const std::vector<std::string>& words);

@@ -128,6 +128,7 @@ void add_surface_options(CLI::App& verb, ReconstructArguments& arguments) {
                   arguments.options.finish.tolerance_mm,
                   "simplify the mesh within this distance, mm")
       ->transform(length_above_zero());
+  add_max_triangles(verb, arguments.options.finish.max_triangles);
   verb.add_option(
       "--keep-raw", arguments.raw, "write the registered points with their sigma to this .ply");
 }

@@ -33,6 +33,14 @@ inline void add_write_options(CLI::App& verb, WriteOptions& options) {
   verb.add_flag("--stl-text", options.stl.ascii, "STL as text instead of binary");
 }
 
+/// The largest number of triangles of a finished mesh. `max_triangles` must outlive the verb.
+inline void add_max_triangles(CLI::App& verb, std::size_t& max_triangles) {
+  verb.add_option("--max-triangles",
+                  max_triangles,
+                  "simplify the mesh to at most this number of triangles; all files hold it")
+      ->transform(whole_from_to(kFewestTriangles, kMostTriangles));
+}
+
 /// The files that a measured mesh is written to, and their variants.
 struct MeshOutputs {
   std::vector<std::filesystem::path> paths;

@@ -3,6 +3,7 @@
 // axis is known.
 //
 //   node maker.mjs PROGRAM FOLDER      FOLDER receives the screenshots
+import { spawnSync } from 'node:child_process';
 import fs from 'node:fs';
 import path from 'node:path';
 import { coarsenCamera, expect, idle, launch, look as lookAt, newHome, openPage, passed, reopen, requireChromium, startServer, stateOf, tell, waitForProject } from './harness.mjs';
@@ -13,6 +14,7 @@ fs.mkdirSync(shots, { recursive: true });
 const home = newHome();
 const POSES = 3;
 const STATIONS = 5;
+const TRIANGLES = 20000;
 
 await tell(home, async () => {
   const server = await startServer(program, home);
@@ -76,10 +78,27 @@ await tell(home, async () => {
   await page.waitForSelector('#build:not([disabled])');
   await idle(page);
   await look('scanned');
+  // A number that cannot be is refused at its field; what the page builds has the bytes of the program with the same options.
+  await page.click('#build-options summary');
+  await page.fill('#build-options input[name=max_triangles]', '2.5');
+  await page.click('#build');
+  await page.waitForSelector('#wrong-max_triangles');
+  await look('triangles-refused');
+  expect(!(await stateOf(page)).jobs.some(({ kind }) => kind === 'reconstruct'), 'half a triangle is built');
+  await page.fill('#build-options input[name=max_triangles]', String(TRIANGLES));
+  expect((await page.locator('#wrong-max_triangles').count()) === 0, 'the refusal stays when the field is corrected');
   await page.click('#build');
   await page.waitForSelector('.figures');
   await idle(page);
+  const [, ...again] = (await stateOf(page)).project.commands.reconstruct;
+  const built = spawnSync(program, again, { encoding: 'utf8' });
+  expect(built.status === 0, built.stderr);
+  const folder = path.join(home, 'projects', 'Maker');
+  const bytes = [['versions', '001', 'surface.ply'], ['exports', 'Maker.ply']].map((file) => fs.readFileSync(path.join(folder, ...file)));
+  expect(bytes[0].equals(bytes[1]), 'the program builds another surface');
   await look('surface');
+  await page.locator('#build-again').scrollIntoViewIfNeeded();
+  await look('build-again');
   await page.keyboard.press('8');
   await page.waitForSelector('#export');
   await look('export');
@@ -93,6 +112,7 @@ await tell(home, async () => {
   await (await saving).saveAs(dxf);
   const { summary, triangles } = (await stateOf(page)).project.surface;
   expect(summary.untrusted_reason === '' && summary.views === STATIONS && summary.rms_after_mm < 0.05, `the surface is not sound: ${JSON.stringify(summary)}`);
+  expect(triangles > TRIANGLES / 2 && triangles <= TRIANGLES, `the surface has ${triangles} triangles, not at most ${TRIANGLES}`);
   const text = fs.readFileSync(dxf, 'latin1');
   const faces = text.split('3DFACE').length - 1;
   expect(faces === triangles && text.trimEnd().endsWith('EOF'), `the DXF holds ${faces} of ${triangles} faces`);

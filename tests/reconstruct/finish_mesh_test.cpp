@@ -113,6 +113,16 @@ TEST(FinishMesh, RemovesIslandsOfAFewVoxelsOrOfTheirSigmaAndCountsThem) {
   EXPECT_EQ(finish_mesh(sheet(4, 0.0F, 0.02F), {}).mesh.triangles.size(), 32U);
 }
 
+TEST(FinishMesh, LimitsTheTrianglesLast) {
+  const Mesh mesh = make_part("bracket");
+  const FinishOptions options{.watertight = true, .tolerance_mm = 1e-4, .max_triangles = 3000};
+  const Mesh limited = finish_mesh(mesh, options).mesh;
+  EXPECT_LE(limited.triangles.size(), 3000U);
+  EXPECT_GT(limited.triangles.size(), 2000U);
+  EXPECT_EQ(finish_mesh(mesh, {.max_triangles = kMostTriangles}).mesh.triangles.size(),
+            mesh.triangles.size());
+}
+
 TEST(LimitTriangles, KeepsTheCountAndNotesTheDistance) {
   const Mesh mesh = make_part("bracket");
   std::string notes;

@@ -140,9 +140,33 @@ TEST_F(ServiceTest, OpensAScanFromAFileAndCapturesNothingOverIt) {
 }
 
 /// The surface that the library makes of a scan folder, as bytes of a PLY file.
-std::string surface_of(const std::filesystem::path& scan, const std::filesystem::path& file) {
-  write_mesh(file, reconstruct(read_scan(scan)).mesh);
+std::string surface_of(const std::filesystem::path& scan,
+                       const std::filesystem::path& file,
+                       const ReconstructOptions& options = {}) {
+  write_mesh(file, reconstruct(read_scan(scan), options).mesh);
   return testing::text_of(file);
+}
+
+TEST_F(ServiceTest, BuildsAsFewTrianglesAsAreAskedFor) {
+  static_cast<void>(
+      command("create-project", {{"name", "few"}, {"part", "plate"}, {"stations", 2}}));
+  static_cast<void>(finish());
+  static_cast<void>(command("start-scan"));
+  ASSERT_EQ(finish().at("state"), "done");
+  EXPECT_EQ(refusal("reconstruct", R"({"max_triangles": 3})"),
+            "max_triangles: a whole number from 4 to 1000000000 is missing here");
+  EXPECT_NE(refusal("reconstruct", R"({"max_triangles": 1000.5})"), "");
+  const auto project = folder_.path() / "projects" / "few";
+  ReconstructOptions options;
+  options.fusion.voxel_mm = 1.5;
+  options.finish.watertight = true;
+  options.finish.max_triangles = 1000;
+  const std::string wanted = surface_of(project / "scan", folder_.path() / "wanted.ply", options);
+  static_cast<void>(
+      command("reconstruct", {{"voxel_mm", 1.5}, {"watertight", true}, {"max_triangles", 1000}}));
+  ASSERT_EQ(finish().at("state"), "done");
+  EXPECT_TRUE(testing::text_of(project / "versions" / "001" / "surface.ply") == wanted);
+  EXPECT_LE(state().at("project").at("surface").at("triangles").get<int>(), 1000);
 }
 
 TEST_F(ServiceTest, BuildsTheSameBytesFromTheViewsThatItDecodedDuringTheScan) {

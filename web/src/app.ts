@@ -2,12 +2,13 @@ import { html, type TemplateResult } from 'lit';
 import { customElement } from 'lit/decorators.js';
 
 import { stepNamed } from './all_steps';
+import type { BuildSettings } from './building';
 import type { StepName } from './step_names';
 import { dialogs, footer, header, picture } from './frame_parts';
 import { onKey } from './keyboard';
 import { MeshSource } from './mesh_source';
 import { type Language, setLanguage, t } from './messages';
-import { App, type BuildSettings } from './parts';
+import { App } from './parts';
 import { applyPreferences } from './preferences';
 import { blankPage, notices } from './shell';
 import { acts } from './ui';
@@ -100,6 +101,7 @@ export class FrangiaApp extends App {
     }
     this.arranging.deviceDraft = null;
     this.setups.forget();
+    this.building.forget();
     this.measuring.forget();
     const created = this.projects.takeCreated();
     if (!state.project) this.go('project');

@@ -1,4 +1,5 @@
 import { Arranging } from './arranging';
+import { Building, type BuildSettings } from './building';
 import { Editing } from './editing';
 import { Exporting } from './exporting';
 import { Inspecting } from './inspecting';
@@ -12,12 +13,6 @@ import { Sectioning } from './sectioning';
 import { Setups } from './setups';
 import { Store } from './store';
 
-/** How the surface is built from the scan. */
-export interface BuildSettings {
-  voxel_mm: number;
-  watertight: boolean;
-}
-
 /** The window as its panels see it: the store, and what the parts of the window keep and do. */
 export abstract class App extends Store {
   readonly projects = new Projects(this);
@@ -30,6 +25,7 @@ export abstract class App extends Store {
   readonly editing = new Editing(this, this.inspecting);
   readonly measuring = new Measuring(this, this.exporting);
   readonly sectioning = new Sectioning(this, this.exporting);
+  readonly building = new Building(this, (settings) => this.build(settings));
   readonly pairing = new Pairing(this, this.inspecting);
 
   /** Whether the picture is the surface. */

@@ -106,6 +106,10 @@ CommandLines command_lines(const ProjectProgress& project) {
                                   {"--voxel", fmt::format("{:g}mm", project.build.voxel_mm)});
     }
     if (project.build.watertight) lines["reconstruct"].emplace_back("--watertight");
+    if (project.build.max_triangles > 0) {
+      lines["reconstruct"].insert(lines["reconstruct"].end(),
+                                  {"--max-triangles", std::to_string(project.build.max_triangles)});
+    }
     if (project.capture.algorithm != "auto") {
       lines["reconstruct"].insert(lines["reconstruct"].end(),
                                   {"--algorithm", project.capture.algorithm});

@@ -150,6 +150,7 @@ FinishedMesh finish_mesh(Mesh mesh, const FinishOptions& options, const Run& run
                          before,
                          options.tolerance_mm));
   }
+  if (options.max_triangles > 0) mesh = limit_triangles(mesh, options.max_triangles, run);
   out.mesh = std::move(mesh);
   return out;
 }

@@ -12,7 +12,14 @@ struct FinishOptions {
   bool keep_islands = false;  ///< keep components that are too small to be told from noise
   bool watertight = false;    ///< fill all holes; new triangles are marked as synthesized
   double tolerance_mm = 0.0;  ///< decimate within this distance; 0: keep all triangles
+  /// Decimate to this number of triangles, at last, as `limit_triangles`; 0: keep all.
+  std::size_t max_triangles = 0;
 };
+
+/// A tetrahedron: a solid has no fewer triangles.
+inline constexpr std::size_t kFewestTriangles = 4;
+/// Largest limit of the number of triangles that anybody needs to state.
+inline constexpr std::size_t kMostTriangles = 1'000'000'000;
 
 /// Components that were removed from a fused mesh, because they are too small to be told from
 /// noise.

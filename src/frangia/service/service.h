@@ -44,8 +44,9 @@ struct ProgressOfCalibration {
 
 /// How a surface is built from the scan.
 struct BuildSettings {
-  double voxel_mm = 0.0;    ///< sampling distance; 0: chosen from the data
-  bool watertight = false;  ///< closes all holes
+  double voxel_mm = 0.0;          ///< sampling distance; 0: chosen from the data
+  bool watertight = false;        ///< closes all holes
+  std::size_t max_triangles = 0;  ///< decimates to this number; 0: keeps all
 };
 
 /// How far a project has come, for those who describe it in their own words.

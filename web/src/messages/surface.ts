@@ -3,9 +3,22 @@ import type { Rows } from './rows';
 /** Texts of the step Surface. */
 export const SURFACE = {
   'surface.build': ['Build again', 'Neu berechnen', 'Calcola di nuovo'],
-  'surface.voxel': ['Resolution, mm', 'Auflösung, mm', 'Risoluzione, mm'],
-  'surface.voxelAuto': ['chosen from the data', 'nach den Daten gewählt', 'scelta dai dati'],
-  'surface.watertight': [
+  'build.options': ['Resolution, triangles, holes', 'Auflösung, Dreiecke, Löcher', 'Risoluzione, triangoli, fori'],
+  'build.voxel': ['Resolution, mm', 'Auflösung, mm', 'Risoluzione, mm'],
+  'build.voxelAuto': ['chosen from the data', 'nach den Daten gewählt', 'scelta dai dati'],
+  'build.voxelWrong': [
+    'Enter a distance of at least 0.001 mm, or leave the field empty.',
+    'Einen Abstand von mindestens 0,001 mm eingeben oder das Feld leer lassen.',
+    'Inserire una distanza di almeno 0,001 mm, o lasciare vuoto il campo.',
+  ],
+  'build.triangles': ['Triangles at most', 'Höchstens Dreiecke', 'Triangoli al massimo'],
+  'build.trianglesAll': ['all', 'alle', 'tutti'],
+  'build.trianglesWrong': [
+    'Enter a whole number from 4 to 1,000,000,000, or leave the field empty for all triangles.',
+    'Eine ganze Zahl von 4 bis 1.000.000.000 eingeben, oder das Feld für alle Dreiecke leer lassen.',
+    'Inserire un numero intero da 4 a 1.000.000.000, o lasciare vuoto il campo per tutti i triangoli.',
+  ],
+  'build.watertight': [
     'Close all holes (synthesized)',
     'Alle Löcher schließen (ergänzt)',
     'Chiudi tutti i fori (aggiunti)',

@@ -59,11 +59,14 @@ nlohmann::ordered_json Service::Implementation::started_view(const char* kind, S
 
 nlohmann::ordered_json Service::Implementation::start_reconstruct(CommandArguments& arguments) {
   ReconstructOptions options;
-  const BuildSettings settings{.voxel_mm = arguments.positive("voxel_mm").value_or(0.0),
-                               .watertight = arguments.flag("watertight")};
+  const BuildSettings settings{
+      .voxel_mm = arguments.positive("voxel_mm").value_or(0.0),
+      .watertight = arguments.flag("watertight"),
+      .max_triangles = arguments.whole_or("max_triangles", 0, kFewestTriangles, kMostTriangles)};
   arguments.check_all_read();
   if (settings.voxel_mm > 0.0) options.fusion.voxel_mm = settings.voxel_mm;
   options.finish.watertight = settings.watertight;
+  options.finish.max_triangles = settings.max_triangles;
   change([&](OpenProject& now) { now.build = settings; });
   options.decode = decode_options_of(opened().capture);
   options.keep_points_of_setups = kPointsOfSetup;

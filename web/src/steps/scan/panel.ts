@@ -61,9 +61,15 @@ export function scanStep(app: App): TemplateResult {
               ${icon('pause')}${t('scan.pause')}
             </button>`
           : complete
-            ? html`<button class="btn primary wide" id="build" ?disabled=${app.occupied} @click=${() => app.build()}>
-                ${t('scan.build')}${icon('arrow')}
-              </button>`
+            ? html`<form class="form-plain" novalidate @submit=${app.building.submit}>
+                <button class="btn primary wide" id="build" ?disabled=${app.occupied}>
+                  ${t('scan.build')}${icon('arrow')}
+                </button>
+                <details class="more" id="build-options">
+                  <summary>${t('build.options')}</summary>
+                  <div class="form-plain">${app.building.fields()}</div>
+                </details>
+              </form>`
             : project.table_angle
               ? numberForm(
                   'table-angle',

@@ -118,33 +118,13 @@ function details(app: App, surface: Surface): TemplateResult {
   </details>`;
 }
 
-/** Builds the surface again, as fine and as closed as is wanted. */
+/** Builds the surface again: as fine, as small and as closed as is wanted. */
 function building(app: App): TemplateResult | string {
   if (!app.project.scan_complete) return '';
-  const off = app.busy || app.session.watches;
-  const build = (event: SubmitEvent) => {
-    event.preventDefault();
-    const form = new FormData(event.target as HTMLFormElement);
-    const voxel = Number(form.get('voxel'));
-    void app.build({ ...(voxel > 0 ? { voxel_mm: voxel } : {}), watertight: form.has('watertight') });
-  };
   return html`<section class="group" id="build-again">
-    <form class="form-plain" @submit=${build}>
-      <label class="field"
-        ><span>${t('surface.voxel')}${term('voxel')}</span
-        ><input
-          class="num"
-          name="voxel"
-          type="number"
-          min="0.001"
-          step="any"
-          placeholder=${t('surface.voxelAuto')}
-          ?disabled=${off}
-      /></label>
-      <label class="switch"
-        >${t('surface.watertight')}<input type="checkbox" name="watertight" ?disabled=${off}
-      /></label>
-      <button class="btn wide" ?disabled=${off}>${t('surface.build')}</button>
+    <form class="form-plain" novalidate @submit=${app.building.submit}>
+      ${app.building.fields()}
+      <button class="btn wide" ?disabled=${app.busy || app.session.watches}>${t('surface.build')}</button>
     </form>
   </section>`;
 }
