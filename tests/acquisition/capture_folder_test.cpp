@@ -205,6 +205,20 @@ TEST_F(CaptureFolder, IsTheSameScanUnderAnotherName) {
   EXPECT_EQ(read_scan(plan_.folder).name, "renamed");
 }
 
+TEST_F(CaptureFolder, IsTheSameScanOnceTheAxisOfItsTurntableIsFound) {
+  const Turntable axis = plan_.rig.turntable.value();
+  write_rig(folder_.path() / "true-rig.toml", plan_.rig);  // how the simulated table turns
+  devices_["camera"] += "true_rig = \"true-rig.toml\"\n";
+  plan_.rig.turntable.reset();
+  static_cast<void>(capture());
+  plan_.rig.turntable = axis;
+  EXPECT_EQ(capture().resumed, 10U);
+  EXPECT_TRUE(read_scan(plan_.folder).rig.turntable.has_value());
+  // From now on it is that of this scan.
+  plan_.rig.turntable->point_mm.x() += 1.0;
+  EXPECT_TRUE(mentions(complaint(), "[turntable]: point_mm")) << complaint();
+}
+
 TEST_F(CaptureFolder, OfAnotherPartDeviceOrPlanIsRefusedWithTheDifference) {
   static_cast<void>(capture());
   devices_["camera"] = "driver = \"simulated\"\npart = \"ball-bar\"\n";

@@ -137,6 +137,45 @@ await tell(home, async () => {
   await idle(page);
   passed(`the axis is within ${found.project.axis.axis_sigma_deg.toFixed(3)} degrees`);
 
+  // The scan itself shows the axis, unless its part is round; its frames are kept in any case.
+  const withoutAxis = async (name, part, stations) => {
+    await create(page, name, 'Simulated');
+    await page.selectOption('select[name=part]', part);
+    await page.fill('input[name=stations]', String(stations));
+    await page.getByText('Create', { exact: true }).click();
+    await page.waitForSelector('[data-next=live]');
+    const file = path.join(home, 'projects', name, 'rig.toml');
+    coarsenCamera(path.dirname(file));
+    fs.writeFileSync(file, fs.readFileSync(file, 'utf8').replace(/\[turntable\](\n\w+ = .*)*\n/, ''));
+    await reopen(page, name);
+    await page.keyboard.press('4');
+    await page.waitForSelector('#scan-for-axis:not([disabled])');
+  };
+  await withoutAxis('Figure', 'bust', 6);
+  await look(page, shots, 'axis-by-scan');
+  await page.click('#scan-for-axis');
+  const { project: figure } = await waitForState(page, ({ project }) => project.axis?.of_scan);
+  await page.waitForSelector('#axis-found');
+  await idle(page);
+  await look(page, shots, 'axis-of-scan');
+  expect(figure.axis.views === 6 && figure.axis.axis_sigma_deg < 0.5, `the scan shows the axis as ${JSON.stringify(figure.axis)}`);
+  expect((await page.locator('#axis-found').innerText()).includes('found from this scan, by 6 views: ±'), 'the card does not say where the axis comes from');
+  await page.click('#build');
+  const { project: built } = await waitForState(page, ({ project }) => project.surface?.summary?.views === 6);
+  expect(built.surface.summary.untrusted_reason === '', `the surface about this axis: ${built.surface.summary.untrusted_reason}`);
+  await idle(page);
+  passed(`the scan shows the axis within ${figure.axis.axis_sigma_deg.toFixed(3)} degrees`);
+  await withoutAxis('Round', 'shaft', 4);
+  await page.click('#scan-for-axis');
+  await page.waitForSelector('#axis-fault');
+  await idle(page);
+  await look(page, shots, 'axis-not-of-scan');
+  expect(/does not show the axis/.test(await page.locator('#axis-fault').innerText()), 'a round part shows an axis');
+  expect(fs.readdirSync(path.join(home, 'projects', 'Round', 'scan', 'views')).length === 4, 'the frames are gone');
+  await page.click('#to-axis');
+  await page.waitForSelector('#find-axis:not([disabled])');
+  await reopen(page, 'Uploaded');
+
   // The camera vanishes from the preview: the page says it, and goes on when it is plugged in again.
   const whole = fs.readFileSync(rig, 'utf8');
   fs.writeFileSync(rig, whole.replace('[devices.camera]\n', '[devices.camera]\nfaults = ["unplugged 0 always"]\n'));

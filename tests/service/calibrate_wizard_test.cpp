@@ -5,8 +5,6 @@
 
 #include <gtest/gtest.h>
 
-#include "frangia/rig/write_rig.h"
-
 #include "service/live_service.h"
 
 namespace frangia {
@@ -15,6 +13,7 @@ namespace {
 using testing::error_of;
 using testing::Json;
 using testing::LiveServiceTest;
+using testing::remove_turntable;
 
 TEST_F(LiveServiceTest, CalibratesTheRigFromPosesThatItAsksFor) {
   EXPECT_NE(error_of([&] { command("capture-pose"); }), "") << "no calibration runs";
@@ -88,15 +87,6 @@ TEST_F(LiveServiceTest, CalibratesWithAPrintedBoardThatNamesItself) {
   const double baseline =
       read_rig(folder_.path() / "live" / "true-rig.toml").projector.position_mm.norm();
   EXPECT_NEAR(known.projector.position_mm.norm(), baseline, 0.01 * baseline);
-}
-
-/// As after the calibration of a new rig, which says nothing of its turntable.
-void remove_turntable(const std::filesystem::path& file) {
-  Rig rig = read_rig(file);
-  rig.turntable.reset();
-  const std::filesystem::path fresh = file.parent_path() / "fresh.toml";
-  write_rig(fresh, rig, Durability::Buffered, file);
-  std::filesystem::rename(fresh, file);
 }
 
 TEST_F(LiveServiceTest, FindsTheAxisOfItsTurntableAndScansNoStationsBefore) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstring>
+#include <filesystem>
 #include <functional>
 #include <string>
 #include <thread>
@@ -11,6 +12,7 @@
 #include <nlohmann/json.hpp>
 
 #include "frangia/rig/read_rig.h"
+#include "frangia/rig/write_rig.h"
 #include "frangia/service/service.h"
 
 #include "support/all_drivers.h"
@@ -20,6 +22,15 @@
 namespace frangia::testing {
 
 using Json = nlohmann::json;
+
+/// As after the calibration of a new rig, which says nothing of its turntable.
+inline void remove_turntable(const std::filesystem::path& file) {
+  Rig rig = read_rig(file);
+  rig.turntable.reset();
+  const std::filesystem::path fresh = file.parent_path() / "fresh.toml";
+  write_rig(fresh, rig, Durability::Buffered, file);
+  std::filesystem::rename(fresh, file);
+}
 
 /// A service with a project on the simulated rig.
 class LiveServiceTest : public ::testing::Test {

@@ -22,6 +22,7 @@ const PLACES: Partial<Record<StepName, readonly FaultId[]>> = {
     'fault.noDevices',
     'fault.noAxis',
     'fault.axisUnknown',
+    'fault.partShowsNoAxis',
     'fault.calibrateTable',
     'fault.notTheRig',
     'fault.viewsContradict',

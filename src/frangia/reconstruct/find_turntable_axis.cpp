@@ -171,8 +171,8 @@ AxisOfPart find_turntable_axis(const Scan& scan,
   untabled.rig.turntable.reset();
   untabled.rig.cameras.resize(1);
   const CameraModel& camera = untabled.rig.reference().model;
-  std::vector<MeasuredSetup> setups = split_setups(
-      measure_views(untabled, rays_of(camera), options.decode, options.mixed_pixels, run));
+  std::vector<MeasuredSetup> setups = split_setups(measure_views(
+      untabled, rays_of(camera), options.decode, options.mixed_pixels, run, options.decoded));
   MeasuredViews& measured = setups.front().measured;
   ViewStore& views = measured.reference();
   remove_what_stays(views);

@@ -12,9 +12,7 @@
 #include "frangia/dataset/scan_folder.h"
 #include "frangia/reconstruct/find_turntable_axis.h"
 #include "frangia/rig/read_rig.h"
-#include "frangia/rig/write_rig.h"
 #include "frangia/service/internal/opened_devices.h"
-#include "frangia/service/rig_history.h"
 #include "frangia/simulate/default_patterns.h"
 
 namespace frangia {
@@ -65,14 +63,6 @@ Scan planned(const ProjectFolder& project, const Run& run) {
   return plan;
 }
 
-/// Puts a rig with its axis in the place of the project's rig, which stays in the history.
-void replace_rig(const ProjectFolder& project, const Rig& rig) {
-  keep_rig(project, RigChange::Axis);
-  const std::filesystem::path fresh = project.folder / "rig-with-axis.toml";
-  write_rig(fresh, rig, Durability::Synced, project.rig());
-  std::filesystem::rename(fresh, project.rig());
-}
-
 }  // namespace
 
 FoundAxis calibrate_axis(const ProjectFolder& project,
@@ -91,8 +81,8 @@ FoundAxis calibrate_axis(const ProjectFolder& project,
   run.stage("axis");
   const TurntableCalibration found = calibrate_turntable(
       read_scan(plan.folder, run, RigContent::StartValues), plan.rig, {}, 5.0, run);
-  replace_rig(project, found.rig);
   const TurntableSolution& solution = found.solution;
+  keep_axis(project, solution.turntable, run);
   return {.views = found.views.size(),
           .axis_sigma_deg = deg_from_rad(solution.axis_sigma_rad),
           .point_sigma_mm = solution.point_sigma_mm,
@@ -114,14 +104,8 @@ FoundAxis calibrate_axis_by_part(const ProjectFolder& project,
   Scan scan = read_scan(plan.folder, run, RigContent::StartValues);
   scan.rig = plan.rig;
   const AxisOfPart found = find_turntable_axis(scan, {}, run);
-  Rig rig = plan.rig;
-  rig.turntable = found.table;
-  replace_rig(project, rig);
-  return {.views = found.views,
-          .axis_sigma_deg = deg_from_rad(found.table.axis_sigma_rad),
-          .point_sigma_mm = found.table.point_sigma_mm,
-          .angles_rms_deg = deg_from_rad(found.table.angle_sigma_rad),
-          .distance_mm = found.table.point_mm.norm()};
+  keep_axis(project, found.table, run);
+  return figures_of(found);
 }
 
 }  // namespace frangia

@@ -1,23 +1,13 @@
 #pragma once
 
-#include <cstddef>
-
 #include "frangia/core/run.h"
 #include "frangia/rig/board.h"
 #include "frangia/service/capture_settings.h"
 #include "frangia/service/project_folder.h"
 #include "frangia/service/project_scan.h"
+#include "frangia/service/turntable_axis.h"
 
 namespace frangia {
-
-/// The axis of a turntable in the figures that matter to a user.
-struct FoundAxis {
-  std::size_t views = 0;        ///< that show it
-  double axis_sigma_deg = 0.0;  ///< standard deviation of its direction
-  double point_sigma_mm = 0.0;  ///< standard deviation of its place at what stands on the table
-  double angles_rms_deg = 0.0;  ///< by how much the views are off the angles that were commanded
-  double distance_mm = 0.0;     ///< from the camera
-};
 
 /// Finds the axis of the turntable with a board that stands on it: captures seven views while the
 /// table turns by 60 degrees, and writes the axis into the project's rig.toml, whose rig is

@@ -71,6 +71,8 @@ PointCloud StationRange::cloud(const RangeGrid& range, double angle_rad) const {
   return cloud;
 }
 
+constexpr std::size_t kMostCloudPoints = 60'000;  ///< of a station, for the picture
+
 constexpr double kDegreesPerTurn = 360.0;
 
 /// The stations of one capture, which two threads change.
@@ -142,14 +144,14 @@ void enter(const ViewAssessment& found,
            GrowingSurface* growing,
            const ProjectFolder& project,
            StationBook& book,
-           double angle_rad) {
-  constexpr std::size_t kMostPoints = 60'000;  // of a station, for the picture
+           double angle_rad,
+           bool is_placed) {
   bool has_cloud = false;
-  if (found.decoded != nullptr) {
+  if (found.decoded != nullptr && is_placed) {
     try {
       const RangeGrid range = ranges.of(*found.decoded);
       write_text_file(project.cloud(found.view),
-                      encode_points(ranges.cloud(range, angle_rad), kMostPoints));
+                      encode_points(ranges.cloud(range, angle_rad), kMostCloudPoints));
       has_cloud = true;
       if (growing != nullptr && !range.depth_mm.empty()) growing->add(found.view, angle_rad, range);
     } catch (const Error&) {  // NOLINT(bugprone-empty-catch): the picture alone lacks these points
@@ -266,6 +268,32 @@ std::shared_ptr<DecodedViews> views_to_keep(const ProjectFolder& project,
   return before;
 }
 
+std::vector<ProjectStation> place_clouds(const ProjectFolder& project,
+                                         std::vector<ProjectStation> stations,
+                                         const Turntable& table,
+                                         const std::shared_ptr<const DecodedViews>& decoded) {
+  if (!decoded) return stations;
+  const Scan scan = read_scan(project.scan);
+  Rig rig = scan.rig;
+  rig.turntable = table;
+  const StationRange ranges(rig);
+  const std::vector<ScanView>& planned = decoded->scan().views;
+  for (std::size_t view = 0; view < scan.views.size(); ++view) {
+    const auto told = decoded->find(scan, decoded->options(), view);
+    const auto of_station = std::find_if(planned.begin(), planned.end(), [&](const ScanView& one) {
+      return one.folder == scan.views[view].folder;  // skipped stations are not in the scan
+    });
+    const auto station = static_cast<std::size_t>(of_station - planned.begin());
+    if (!told || station >= stations.size()) continue;
+    write_text_file(project.cloud(station),
+                    encode_points(ranges.cloud(ranges.of(told->view), scan.views[view].angle_rad),
+                                  kMostCloudPoints));
+    stations[station].has_cloud = true;
+  }
+  write_stations(project, stations);
+  return stations;
+}
+
 CaptureReport capture_project(
     const ProjectFolder& project,
     std::vector<ProjectStation> stations,
@@ -290,12 +318,13 @@ CaptureReport capture_project(
   options.decoded = decoded;
   StationBook book(project, std::move(stations), on_change);
   const StationRange ranges(plan.rig);
+  const bool is_placed = plan.rig.turntable || plan.views.size() == 1;
   ViewWatch watch(plan.rig);
   options.check_view = [&](const ViewAssessment& found) {
     return watched_finding(watch, found, plan.views[found.view], run);
   };
   options.on_view = [&](const ViewAssessment& found) {
-    enter(found, ranges, growing, project, book, plan.views[found.view].angle_rad);
+    enter(found, ranges, growing, project, book, plan.views[found.view].angle_rad, is_placed);
   };
   Run watched = run;
   watched.progress = [&](double done) {

@@ -106,12 +106,23 @@ void write_stations(const ProjectFolder& project, const std::vector<ProjectStati
     const std::shared_ptr<DecodedViews>& before,
     const Run& run = {});
 
+/// Writes the points of the stations of a complete scan about the axis of its turntable, once it is
+/// found. Returns the stations with what has points. `decoded` holds the views; null: none.
+///
+/// @errors   as read_scan; Error(File)
+[[nodiscard]] std::vector<ProjectStation> place_clouds(
+    const ProjectFolder& project,
+    std::vector<ProjectStation> stations,
+    const Turntable& table,
+    const std::shared_ptr<const DecodedViews>& decoded);
+
 /// Captures the present setup of a scan at its stations, or continues it, with the devices of the
 /// project's rig, and keeps stations.json and the points of each station. `on_change` receives the
 /// stations after each change, on the calling thread or on that which decodes views.
 ///
 /// Its views are decoded into `decoded`, and added to `growing`, which may be null. The points are
-/// in the object frame of the rig as calibrated: registration comes later.
+/// in the object frame of the rig as calibrated: registration comes later. Where several stations
+/// turn about an axis that is not known, none has points, see place_clouds.
 /// @errors   UnknownTableAngle; as open_devices and capture_scan
 CaptureReport capture_project(
     const ProjectFolder& project,

@@ -35,6 +35,16 @@ export const CHECK = {
     'Non noto; le stazioni non si possono unire.',
   ],
   'check.axisFound': ['Found, ± {sigma}°.', 'Gefunden, ± {sigma}°.', 'Trovato, ± {sigma}°.'],
+  'check.axisOfScan': [
+    'Found from this scan, ± {sigma}°.',
+    'Aus diesem Scan gefunden, ± {sigma}°.',
+    'Trovato da questa scansione, ± {sigma}°.',
+  ],
+  'check.byScan': [
+    'A part without symmetry, such as a figure, shows it in its own scan.',
+    'Ein Teil ohne Symmetrie, etwa eine Figur, zeigt sie im eigenen Scan.',
+    'Un pezzo senza simmetrie, come una figura, lo mostra nella propria scansione.',
+  ],
   'check.axisKnown': ['Known from the rig.', 'Aus dem Aufbau bekannt.', "Noto dall'apparato."],
   'check.home': ['Home of the turntable', 'Nullstellung des Drehtischs', 'Zero della tavola'],
   'check.homeKnown': [

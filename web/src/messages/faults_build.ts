@@ -69,6 +69,21 @@ export const FAULTS_BUILD = {
     'die Achse des Drehtischs ist unbekannt: im Schritt Aufbau finden oder eine einzige Station scannen',
     "l'asse della tavola è ignoto: trovarlo nel passo Apparato, o scansionare una sola stazione",
   ],
+  'fault.axisStations': [
+    'stations: a scan shows the axis from three stations or more, better six or more',
+    'ein Scan zeigt die Achse ab drei Stationen, besser ab sechs',
+    "una scansione mostra l'asse da tre stazioni in su, meglio da sei",
+  ],
+  'fault.axisNoScan': [
+    'there is no complete scan that could show the axis',
+    'es gibt keinen vollständigen Scan, der die Achse zeigen könnte',
+    "non c'è una scansione completa che possa mostrare l'asse",
+  ],
+  'fault.axisKnownAlready': [
+    'the axis of the turntable is known already',
+    'die Achse des Drehtischs ist schon bekannt',
+    "l'asse della tavola è già noto",
+  ],
   'fault.wrongDirection': [
     '{0}: its {1} fringes do not measure depth, because the projector of rig.toml stands {2} the camera; capture {3} ones',
     '{0}: diese Streifen messen keine Tiefe, weil der Projektor so zur Kamera steht; die andere Richtung aufnehmen',

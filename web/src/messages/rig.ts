@@ -223,6 +223,11 @@ export const RIG = {
     "L'asse è noto all'apparato. Se la camera o la tavola è stata mossa, cercarlo di nuovo.",
   ],
   'axis.by': ['By', 'Mit', 'Con'],
+  'axis.ofScan': [
+    'Found from the scan of this project.',
+    'Aus dem Scan dieses Projekts gefunden.',
+    'Trovato dalla scansione di questo progetto.',
+  ],
   'axis.byBoard': ['Board', 'Brett', 'Scacchiera'],
   'axis.byPart': ['Any part', 'Beliebiges Teil', 'Un pezzo qualsiasi'],
   'axis.standBoard': [

@@ -34,6 +34,26 @@ export const SCAN = {
     "L'asse della tavola rotante non è ancora noto; senza di esso le stazioni non si possono unire.",
   ],
   'scan.toAxis': ['Find the axis', 'Achse suchen', "Cerca l'asse"],
+  'scan.axisOfScan': [
+    'Find the axis from this scan',
+    'Achse aus diesem Scan suchen',
+    "Cerca l'asse da questa scansione",
+  ],
+  'scan.axisSought': [
+    'The axis is looked for in the views of this scan.',
+    'Die Achse wird in den Ansichten dieses Scans gesucht.',
+    "L'asse viene cercato nelle viste di questa scansione.",
+  ],
+  'scan.axisFound': [
+    'The axis of the turntable was found from this scan, by {views} views: ± {direction}° in direction, ± {place} mm in place.',
+    'Die Achse des Drehtischs wurde aus diesem Scan gefunden, aus {views} Ansichten: ± {direction}° in der Richtung, ± {place} mm im Ort.',
+    "L'asse della tavola è stato trovato da questa scansione, da {views} viste: ± {direction}° in direzione, ± {place} mm in posizione.",
+  ],
+  'scan.framesKept': [
+    'The frames of the scan are kept: find the axis another way, then build the surface from them.',
+    'Die Bilder des Scans bleiben: die Achse anders suchen, dann daraus die Fläche berechnen.',
+    "Le immagini della scansione restano: cercare l'asse in altro modo, poi calcolare da esse la superficie.",
+  ],
   'scan.noRig': [
     'This folder holds a finished scan without devices.',
     'Dieser Ordner enthält einen fertigen Scan ohne Geräte.',

@@ -150,6 +150,18 @@ void extend_plan(const Scan& plan, const std::string& text) {
   write_text_file(path, text, Durability::Synced);
 }
 
+/// Replaces the stored rig where the new one knows the axis of the turntable, and differs by
+/// nothing else: it may be found from the frames themselves.
+void adopt_axis(const Scan& plan, const std::string& text) {
+  if (!plan.rig.turntable) return;
+  Rig before = plan.rig;
+  before.turntable.reset();
+  const std::filesystem::path path = path_below(plan.folder, "capture/rig.toml");
+  if (stored_text(path) != rig_text(before)) return;
+  CaptureManifest(plan.folder).change_plan("rig.toml", crc32(identity_of(text)));
+  write_text_file(path, text, Durability::Synced);
+}
+
 /// Checks that a plan equals the stored one. A stored file that is damaged is replaced.
 void compare_plan(const std::filesystem::path& folder, const PlanFiles& files, const Run& run) {
   const CaptureManifest manifest(folder);
@@ -183,7 +195,8 @@ void claim_folder(const Scan& plan, const SessionSettings& settings, const Run& 
   if (!std::filesystem::exists(plan.folder / "capture")) {
     store_plan(plan.folder, files);
   } else {
-    extend_plan(plan, files.front().text);
+    extend_plan(plan, files[0].text);
+    adopt_axis(plan, files[1].text);
     compare_plan(plan.folder, files, run);
   }
   remove_temporary_files(plan.folder);

@@ -14,9 +14,9 @@ struct SessionSettings {
 };
 
 /// Stores a plan in `capture/` of its folder, or checks that it equals the plan stored there. The
-/// names of the scan and of its folder may differ. A plan that has further views replaces the
-/// stored one. Removes the temporary files of a killed session. The caller holds the lock of the
-/// folder.
+/// names of the scan and of its folder may differ. A plan that has further views, or whose rig
+/// knows the axis of its turntable, replaces the stored one. Removes the temporary files of a
+/// killed session. The caller holds the lock of the folder.
 ///
 /// @errors   Error(Input) when the folder holds anything else, naming the first difference;
 ///          Error(File)

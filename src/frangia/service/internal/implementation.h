@@ -79,6 +79,8 @@ class Service::Implementation {
   Json set_live(CommandArguments& arguments);
   Json start_scan(CommandArguments& arguments);
   Json rescan_station(CommandArguments& arguments);
+  /// On the queue's thread: finds the axis by the complete scan.
+  void find_axis_of_scan(const ProjectFolder& project, const Run& run);
   Json start_reconstruct(CommandArguments& arguments);
   Json start_open_version(CommandArguments& arguments);
   Json start_replay(CommandArguments& arguments);

@@ -95,6 +95,7 @@ void Service::Implementation::forget_verdicts() {
   change([](OpenProject& now) {
     now.wizard.reset();
     now.axis.reset();
+    now.axis_fault.clear();
     now.check.reset();
     now.display.reset();
   });
@@ -172,15 +173,26 @@ Board board_of(CommandArguments& arguments, const ProjectFolder& folder) {
 
 }  // namespace
 
-/// By a board or any part on the table.
+/// By a board or any part on the table, or by the scan that was captured.
 nlohmann::ordered_json Service::Implementation::find_axis(CommandArguments& arguments) {
   const OpenProject project = opened();
+  if (arguments.flag("scan")) {
+    arguments.check_all_read();
+    require(project.scan_complete, "there is no complete scan that could show the axis");
+    require(project.rig.has_value() && !project.rig->turntable,
+            "the axis of the turntable is known already");
+    require_idle();
+    return started("axis", [this, folder = project.folder](const Run& run) {
+      find_axis_of_scan(folder, run);
+    });
+  }
   std::optional<Board> board;  // none: any part
   if (!arguments.flag("part")) board = board_of(arguments, project.folder);
   arguments.check_all_read();
   require(project.can_scan, "this project has no rig with devices");
   require(project.rig.has_value(), "calibrate the rig first; the axis needs camera and projector");
-  require(!project.scan_begun,
+  // The frames of a scan without the axis are those of a scan with it.
+  require(!project.scan_begun || !project.rig->turntable,
           "the scan has begun with this rig; create a project for another one");
   const bool has_table =
       std::any_of(project.devices.begin(), project.devices.end(), [](const auto& device) {
@@ -196,6 +208,7 @@ nlohmann::ordered_json Service::Implementation::find_axis(CommandArguments& argu
                   : calibrate_axis_by_part(folder, settings, options_.capture, run);
         change([&](OpenProject& now) {
           now.axis = found;
+          now.axis_fault.clear();
           now.check.reset();
         });
         reload_rig(folder);

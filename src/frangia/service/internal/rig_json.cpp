@@ -125,7 +125,8 @@ RigJson json_of_axis(const FoundAxis& axis) {
           {"axis_sigma_deg", axis.axis_sigma_deg},
           {"point_sigma_mm", axis.point_sigma_mm},
           {"angles_rms_deg", axis.angles_rms_deg},
-          {"distance_mm", axis.distance_mm}};
+          {"distance_mm", axis.distance_mm},
+          {"of_scan", axis.of_scan}};
 }
 
 RigJson json_of_figures(const RigFigures& figures) {

@@ -7,6 +7,7 @@
 #include "frangia/core/angles.h"
 #include "frangia/core/error.h"
 #include "frangia/core/read_file.h"
+#include "frangia/decode/plan_decoding.h"
 #include "frangia/service/internal/implementation.h"
 
 namespace frangia {
@@ -28,6 +29,22 @@ void require_own_scan(const OpenProject& project) {
           "this scan was opened, not captured here; create a project to scan with devices");
 }
 
+/// Refuses before the light a scan that cannot show the axis of its turntable.
+void require_axis_can_show(const std::optional<Rig>& rig,
+                           const CaptureSettings& settings,
+                           std::size_t stations,
+                           int setup) {
+  constexpr std::size_t kFewestStations = 3;
+  require(rig.has_value(), "calibrate the rig first; the axis needs camera and projector");
+  require(stations >= kFewestStations && setup == 0,
+          "stations: a scan shows the axis from three stations or more, better six or more");
+  const DecodePlan plan =
+      plan_decoding(patterns_of(settings, *rig), *rig, decode_options_of(settings));
+  require(is_absolute(plan),
+          "its fringe orders rest on the axis that is looked for; capture Gray code or coarser "
+          "fringes, too");
+}
+
 }  // namespace
 
 nlohmann::ordered_json Service::Implementation::start_scan(CommandArguments& arguments) {
@@ -35,6 +52,7 @@ nlohmann::ordered_json Service::Implementation::start_scan(CommandArguments& arg
   std::vector<ProjectStation> stations;
   bool can_scan = false;
   bool has_axis = false;
+  std::optional<Rig> calibrated;
   CaptureSettings settings;
   {
     const std::lock_guard lock(mutex_);
@@ -42,6 +60,7 @@ nlohmann::ordered_json Service::Implementation::start_scan(CommandArguments& arg
     can_scan = project_->can_scan;
     const std::optional<Rig>& rig = project_->rig ? project_->rig : project_->start;
     has_axis = !rig || rig->turntable.has_value();
+    calibrated = project_->rig;
     settings = project_->capture;
   }
   const int present = present_setup(stations);
@@ -53,13 +72,18 @@ nlohmann::ordered_json Service::Implementation::start_scan(CommandArguments& arg
       arguments.whole_or("setup", static_cast<std::size_t>(present), 0, kMostSetups));
   const std::size_t asked =
       arguments.whole_or("stations", of_present == 0 ? 8 : of_present, 1, kMostStations);
+  const bool finds_axis = arguments.flag("find_axis") && !has_axis;
   CaptureSetup setup = options_.capture;
   if (const auto angle = arguments.number("table_deg")) setup.table_at_rad = rad_from_deg(*angle);
   arguments.check_all_read();
   require(can_scan, "this project has no rig with devices; create one to scan");
   require_own_scan(opened());
-  require(has_axis || (asked == 1 && wanted == 0),
-          "the axis of the turntable is unknown: find it in step Rig, or scan a single station");
+  if (finds_axis) {
+    require_axis_can_show(calibrated, settings, asked, wanted);
+  } else {
+    require(has_axis || (asked == 1 && wanted == 0),
+            "the axis of the turntable is unknown: find it in step Rig, or scan a single station");
+  }
   const bool begun = was_captured(project);
   if (wanted == present + 1) {
     require_setup_done(stations, present);
@@ -77,14 +101,17 @@ nlohmann::ordered_json Service::Implementation::start_scan(CommandArguments& arg
     opened.stations = stations;
     opened.grown.reset();
     opened.unknown_angle.reset();
+    opened.axis_fault.clear();
   });
-  return started("scan", [this, project, stations, settings, setup](const Run& run) {
+  return started("scan", [this, project, stations, settings, setup, finds_axis](const Run& run) {
     CaptureReport report;
     const auto decoded = views_to_keep(project, stations, settings, opened().decoded, run);
     change([&](OpenProject& opened) { opened.decoded = decoded; });
     // Each setup stands in its own pose on the table: the surface is that of the present one.
     std::optional<GrowingSurface> growing;
-    if (const std::optional<Rig> rig = opened().rig) {
+    // Without the axis nothing says where a view belongs.
+    if (const std::optional<Rig> rig = opened().rig;
+        rig && (rig->turntable || stations.size() == 1)) {
       growing.emplace(*rig, [this](const GrownSurface& grown) {
         change([&](OpenProject& opened) { opened.grown = grown; });
       });
@@ -107,6 +134,7 @@ nlohmann::ordered_json Service::Implementation::start_scan(CommandArguments& arg
     }
     change([&](OpenProject& opened) { opened.scan_complete = true; });
     refresh_projects();
+    if (finds_axis) find_axis_of_scan(project, run);
     run.note(fmt::format("{} frames captured, {} already there", report.captured, report.resumed));
   });
 }
@@ -132,8 +160,35 @@ nlohmann::ordered_json Service::Implementation::rescan_station(CommandArguments&
   std::filesystem::remove(project.in_scan("scan.toml"));
   std::filesystem::remove_all(
       project.in_scan(std::filesystem::path("views") / fmt::format("{:03}", station)));
-  CommandArguments none("{}");
-  return start_scan(none);
+  const bool finds_axis = before.rig && !before.rig->turntable && before.stations.size() > 1;
+  CommandArguments again(finds_axis ? R"({"find_axis": true})" : "{}");
+  return start_scan(again);
+}
+
+/// What the part shows is no failure of the scan, whose frames are kept: the state says it.
+void Service::Implementation::find_axis_of_scan(const ProjectFolder& project, const Run& run) {
+  const OpenProject before = opened();
+  run.stage("axis");
+  try {
+    const AxisOfPart found = axis_of_scan(project, before.capture, before.decoded, run);
+    // Before the rig of the scan changes, for which the views were decoded.
+    const std::vector<ProjectStation> stations =
+        place_clouds(project, before.stations, found.table, before.decoded);
+    keep_axis(project, found.table, run);
+    change([&](OpenProject& now) {
+      now.axis = figures_of(found);
+      now.axis->of_scan = true;
+      now.axis_fault.clear();
+      now.stations = stations;
+    });
+    reload_rig(project);
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::Numeric && error.kind() != ErrorKind::Input) throw;
+    const std::string about = project.scan.string() + ": ";  // the page shows one scan
+    std::string fault = error.what();
+    if (fault.starts_with(about)) fault.erase(0, about.size());
+    change([&](OpenProject& now) { now.axis_fault = fault; });
+  }
 }
 
 std::string Service::Implementation::cloud(std::size_t station) const {

@@ -171,6 +171,7 @@ Json json_of_project(const OpenProject& project, const CommandLines& commands) {
             {"live", project.live ? json_of_live(*project.live) : Json()},
             {"calibration", project.wizard ? json_of_wizard(project.wizard->state()) : Json()},
             {"axis", project.axis ? json_of_axis(*project.axis) : Json()},
+            {"axis_fault", project.axis_fault},
             {"table_angle",
              project.unknown_angle
                  ? Json{{"last_deg",

@@ -76,7 +76,8 @@ struct OpenProject {
   std::shared_ptr<LivePreview> live;          ///< while a preview runs
   std::shared_ptr<CalibrationWizard> wizard;  ///< since a calibration began
   std::optional<FoundAxis> axis;              ///< of the turntable, since it was searched for
-  std::optional<ScanCheck> check;             ///< what the devices see before a scan
+  std::string axis_fault;          ///< why the scan does not show it; empty: it was not asked
+  std::optional<ScanCheck> check;  ///< what the devices see before a scan
   std::optional<DisplayMeasurement> display;  ///< since it was measured
   std::vector<KeptRig> kept_rigs;             ///< that the project had, the newest first
   std::vector<ProjectStation> stations;

@@ -26,15 +26,16 @@ export function axisStage(app: App): RigStage | null {
   const body = html`${
     found
       ? html`<dl class="figures">
-          <dt>${t('axis.place')}</dt>
-          <dd class="num">± ${number(found.point_sigma_mm, 3)}<span>mm</span></dd>
-          <dt>${t('axis.distance')}</dt>
-          <dd class="num">${number(found.distance_mm, 1)}<span>mm</span></dd>
-          <dt>${t('axis.angles')}</dt>
-          <dd class="num">${number(found.angles_rms_deg, 3)}°</dd>
-          <dt>${t('axis.views')}</dt>
-          <dd class="num">${found.views}</dd>
-        </dl>`
+            <dt>${t('axis.place')}</dt>
+            <dd class="num">± ${number(found.point_sigma_mm, 3)}<span>mm</span></dd>
+            <dt>${t('axis.distance')}</dt>
+            <dd class="num">${number(found.distance_mm, 1)}<span>mm</span></dd>
+            <dt>${t('axis.angles')}</dt>
+            <dd class="num">${number(found.angles_rms_deg, 3)}°</dd>
+            <dt>${t('axis.views')}</dt>
+            <dd class="num">${found.views}</dd>
+          </dl>
+          ${found.of_scan ? html`<p class="quiet">${t('axis.ofScan')}</p>` : ''}`
       : html`<p class="quiet">${t(!project.rig ? 'axis.later' : known ? 'axis.known' : 'axis.unknown')}</p>
           ${project.rig ? html`<p class="quiet">${t(byPart ? 'axis.standPart' : 'axis.standBoard')}</p>` : ''}`
   }
@@ -60,7 +61,7 @@ export function axisStage(app: App): RigStage | null {
             <button
               class="btn ${known ? '' : 'primary'} wide"
               id="find-axis"
-              ?disabled=${app.occupied || app.session.watches || project.scan_begun}
+              ?disabled=${app.occupied || app.session.watches || (project.scan_begun && known)}
             >
               ${t(known ? 'axis.again' : 'axis.find')}
             </button>

@@ -5,6 +5,7 @@ import { icon } from '../../icons';
 import { number, t } from '../../messages';
 import { plain } from '../../ui';
 import { axisIsKnown, hasTable } from '../../rig_facts';
+import { scanArguments, scanMayShowAxis } from './axis_of_scan';
 
 /** Fringes of less contrast are blurred or drowned in room light: half of what a sound rig shows. */
 const POOR_CONTRAST = 0.35;
@@ -20,6 +21,8 @@ interface Line {
   text: string;
   /** The step where the user can correct it. */
   step?: StepName;
+  /** Another way, below the line. */
+  other?: TemplateResult;
 }
 
 function devices(app: App): Line {
@@ -51,15 +54,34 @@ function calibration(app: App): Line {
   return days > OLD_DAYS ? { label, state: 'poor', text, step: 'rig' } : { label, state: 'done', text };
 }
 
+/** The scan itself shows the axis, unless the part is round. */
+const byScan = (app: App): TemplateResult =>
+  html`<div class="check-other">
+    <p class="quiet">${t('check.byScan')}</p>
+    <button
+      class="btn wide"
+      id="scan-for-axis"
+      ?disabled=${app.occupied || app.session.watches}
+      @click=${() => app.command('start-scan', scanArguments(app))}
+    >
+      ${icon('play')}${t('scan.axisOfScan')}
+    </button>
+  </div>`;
+
 function axis(app: App): Line {
   const label = t('axis.title');
   if (!hasTable(app)) return { label, state: '', text: t('check.noTable') };
-  if (!axisIsKnown(app)) return { label, state: 'bad', text: t('check.noAxis'), step: 'rig' };
+  if (!axisIsKnown(app)) {
+    const line: Line = { label, state: 'bad', text: t('check.noAxis'), step: 'rig' };
+    return scanMayShowAxis(app) ? { ...line, other: byScan(app) } : line;
+  }
   const found = app.project.axis;
   return {
     label,
     state: 'done',
-    text: found ? t('check.axisFound', { sigma: number(found.axis_sigma_deg, 3) }) : t('check.axisKnown'),
+    text: found
+      ? t(found.of_scan ? 'check.axisOfScan' : 'check.axisFound', { sigma: number(found.axis_sigma_deg, 3) })
+      : t('check.axisKnown'),
   };
 }
 
@@ -116,22 +138,23 @@ export function scanCheck(app: App): TemplateResult | string {
     <h2>${t('check.title')}</h2>
     <div class="checks">
       ${lines.map(
-        ({ state, label, text, step }) =>
+        ({ state, label, text, step, other }) =>
           html`<div class="check" data-state=${state}>
-            <span class="dot ${state}"></span>
-            <div><b>${label}</b><span class="quiet">${text}</span></div>
-            ${
-              step
-                ? html`<button
-                    class="btn small"
-                    aria-label="${app.titleOf(step)}: ${label}"
-                    @click=${() => app.go(step)}
-                  >
-                    ${app.titleOf(step)}
-                  </button>`
-                : ''
-            }
-          </div>`,
+              <span class="dot ${state}"></span>
+              <div><b>${label}</b><span class="quiet">${text}</span></div>
+              ${
+                step
+                  ? html`<button
+                      class="btn small"
+                      aria-label="${app.titleOf(step)}: ${label}"
+                      @click=${() => app.go(step)}
+                    >
+                      ${app.titleOf(step)}
+                    </button>`
+                  : ''
+              }
+            </div>
+            ${other ?? ''}`,
       )}
     </div>
     <button

@@ -5,7 +5,7 @@ import { icon } from '../../icons';
 import { number, t } from '../../messages';
 import type { Station } from '../../types';
 import { numberForm, plain, span } from '../../ui';
-import { axisIsKnown } from '../../rig_facts';
+import { axisAfter, axisFirst, axisFound, lacksAxis, scanArguments } from './axis_of_scan';
 import { scanCheck } from './check';
 import { presentSetup } from '../../setups';
 import { joins, nextSetup, setupChoice } from './setups';
@@ -50,7 +50,13 @@ export function scanStep(app: App): TemplateResult {
   const complete = done(app);
   const before = !job && !begun && !complete;
   const resumed = !job && begun && !complete;
-  const lead = resumed ? t('scan.resume') : !project.can_scan ? t('scan.noRig') : before ? '' : t('scan.lead');
+  const lead = resumed
+    ? t('scan.resume')
+    : !project.can_scan
+      ? t('scan.noRig')
+      : before || (complete && lacksAxis(app))
+        ? ''
+        : t('scan.lead');
   if (app.setups.turning && complete && !job) return nextSetup(app);
   return html`<section class="group">
       ${setupChoice(app)}
@@ -60,45 +66,45 @@ export function scanStep(app: App): TemplateResult {
           ? html`<button class="btn wide" @click=${() => app.command('stop-job', { job: job.number })}>
               ${icon('pause')}${t('scan.pause')}
             </button>`
-          : complete
-            ? html`<form class="form-plain" novalidate @submit=${app.building.submit}>
-                <button class="btn primary wide" id="build" ?disabled=${app.occupied}>
-                  ${t('scan.build')}${icon('arrow')}
-                </button>
-                <details class="more" id="build-options">
-                  <summary>${t('build.options')}</summary>
-                  <div class="form-plain">${app.building.fields()}</div>
-                </details>
-              </form>`
-            : project.table_angle
-              ? numberForm(
-                  'table-angle',
-                  t('scan.tableAngle'),
-                  project.table_angle.last_deg ?? 0,
-                  t('scan.continue'),
-                  app.occupied,
-                  (angle) => void app.command('start-scan', { table_deg: angle }),
-                )
-              : project.can_scan && stations.length > 1 && !axisIsKnown(app)
-                ? html`<p class="bad">${t('scan.noAxis')}</p>
-                    <button class="btn primary wide" id="to-axis" @click=${() => app.go('rig')}>
-                      ${t('scan.toAxis')}${icon('arrow')}
-                    </button>`
-                : project.can_scan
-                  ? html`<button
-                      class="btn primary wide"
-                      id="scan"
-                      ?disabled=${app.occupied}
-                      @click=${() => app.command('start-scan')}
-                    >
-                      ${icon('play')}${begun ? t('scan.continue') : t('scan.start')}
-                    </button>`
-                  : ''
+          : complete && lacksAxis(app)
+            ? axisAfter(app)
+            : complete
+              ? html`<form class="form-plain" novalidate @submit=${app.building.submit}>
+                  <button class="btn primary wide" id="build" ?disabled=${app.occupied}>
+                    ${t('scan.build')}${icon('arrow')}
+                  </button>
+                  <details class="more" id="build-options">
+                    <summary>${t('build.options')}</summary>
+                    <div class="form-plain">${app.building.fields()}</div>
+                  </details>
+                </form>`
+              : project.table_angle
+                ? numberForm(
+                    'table-angle',
+                    t('scan.tableAngle'),
+                    project.table_angle.last_deg ?? 0,
+                    t('scan.continue'),
+                    app.occupied,
+                    (angle) => void app.command('start-scan', { table_deg: angle, ...scanArguments(app) }),
+                  )
+                : !begun && lacksAxis(app)
+                  ? axisFirst(app)
+                  : project.can_scan
+                    ? html`<button
+                        class="btn primary wide"
+                        id="scan"
+                        ?disabled=${app.occupied}
+                        @click=${() => app.command('start-scan', scanArguments(app))}
+                      >
+                        ${icon('play')}${begun ? t('scan.continue') : t('scan.start')}
+                      </button>`
+                    : ''
       }
-      ${lead ? html`<p class="quiet">${lead}</p>` : ''}
+      ${complete && !job ? axisFound(app) : ''} ${lead ? html`<p class="quiet">${lead}</p>` : ''}
     </section>
     ${before ? scanCheck(app) : ''}
-    ${complete && !job && project.can_scan && !app.session.watches ? nextSetup(app) : ''} ${job ? '' : joins(app)}
+    ${complete && !job && project.can_scan && !lacksAxis(app) && !app.session.watches ? nextSetup(app) : ''}
+    ${job ? '' : joins(app)}
     <section class="group">
       <table class="table">
         <thead>
