@@ -119,7 +119,7 @@ TEST(InspectionPlan, StatesHowTheSurfaceIsJudgedAndTheHeadOfTheReport) {
       "edge_mm = 0\n"
       "[[excluded]]\nname = \"base\"\nmin_mm = [-50, -50, -1]\nmax_mm = [50, 50, 0.5]\n"
       "[report]\ndrawing = \"D-17\"\noperator = \"A. Smith\"\npaper = \"Letter\"\n"
-      "logo = \"logo.png\"\n");
+      "logo = \"logo.png\"\npages = [\"annex\", \"results\"]\n");
   EXPECT_EQ(plan.surface.min_feature_mm, 3.0);
   EXPECT_EQ(plan.surface.max_uncertainty_share, 0.2);
   EXPECT_EQ(plan.surface.min_coverage, 0.95);
@@ -133,6 +133,11 @@ TEST(InspectionPlan, StatesHowTheSurfaceIsJudgedAndTheHeadOfTheReport) {
   EXPECT_EQ(plan.report.paper, "Letter");
   EXPECT_EQ(plan.report.logo.filename(), "logo.png");
   EXPECT_TRUE(plan.report.logo.has_parent_path());
+  EXPECT_TRUE(plan.report.prints(ReportPage::Results));
+  EXPECT_TRUE(plan.report.prints(ReportPage::Annex));
+  EXPECT_FALSE(plan.report.prints(ReportPage::Features));
+  EXPECT_FALSE(plan_from("[report]\npages = []\n").report.prints(ReportPage::Results));
+  EXPECT_TRUE(plan_from("[report]\n").report.prints(ReportPage::Features));
 }
 
 TEST(InspectionPlan, ReportsAFeatureThatIsNotFound) {
@@ -201,6 +206,10 @@ TEST(InspectionPlan, NamesTheKeyThatIsWrong) {
   expect("min_coverage = 1.5\n", "min_coverage must be 1 at most");
   expect("edge_mm = -1\n", "edge_mm must be 0 or more");
   expect("[report]\npaper = \"A3\"\n", "paper is \"A3\"; it must be A4 or Letter");
+  expect("[report]\npages = [\"annex\", \"walls\"]\n",
+         "pages is \"walls\"; it must be one of results, pictures, places, thickness, sections, "
+         "features, annex");
+  expect("[report]\npages = \"annex\"\n", "pages must be a list of strings");
   expect("[[excluded]]\nname = \"b\"\nmin_mm = [0, 0, 0]\nmax_mm = [1, 1, 0]\n",
          "max_mm must be larger than min_mm");
   expect("tolerance_mm = [0.1, -0.1]\n", "tolerance_mm must be [LOWER, UPPER]");
@@ -359,6 +368,7 @@ operator = "A. Smith"
 date = "2026-01-02"
 paper = "Letter"
 logo = "logo.png"
+pages = ["results", "features"]
 )";
 
 TEST(InspectionPlan, IsWrittenAsItWasRead) {

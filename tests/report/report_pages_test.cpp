@@ -2,8 +2,10 @@
 #include <cstdlib>
 #include <fstream>
 #include <iterator>
+#include <map>
 #include <regex>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "frangia/core/durable_file.h"
@@ -214,6 +216,51 @@ TEST(ReportPages, BeginWithPartVerdictAndReason) {
   EXPECT_NE(page.find("SN \\3c 9\\3e "), std::string::npos);  // at the head of each sheet
   EXPECT_EQ(page.find("<script"), std::string::npos);
   EXPECT_EQ(page.find("display:grid"), std::string::npos);
+}
+
+/// A report with something on each of its pages.
+InspectionReport full_report() {
+  InspectionReport report;
+  report.part = "flange";
+  report.surface.emplace();
+  report.surface->places.push_back({});
+  report.deviation.emplace();
+  report.thickness.emplace();
+  for (std::uint64_t i = 0; i < 2; ++i)
+    report.pictures.push_back(random_picture(i));
+  for (int i = 0; i < 60; ++i)
+    report.characteristics.push_back({.name = fmt::format("row {}", i), .limits = {{0.0, 1.0}}});
+  report.sections.push_back({.name = "middle"});
+  report.features.emplace_back();
+  return report;
+}
+
+TEST(ReportPages, AreThoseThatThePlanNames) {
+  const std::map<ReportPage, std::string> headings{
+      {ReportPage::Results, "Results, the worst first"},
+      {ReportPage::Pictures, "<h2>Pictures"},
+      {ReportPage::Places, "Places that are out or undecided"},
+      {ReportPage::Thickness, "Thickness of the walls"},
+      {ReportPage::Sections, "<h2>Sections"},
+      {ReportPage::Features, "Features that were found"},
+      {ReportPage::Annex, "<h1>Annex"}};
+  InspectionReport report = full_report();
+  const std::string all = html_of(report);
+  EXPECT_NE(all.find("all of them follow"), std::string::npos);
+  for (const auto& [page, heading] : headings) {
+    EXPECT_NE(all.find(heading), std::string::npos) << heading;
+    report.fields.pages = {page};
+    const std::string one = html_of(report);
+    for (const auto& [other, text] : headings)
+      EXPECT_EQ(one.find(text) != std::string::npos, other == page) << heading << ": " << text;
+  }
+  // The first sheet alone, without an empty one behind it.
+  report.fields.pages.emplace();
+  report.warnings.assign(5, "the part moved");
+  const std::string cover = html_of(report);
+  EXPECT_EQ(cover.find("class=\"sheet\""), std::string::npos);
+  EXPECT_NE(cover.find("the JSON beside this report lists all"), std::string::npos);
+  EXPECT_NE(cover.find("2 more warnings: see the JSON beside this report."), std::string::npos);
 }
 
 /// The text of a sheet of a report, as WeasyPrint prints it.

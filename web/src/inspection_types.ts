@@ -56,5 +56,7 @@ export interface Plan {
   thickness?: boolean;
   features?: PlannedFeature[];
   characteristics?: PlannedCharacteristic[];
-  report?: Partial<Record<'drawing' | 'order' | 'serial' | 'customer' | 'operator' | 'date' | 'paper', string>>;
+  report?: Partial<Record<'drawing' | 'order' | 'serial' | 'customer' | 'operator' | 'date' | 'paper', string>> & {
+    pages?: string[];
+  };
 }

@@ -138,6 +138,19 @@ ReportFields report_of(TomlReader reader, const std::filesystem::path& plan) {
             "is \"{}\"; it must be one of {}", fields.language, fmt::join(kReportLanguages, ", ")));
   }
   if (reader.has("logo")) fields.logo = plan.parent_path() / reader.text("logo");
+  if (reader.has("pages")) {
+    fields.pages.emplace();
+    for (const std::string& name : reader.texts("pages")) {
+      const auto page = find_named<ReportPage>(name);
+      if (!page) {
+        reader.fail(
+            "pages",
+            fmt::format(
+                "is \"{}\"; it must be one of {}", name, fmt::join(all_names<ReportPage>(), ", ")));
+      }
+      fields.pages->push_back(*page);
+    }
+  }
   reader.refuse_unused_keys();
   return fields;
 }
@@ -184,6 +197,10 @@ void read_surface_keys(TomlReader& top, InspectionPlan& plan) {
 }
 
 }  // namespace
+
+bool ReportFields::prints(ReportPage page) const {
+  return !pages || std::find(pages->begin(), pages->end(), page) != pages->end();
+}
 
 ToleranceLimits InspectionPlan::tolerance() const {
   constexpr double kUsual_mm = 0.1;

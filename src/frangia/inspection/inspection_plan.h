@@ -11,6 +11,7 @@
 #include <Eigen/Core>
 
 #include "frangia/align/align_points.h"
+#include "frangia/core/enum_names.h"
 #include "frangia/features/geometric_tolerance.h"
 #include "frangia/features/shape.h"
 #include "frangia/inspect/surface_verdict.h"
@@ -59,7 +60,30 @@ struct PlannedSection {
 /// The languages of a report: English, German, Italian.
 inline constexpr std::array<std::string_view, 3> kReportLanguages{"en", "de", "it"};
 
-/// What stands at the head of a report: `[report]`. Empty texts are left out.
+/// Part of a report after its first sheet, in the order in which they are printed.
+enum class ReportPage {
+  Results,    ///< the whole table, where the first sheet has no room for it
+  Pictures,   ///< of deviations and thickness, besides that of the first sheet
+  Places,     ///< that are out or undecided
+  Thickness,  ///< of the walls
+  Sections,   ///< with those of blades
+  Features,   ///< that were found
+  Annex       ///< decision in detail, uncertainty, alignment, checksums, warnings
+};
+
+/// What users call them.
+[[nodiscard]] constexpr auto names_of(ReportPage /*any*/) {
+  return EnumNames<ReportPage, 7>{{{ReportPage::Results, "results"},
+                                   {ReportPage::Pictures, "pictures"},
+                                   {ReportPage::Places, "places"},
+                                   {ReportPage::Thickness, "thickness"},
+                                   {ReportPage::Sections, "sections"},
+                                   {ReportPage::Features, "features"},
+                                   {ReportPage::Annex, "annex"}}};
+}
+
+/// What stands at the head of a report and which pages follow: `[report]`. Empty texts are left
+/// out.
 struct ReportFields {
   std::string drawing;          ///< number and revision
   std::string order;            ///< number
@@ -70,6 +94,10 @@ struct ReportFields {
   std::string paper = "A4";     ///< A4 or Letter
   std::string language = "en";  ///< one of `kReportLanguages`
   std::filesystem::path logo;   ///< PNG or JPEG, relative to the file of the plan; may be empty
+  std::optional<std::vector<ReportPage>> pages{};  ///< after the first sheet; none: all
+
+  /// Whether a part of the report is printed.
+  [[nodiscard]] bool prints(ReportPage page) const;
 };
 
 /// How the parts of one kind are inspected: inspection.toml.

@@ -109,6 +109,12 @@ void add_report(TomlLines& lines, const ReportFields& fields, const std::filesys
   if (fields.paper != ReportFields{}.paper) inner.text("paper", fields.paper);
   if (fields.language != ReportFields{}.language) inner.text("language", fields.language);
   inner.text("logo", relative_to(fields.logo, folder));
+  if (fields.pages) {
+    std::vector<std::string> names;
+    for (const ReportPage page : *fields.pages)
+      names.push_back(fmt::format("\"{}\"", name_of(page)));
+    inner.raw("pages", fmt::format("[{}]", fmt::join(names, ", ")));
+  }
   const std::string text = inner.take();
   if (!text.empty()) lines.head("[report]\n" + text.substr(0, text.size() - 1));
 }

@@ -62,6 +62,8 @@ code{overflow-wrap:anywhere}
 @media print{body{margin:0;max-width:none;padding:0}}
 )";
 
+constexpr std::string_view kSheet = "<div class=\"sheet\"></div>\n";
+
 /// Text as a string of CSS within an element `style`.
 std::string css_string(std::string_view text) {
   std::string quoted = "\"";
@@ -172,10 +174,12 @@ void HtmlPage::html(const std::string& fragment) {
 }
 
 void HtmlPage::new_sheet() {
-  body_ += "<div class=\"sheet\"></div>\n";
+  if (!body_.ends_with(kSheet)) body_ += kSheet;
 }
 
 std::string HtmlPage::text() const {
+  std::string_view body = body_;
+  if (body.ends_with(kSheet)) body.remove_suffix(kSheet.size());
   return fmt::format(
       "<!DOCTYPE html>\n<html lang=\"{}\"><head><meta charset=\"utf-8\"><title>{}</title>"
       "<style>{}{}</style></head><body>\n{}</body></html>\n",
@@ -183,7 +187,7 @@ std::string HtmlPage::text() const {
       title_,
       kPageStyle,
       sheet_style(paper_),
-      body_);
+      body);
 }
 
 std::string data_uri(std::string_view media_type, const std::vector<char>& bytes) {

@@ -47,7 +47,7 @@ class HtmlPage {
   void drawing(const std::string& svg, std::string_view caption);
   void end_figures();                      ///< see `begin_figures`
   void html(const std::string& fragment);  ///< HTML, taken over as it is
-  void new_sheet();                        ///< what follows begins a sheet
+  void new_sheet();                        ///< what follows begins a sheet; nothing: none is added
 
   /// A text in the language of the page, for `html`; escaped.
   [[nodiscard]] std::string word(std::string_view english) const;

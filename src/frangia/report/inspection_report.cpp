@@ -39,8 +39,10 @@ std::string html_of(const InspectionReport& report) {
       false);
   report::add_cover(page, report, words);
   report::add_findings(page, report, words);
-  page.new_sheet();
-  report::add_annex(page, report, words);
+  if (report.fields.prints(ReportPage::Annex)) {
+    page.new_sheet();
+    report::add_annex(page, report, words);
+  }
   return page.text();
 }
 

@@ -180,19 +180,26 @@ void add_cover(HtmlPage& page, const InspectionReport& report, const ReportWords
                           html_escaped(words.warning(report.warnings[i]))));
   if (report.warnings.size() > kWarnings) {
     const std::size_t more = report.warnings.size() - kWarnings;
-    page.paragraph(fmt::format("{} more warning{}: see the annex.", more, more == 1 ? "" : "s"));
+    const char* const where =
+        report.fields.prints(ReportPage::Annex) ? "the annex" : "the JSON beside this report";
+    page.paragraph(fmt::format("{} more warning{}: see {}.", more, more == 1 ? "" : "s", where));
   }
   if (!report.pictures.empty()) page.html(labelled_picture(report.pictures.front(), words));
   const auto rows = rows_of_results(report);
   const std::size_t shown = rows_on_cover(report, rows, words);
   if (shown > 0) page.html(result_table(rows, shown, words));
-  if (rows.size() > shown)
+  const bool all_follow = report.fields.prints(ReportPage::Results);
+  if (rows.size() > shown && all_follow)
     page.paragraph(fmt::format("The {} worst of {} rows; all of them follow.", shown, rows.size()));
+  if (rows.size() > shown && !all_follow) {
+    page.paragraph(fmt::format(
+        "The {} worst of {} rows; the JSON beside this report lists all.", shown, rows.size()));
+  }
   if (has_verdict(report)) {
     page.html(fmt::format("<p class=\"small\">{}</p>\n", page.word(kDecisionRule)));
   }
   page.new_sheet();
-  add_all_results(page, report, words);
+  if (all_follow) add_all_results(page, report, words);
 }
 
 }  // namespace frangia::report

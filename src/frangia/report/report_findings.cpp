@@ -210,12 +210,15 @@ void add_sections(HtmlPage& page, const InspectionReport& report, const ReportWo
 }  // namespace
 
 void add_findings(HtmlPage& page, const InspectionReport& report, const ReportWords& words) {
-  add_pictures(page, report, words);
-  add_places(page, report, words);
-  add_walls(page, report, words);
-  add_blades(page, report.sections, words);
-  add_sections(page, report, words);
-  add_found_features(page, report, words);
+  const ReportFields& fields = report.fields;
+  if (fields.prints(ReportPage::Pictures)) add_pictures(page, report, words);
+  if (fields.prints(ReportPage::Places)) add_places(page, report, words);
+  if (fields.prints(ReportPage::Thickness)) add_walls(page, report, words);
+  if (fields.prints(ReportPage::Sections)) {
+    add_blades(page, report.sections, words);
+    add_sections(page, report, words);
+  }
+  if (fields.prints(ReportPage::Features)) add_found_features(page, report, words);
 }
 
 }  // namespace frangia::report
