@@ -272,7 +272,7 @@ TEST(SurfaceVerdict, DoesNotTakeTheFloorBelowAThinWallForMissingMaterial) {
   EXPECT_EQ(verdict.reason, UndecidedReason::NotMeasured);
 }
 
-/// Without the views, a deep narrow pin that is not there may as well not have been seen.
+/// Where the reference has a surface at the root of the pin, what was measured there is that one.
 TEST(SurfaceVerdict, TakesNoNarrowPinForMissing) {
   Mesh nominal = testing::level_grid(41, 41);
   const Mesh pin = testing::box({18, 18, -1}, {22, 22, 30});

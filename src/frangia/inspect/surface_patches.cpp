@@ -287,7 +287,7 @@ SurfacePatches surface_patches(const Mesh& mesh,
     }
   }
   find_neighbors(patches, grid);
-  patches.missing = inspect::missing_patches(patches, mesh, reference);
+  patches.missing = inspect::missing_patches(patches, mesh, deviations, reference, run);
   return patches;
 }
 

@@ -36,7 +36,8 @@ struct SurfacePatches {
   std::vector<float> deviation_mm;    ///< mean over the patch; NaN where nothing was compared
   std::vector<float> noise_mm;        ///< standard uncertainty of the mean by noise
   std::vector<float> systematic_mm;   ///< by what is alike in the patch: averaging keeps it
-  /// 1 where measured surface lies inside of the nominal material below an unmeasured patch.
+  /// 1 where measured surface lies inside of the nominal material below an unmeasured patch, or was
+  /// seen through it.
   std::vector<std::uint8_t> missing;
   std::vector<std::vector<std::uint32_t>> neighbors;  ///< patches within a diameter, on this side
   bool uncertainty_known = false;                     ///< the mesh has a sigma
