@@ -10,6 +10,7 @@ import path from 'node:path';
 import { check, expect, idle as allDone, launch, look as lookAt, newHome, newProject, openPage, passed, requireChromium, startServer, stateOf, stlOf, tell, waitForProject } from './harness.mjs';
 
 const [program, shots] = process.argv.slice(2).map((name) => path.resolve(name));
+const here = import.meta.dirname ?? path.dirname(new URL(import.meta.url).pathname);
 requireChromium();
 fs.mkdirSync(shots, { recursive: true });
 const home = newHome();
@@ -35,6 +36,32 @@ const measured = [...ball([0, 0, 0], 15, 60), ...ball([50.1, 0, 0], 10.025, 40),
 const folder = newProject(program, home, 'balls', measured);
 const reference = path.join(home, 'balls as designed.stl');
 fs.writeFileSync(reference, stlOf(nominal));
+
+/** A plate of 60 x 40 x 10 mm about a bore, in its middle, whose radius is 0.02 mm too large. */
+function boredPlate() {
+  const [AROUND, RINGS, LAYERS, RADIUS] = [240, 12, 8, 8.02];
+  const at = (i, k, z) => {
+    const u = (2 * Math.PI * i) / AROUND;
+    const outer = 1 / Math.max(Math.abs(Math.cos(u)) / 30, Math.abs(Math.sin(u)) / 20);
+    const r = RADIUS + ((outer - RADIUS) * k) / RINGS;
+    return [r * Math.cos(u), r * Math.sin(u), z];
+  };
+  const triangles = [];
+  const quad = (a, b, c, d) => triangles.push([a, b, c], [a, c, d]);
+  for (let i = 0; i < AROUND; i++) {
+    for (let k = 0; k < RINGS; k++) {
+      quad(at(i, k, 10), at(i, k + 1, 10), at(i + 1, k + 1, 10), at(i + 1, k, 10));
+      quad(at(i, k, 0), at(i + 1, k, 0), at(i + 1, k + 1, 0), at(i, k + 1, 0));
+    }
+    for (let z = 0; z < LAYERS; z++) {
+      const [low, high] = [(10 * z) / LAYERS, (10 * (z + 1)) / LAYERS];
+      quad(at(i, 0, low), at(i, 0, high), at(i + 1, 0, high), at(i + 1, 0, low));
+      quad(at(i, RINGS, low), at(i + 1, RINGS, low), at(i + 1, RINGS, high), at(i, RINGS, high));
+    }
+  }
+  return triangles;
+}
+newProject(program, home, 'plate', boredPlate());
 
 const server = await startServer(program, home);
 await tell(home, async () => {
@@ -215,4 +242,56 @@ await tell(home, async () => {
   await page.waitForFunction(() => document.querySelectorAll('.trend circle').length === 6);
   await look('series');
   check('state', await stateOf(page));
+
+  // A click on a face of the CAD reference takes it into the plan, with its nominal size.
+  await page.keyboard.press('1');
+  await page.locator('button b').getByText('plate', { exact: true }).click();
+  await page.waitForSelector('.figures');
+  await idle();
+  await page.keyboard.press('7');
+  await page.waitForSelector('#reference-group');
+  expect((await page.locator('#pick-face').count()) === 0, 'faces of no reference are offered');
+  await page.setInputFiles('#reference', path.join(here, '../data/cad-samples/plate.stp'));
+  await until('the CAD reference', (project) => project.reference?.format === 'stp' && project.surface.comparison);
+  await idle();
+  await page.click('#pick-face');
+  await page.waitForFunction(() => document.querySelector('frangia-app').viewer.showsReference);
+  const clickAt = async (at) => {
+    const box = await page.locator('.view-canvas').boundingBox();
+    const [u, v] = await page.evaluate(([x, y, z]) => {
+      const { camera } = document.querySelector('frangia-app').viewer.view;
+      const seen = camera.position.clone().set(x, y, z).project(camera);
+      return [(seen.x + 1) / 2, (1 - seen.y) / 2];
+    }, at);
+    const answer = page.waitForResponse((response) => response.url().endsWith('/api/pick'));
+    await page.mouse.click(box.x + u * box.width, box.y + v * box.height);
+    check('picked', await (await answer).json());
+    await page.waitForSelector('#picked-face');
+  };
+  await page.waitForFunction(() => document.querySelector('frangia-app').viewer.atRest);
+  // The far side of the bore, seen from above.
+  const eye = await page.evaluate(() => document.querySelector('frangia-app').viewer.view.camera.position.toArray());
+  const far = Math.hypot(eye[0], eye[1]);
+  await clickAt([(-8 * eye[0]) / far, (-8 * eye[1]) / far, 8]);
+  const bore = await page.locator('#picked-face').innerText();
+  expect(/^cylinder, face \d+\s+⌀ 16\.000/.test(bore.replace(/\s+/g, ' ')), `the bore is ${bore}`);
+  await look('face');
+  await page.locator('#picked-face .btn').click();
+  const faced = await until('the bore', (project) => project.plan?.features?.length === 1 && project.surface.inspection?.characteristics.length === 1);
+  expect(faced.plan.features[0].face > 0 && faced.plan.features[0].kind === undefined, `the plan holds ${JSON.stringify(faced.plan.features[0])}`);
+  const [measuredBore] = faced.surface.inspection.characteristics;
+  expect(measuredBore.nominal === 16 && Math.abs(measuredBore.value - 16.04) < 0.01, `the bore measures ${measuredBore.value}`);
+  await idle();
+  await clickAt([20, 12, 10]);
+  expect(/^plane, face/.test(await page.locator('#picked-face').innerText()), 'the top is no plane');
+  await page.locator('#picked-face .btn').click();
+  await until('the top', (project) => project.plan.features.length === 2);
+  await idle();
+  await page.click('#pick-face');
+  await page.waitForFunction(() => !document.querySelector('frangia-app').viewer.showsReference);
+  await page.waitForSelector('#picked-face', { state: 'detached' });
+  await page.locator('#plan-group').scrollIntoViewIfNeeded();
+  await look('faces-planned');
+  check('state', await stateOf(page));
+  passed('faces of the reference are features');
 }, 'the inspection is told');

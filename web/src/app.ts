@@ -40,7 +40,9 @@ export class FrangiaApp extends App {
     this.viewer = new Viewer(this.host, {
       pick: (ray) => this.pick(ray),
       placed: (tool, hit) =>
-        void { measure: this.measuring, section: this.sectioning, pair: this.pairing }[tool].picked(hit),
+        void { measure: this.measuring, section: this.sectioning, pair: this.pairing, face: this.facing }[tool].picked(
+          hit,
+        ),
       outlined: (outline, through, keys) =>
         void this.editing.selectBy(through ? 'select-outline-through' : 'select-outline', outline, keys),
       trianglePicked: (tool, triangle, keys) => void this.editing.selectByTriangle(tool, triangle, keys),
@@ -168,6 +170,7 @@ export class FrangiaApp extends App {
     this.measuring.follow();
     this.sectioning.follow();
     this.pairing.follow();
+    this.facing.follow();
     if (this.session.state) this.projects.follow();
     const key = `${this.step} ${this.session.state?.project?.calibration?.active ?? false}`;
     if (key === this.panelKey) return;

@@ -5,6 +5,7 @@ import { currentLanguage, t } from './messages';
 import { requireSendable } from './session';
 import type { CharacteristicKind, Plan, PlannedCharacteristic, PlannedFeature } from './inspection_types';
 import type { FoundFeature, Inspection, Triple } from './types';
+import type { PickedFace } from './viewer_events';
 
 /** The name of the next part: the number at the end of this one's grows. */
 export function nextName(name: string, taken: readonly string[]): string {
@@ -162,6 +163,16 @@ export class Inspecting {
       planned.diameter_mm = Number(feature.diameter_mm.toFixed(2));
     this.chosen = null;
     void this.change({ features: [...(this.plan.features ?? []), planned] });
+  }
+  /** Takes a face of the reference into the plan, which states kind, place and size. */
+  addFace({ number, kind }: PickedFace): void {
+    if (!kind) return;
+    const planned: PlannedFeature = { name: this.freeName(t(`inspect.kind.${kind}`)), face: number };
+    void this.change({ features: [...(this.plan.features ?? []), planned] });
+  }
+  /** A feature as it was found; one that a face states tells its kind and place there alone. */
+  foundOf(planned: PlannedFeature): FoundFeature | undefined {
+    return this.found?.features.find(({ name }) => name === planned.name);
   }
   changeFeature(name: string, change: Partial<PlannedFeature>): void {
     void this.change({

@@ -70,7 +70,7 @@ export class Pairing {
   /** Another tool was chosen: what was picked so far is dropped. */
   follow(): void {
     const { app } = this;
-    if (app.viewer.tool === 'pair' || !app.viewer.showsReference) return;
+    if (['pair', 'face'].includes(app.viewer.tool) || !app.viewer.showsReference) return;
     this.scan = null;
     app.viewer.setReference(null);
   }

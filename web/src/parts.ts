@@ -2,6 +2,7 @@ import { Arranging } from './arranging';
 import { Building, type BuildSettings } from './building';
 import { Editing } from './editing';
 import { Exporting } from './exporting';
+import { Facing } from './facing';
 import { Inspecting } from './inspecting';
 import { LiveStage } from './live_stage';
 import { Measuring } from './measuring';
@@ -27,6 +28,7 @@ export abstract class App extends Store {
   readonly sectioning = new Sectioning(this, this.exporting);
   readonly building = new Building(this, (settings) => this.build(settings));
   readonly pairing = new Pairing(this, this.inspecting);
+  readonly facing = new Facing(this, this.inspecting);
 
   /** Whether the picture is the surface. */
   abstract get onSurface(): boolean;

@@ -5,6 +5,7 @@ export type Tool =
   | 'measure'
   | 'section'
   | 'pair'
+  | 'face'
   | 'brush'
   | 'lasso'
   | 'rectangle'
@@ -19,6 +20,7 @@ export const CLICKING: ReadonlySet<Tool> = new Set([
   'measure',
   'section',
   'pair',
+  'face',
   'part',
   'like',
   'loop',
@@ -27,7 +29,7 @@ export const CLICKING: ReadonlySet<Tool> = new Set([
 ]);
 
 /** Tools whose clicks are places of the surface. */
-const PLACING = ['measure', 'section', 'pair'] as const satisfies readonly Tool[];
+const PLACING = ['measure', 'section', 'pair', 'face'] as const satisfies readonly Tool[];
 export type PlacingTool = (typeof PLACING)[number];
 export const places = (tool: Tool): tool is PlacingTool => (PLACING as readonly Tool[]).includes(tool);
 

@@ -18,6 +18,7 @@ export class ReferenceView {
     this.group.clear();
     this.level = arrays && new MeshLevel(arrays, 0x8fb0e0);
     if (!this.level) return;
+    this.level.shade(true, false); // a CAD face has few triangles, whose corners know no edge
     this.group.add(this.level.group);
     this.box.setFromBufferAttribute(this.level.mesh.geometry.getAttribute('position') as THREE.BufferAttribute);
   }

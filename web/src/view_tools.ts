@@ -86,11 +86,11 @@ export function viewOverlay(app: App): TemplateResult {
   const showsSurface = scene && app.onSurface;
   return html`<div class="floating">
       ${previewBar(app)} ${viewer.tool === 'section' ? chip(app.sectioning.hint) : ''}
-      ${viewer.tool === 'pair' ? chip(app.pairing.hint) : ''}
+      ${viewer.tool === 'pair' ? chip(app.pairing.hint) : ''} ${viewer.tool === 'face' ? chip(app.facing.hint) : ''}
       ${viewer.tool === 'align' && !app.project.surface?.preview ? chip(t('edit.alignHint')) : ''}
       ${viewer.tool === 'feature' ? chip(t('inspect.pickHint')) : ''}
       ${viewer.tool === 'loop' ? chip(t('edit.loopHint')) : ''} ${app.measuring.chip()}
-      ${showsSurface ? surfaceLegend(app) : ''}
+      ${showsSurface && !viewer.showsReference ? surfaceLegend(app) : ''}
     </div>
     ${scene ? viewButtons(app) : ''}`;
 }

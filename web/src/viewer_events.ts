@@ -1,4 +1,5 @@
 import type { ModifierKeys, PlacingTool, Tool } from './pointer_strokes';
+import type { FoundFeature } from './types';
 import type { Outline } from './view_camera';
 
 /** A ray through the picture, and the half-space that a section leaves. */
@@ -9,11 +10,19 @@ export interface Ray {
   /** The point is one of the reference. */
   reference?: true;
 }
+/** A face of a CAD reference; without a kind it has a free form. */
+export interface PickedFace {
+  number: number;
+  kind: FoundFeature['kind'] | null;
+  diameter_mm: number | null;
+}
 /** A point of the exact mesh. */
 export interface Hit {
   point_mm: [number, number, number];
   triangle: number;
   sigma_mm: number | null;
+  /** Of a reference; null where it is a mesh. */
+  face?: PickedFace | null;
 }
 
 /** Requests and events of the 3D view. */

@@ -357,6 +357,7 @@ std::string Service::pick(const std::string& ray_json) const {
     json["hit"] = {
         {"point_mm", {p.x(), p.y(), p.z()}}, {"triangle", picked->triangle}, {"sigma_mm", nullptr}};
     if (std::isfinite(picked->sigma_mm)) json["hit"]["sigma_mm"] = picked->sigma_mm;
+    if (of_reference) json["hit"]["face"] = implementation_->reference_face(picked->triangle);
   }
   return json.dump();
 }

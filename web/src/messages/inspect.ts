@@ -53,6 +53,18 @@ export const INSPECT = {
   'series.file': ['From a file', 'Aus einer Datei', 'Da un file'],
   'series.ask': ['Name of the next part', 'Name des nächsten Teils', 'Nome del pezzo successivo'],
   'series.begin': ['Begin', 'Beginnen', 'Inizia'],
+  'face.pick': ['Pick faces of the reference', 'Flächen der Referenz wählen', 'Scegli facce del riferimento'],
+  'face.hint': [
+    'Click a face of the reference',
+    'Eine Fläche der Referenz anklicken',
+    'Fare clic su una faccia del riferimento',
+  ],
+  'face.number': ['face {number}', 'Fläche {number}', 'faccia {number}'],
+  'face.freeForm': [
+    'This face has a free form: a feature needs a plane, a cylinder, a sphere, a cone or a torus.',
+    'Diese Fläche ist eine Freiform: Ein Element braucht Ebene, Zylinder, Kugel, Kegel oder Torus.',
+    'Questa faccia ha forma libera: un elemento richiede piano, cilindro, sfera, cono o toro.',
+  ],
   'pair.pick': ['Pick three places', 'Drei Stellen wählen', 'Scegli tre punti'],
   'pair.again': ['Pick other places', 'Andere Stellen wählen', 'Scegli altri punti'],
   'pair.start': [

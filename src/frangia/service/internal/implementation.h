@@ -46,6 +46,8 @@ class Service::Implementation {
   [[nodiscard]] ExportedFile exported(const std::string& name) const;
   /// The reference as it is drawn; null before `show-reference`.
   [[nodiscard]] PicturePtr reference_picture() const;
+  /// The face of a CAD reference that a triangle of its picture belongs to; null of a mesh.
+  [[nodiscard]] nlohmann::ordered_json reference_face(std::uint32_t triangle) const;
   /// The curves in which a plane cuts the surface, as docs/service-api.md describes them.
   [[nodiscard]] std::string section(const std::string& plane_json) const;
   [[nodiscard]] LivePicture live_picture(LiveLayer layer, std::uint64_t after) const;

@@ -55,6 +55,17 @@ void commit_reference(const ProjectFolder& project, const ProjectReference& refe
                   Durability::Synced);
 }
 
+/// Null for a mesh.
+std::shared_ptr<const ReferenceFaces> faces_of(const InspectionReference& reference) {
+  if (!reference.cad) return nullptr;
+  auto known = std::make_shared<ReferenceFaces>();
+  known->faces = reference.cad->faces();
+  const std::size_t count = reference.scene.mesh().triangles.size();
+  for (std::uint32_t triangle = 0; triangle < count; ++triangle)
+    known->of_triangle.push_back(reference.cad->face_of(triangle));
+  return known;
+}
+
 }  // namespace
 
 ProjectReference reference_of(const ProjectFolder& project) {
@@ -139,6 +150,7 @@ void Service::Implementation::keep_reference(const ProjectFolder& project,
   change([&](OpenProject& opened) {
     std::swap(opened.reference, wanted);
     opened.reference_picture.reset();
+    opened.reference_faces.reset();
   });
   std::filesystem::remove(project.reference(before.format, before.number), ignored);
 }
@@ -156,8 +168,11 @@ nlohmann::ordered_json Service::Implementation::show_reference(CommandArguments&
     const InspectionReference read = naming(
         file, now.reference.name, [&] { return read_inspection_reference(file, options, run); });
     const auto picture = std::make_shared<const SurfacePicture>(read.scene.mesh(), 0, run);
+    const auto faces = faces_of(read);
     change([&](OpenProject& opened) {
-      if (opened.reference == now.reference) opened.reference_picture = picture;
+      if (opened.reference != now.reference) return;
+      opened.reference_picture = picture;
+      opened.reference_faces = faces;
     });
   });
 }
@@ -165,6 +180,22 @@ nlohmann::ordered_json Service::Implementation::show_reference(CommandArguments&
 PicturePtr Service::Implementation::reference_picture() const {
   const std::lock_guard lock(mutex_);
   return project_ ? project_->reference_picture : nullptr;
+}
+
+nlohmann::ordered_json Service::Implementation::reference_face(std::uint32_t triangle) const {
+  std::shared_ptr<const ReferenceFaces> known;
+  {
+    const std::lock_guard lock(mutex_);
+    if (project_) known = project_->reference_faces;
+  }
+  if (!known || triangle >= known->of_triangle.size()) return {};
+  const std::uint32_t face = known->of_triangle[triangle];
+  const std::optional<Shape>& shape = known->faces.at(face).shape;
+  Json json{{"number", face + 1}, {"kind", nullptr}, {"diameter_mm", nullptr}};
+  if (!shape) return json;
+  json["kind"] = name_of(shape->kind);
+  if (shape->kind != ShapeKind::Plane) json["diameter_mm"] = 2.0 * shape->radius_mm;
+  return json;
 }
 
 bool Service::Implementation::awaits_reference() const {

@@ -10,6 +10,7 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "frangia/acquisition/measure_display.h"
+#include "frangia/cad/cad_model.h"
 #include "frangia/core/folder_lock.h"
 #include "frangia/devices/find_devices.h"
 #include "frangia/inspection/inspection_plan.h"
@@ -58,6 +59,12 @@ struct ProjectReference {
 /// The reference of a project; without a name when there is none.
 [[nodiscard]] ProjectReference reference_of(const ProjectFolder& project);
 
+/// The faces of a CAD reference.
+struct ReferenceFaces {
+  std::vector<CadFace> faces;
+  std::vector<std::uint32_t> of_triangle;  ///< index into `faces`, of each triangle of its mesh
+};
+
 /// The open project as the service knows it.
 struct OpenProject {
   ProjectFolder folder;
@@ -92,7 +99,8 @@ struct OpenProject {
   int open_job = 0;              ///< number of the job; 0: it begins in a moment
   std::vector<ExportEntry> exports;
   ProjectReference reference;
-  PicturePtr reference_picture;  ///< since it was asked for; null before
+  PicturePtr reference_picture;                           ///< since it was asked for; null before
+  std::shared_ptr<const ReferenceFaces> reference_faces;  ///< with the picture; null of a mesh
   std::vector<HandMeasurement> measurements;
   std::vector<SeriesPart> series;              ///< parts before this one, the oldest first
   std::optional<AcceptanceRecord> acceptance;  ///< of the series; none: nothing is tested

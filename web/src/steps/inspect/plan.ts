@@ -109,6 +109,8 @@ const remove = (app: App, name: string, act: () => void): TemplateResult =>
 function feature(app: App, one: PlannedFeature): TemplateResult {
   const { inspecting } = app;
   const off = app.occupied || app.session.watches;
+  const stated = one.face ? inspecting.foundOf(one) : undefined;
+  const kind = one.kind ?? stated?.kind;
   const change = (event: SubmitEvent) => {
     event.preventDefault();
     const form = new FormData(event.target as HTMLFormElement);
@@ -135,10 +137,10 @@ function feature(app: App, one: PlannedFeature): TemplateResult {
       <b class="grow">${one.name}</b>${remove(app, one.name, () => inspecting.removeFeature(one.name))}
     </div>
     ${
-      one.kind === 'plane' || one.kind === 'line'
+      kind === 'plane' || kind === 'line'
         ? ''
         : html`<form class="row" @submit=${change}>
-            ${input('nominal', t('inspect.nominal'), one.diameter_mm)}
+            ${input('nominal', t('inspect.nominal'), one.diameter_mm ?? stated?.nominal_mm)}
             ${input('lower', t('inspect.lower'), one.tolerance_mm?.[0])}
             ${input('upper', t('inspect.upper'), one.tolerance_mm?.[1])}
             <button class="btn" ?disabled=${off}>${t('inspect.set')}</button>
@@ -158,6 +160,14 @@ function characteristic(app: App, one: PlannedCharacteristic): TemplateResult {
   </div>`;
 }
 
+/** Where a feature should be: as the plan states it, or the face of the reference. */
+function nominalPlace(app: App, features: readonly PlannedFeature[], name?: string): [number, number, number] | null {
+  const planned = features.find((one) => one.name === name);
+  if (!planned?.face) return planned?.near_mm ?? null;
+  const near = app.inspecting.foundOf(planned)?.near_mm ?? [];
+  return near.length === 3 && near.every((one) => one !== null) ? (near as [number, number, number]) : null;
+}
+
 /** A new characteristic of the features of the plan. */
 function adding(app: App, features: readonly PlannedFeature[]): TemplateResult | string {
   if (features.length === 0) return '';
@@ -172,7 +182,7 @@ function adding(app: App, features: readonly PlannedFeature[]): TemplateResult |
     if (!OF_ONE.includes(kind)) wanted.datum = text('datum');
     const nominal = text('nominal');
     const limit = text('limit');
-    if (kind === 'position') wanted.position_mm = features.find(({ name }) => name === wanted.feature)?.near_mm ?? null;
+    if (kind === 'position') wanted.position_mm = nominalPlace(app, features, wanted.feature);
     if (two && nominal !== '') wanted.nominal = Number(nominal);
     if (two && nominal !== '' && limit !== '') wanted.tolerance = [-Number(limit), Number(limit)];
     if (!two && limit !== '') wanted.limit = Number(limit);
@@ -245,7 +255,7 @@ export function planned(app: App, inspection: Inspection | null): TemplateResult
     ${app.project.plan_fault ? html`<p><span class="dot bad"></span>${t('inspect.planFault')} ${app.project.plan_fault}</p>` : ''}
     ${features.length === 0 ? html`<p class="quiet">${t('inspect.planLead')}</p>` : ''}
     ${features.map((one) => feature(app, one))} ${(plan.characteristics ?? []).map((one) => characteristic(app, one))}
-    ${choosing(app, inspection)} ${adding(app, features)}
+    ${app.facing.panel(off)} ${choosing(app, inspection)} ${adding(app, features)}
     <div class="pair">
       <label class="btn choose"
         >${icon('folder')}${t('inspect.openPlan')}
