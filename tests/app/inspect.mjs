@@ -133,6 +133,35 @@ await tell(home, async () => {
   expect(Math.abs(distance.used - 1 / 3) < 0.1, `a third of the tolerance is used, not ${distance.used}`);
   passed('features and characteristics are chosen in the page');
 
+  // Each value has a label at its feature, the worst first; one that is dragged stays beside its feature, and a double click
+  // lets it go.
+  if ((await page.getAttribute('#pick-feature', 'aria-pressed')) === 'true') await page.click('#pick-feature');
+  const labels = page.locator('.view-labels text[data-label^="row "]');
+  expect((await labels.count()) === 3 && (await labels.first().textContent()).startsWith('sphere 2 diameter 20.05'), `the labels are ${await labels.allTextContents()}`);
+  const label = page.locator('.view-labels text[data-label="row Distance 1"]');
+  const spot = async () => {
+    const { x, y, width, height } = await label.boundingBox();
+    return [x + width / 2, y + height / 2];
+  };
+  const [x, y] = await spot();
+  await page.mouse.move(x, y);
+  await page.mouse.down();
+  await page.mouse.move(x - 60, y - 90, { steps: 4 });
+  await page.mouse.up();
+  const near = async (wanted) => {
+    const [u, v] = await spot();
+    return Math.hypot(u - wanted[0], v - wanted[1]) < 3;
+  };
+  expect(await near([x - 60, y - 90]), `the label was dragged to ${await spot()}, not by -60, -90 from ${[x, y]}`);
+  await look('labels');
+  await page.evaluate(() => document.querySelector('frangia-app').viewer.frame([0, -1, 0.3]));
+  await page.waitForFunction(() => document.querySelector('frangia-app').viewer.atRest);
+  const turned = await spot();
+  await label.dblclick();
+  expect(!(await near(turned)), 'a double click does not let the label go');
+  await page.evaluate(() => document.querySelector('frangia-app').viewer.frame([0.9, -1.1, 0.6]));
+  await page.waitForFunction(() => document.querySelector('frangia-app').viewer.atRest);
+
   // With a reference, the surface is judged as well.
   await page.setInputFiles('#reference', reference);
   const judged = await until('the deviations', (project) => project.surface.comparison);

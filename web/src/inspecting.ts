@@ -1,7 +1,8 @@
 import type { Store } from './store';
 import type { Exporting } from './exporting';
 import { formatOf, MESH_FORMATS, REFERENCE_FORMATS } from './file_formats';
-import { currentLanguage, t } from './messages';
+import { currentLanguage, number, t } from './messages';
+import type { Drawn } from './ruler';
 import { requireSendable } from './session';
 import type { CharacteristicKind, Plan, PlannedCharacteristic, PlannedFeature } from './inspection_types';
 import type { FoundFeature, Inspection, Triple } from './types';
@@ -165,9 +166,9 @@ export class Inspecting {
     void this.change({ features: [...(this.plan.features ?? []), planned] });
   }
   /** Takes a face of the reference into the plan, which states kind, place and size. */
-  addFace({ number, kind }: PickedFace): void {
+  addFace({ number: face, kind }: PickedFace): void {
     if (!kind) return;
-    const planned: PlannedFeature = { name: this.freeName(t(`inspect.kind.${kind}`)), face: number };
+    const planned: PlannedFeature = { name: this.freeName(t(`inspect.kind.${kind}`)), face };
     void this.change({ features: [...(this.plan.features ?? []), planned] });
   }
   /** A feature as it was found; one that a face states tells its kind and place there alone. */
@@ -225,6 +226,39 @@ export class Inspecting {
       ...places.map(({ at_mm, area_mm2 }) => ({ center_mm: placed(at_mm), size_mm: Math.sqrt(area_mm2) })),
       ...(feature ? [{ center_mm: placed(feature.at_mm), size_mm: feature.diameter_mm ?? 0 }] : []),
     ];
+  }
+
+  /** What was measured of the features of the plan, for the picture: the worst first. */
+  get labels(): Drawn[] {
+    const MOST = 12; // more cover each other and the part
+    const { found, plan } = this;
+    const features = plan.features ?? [];
+    const ofName = (name: string) =>
+      (plan.characteristics ?? []).find((one) => one.name === name)?.feature ??
+      features
+        .map((one) => one.name)
+        .filter((one) => name.startsWith(`${one} `))
+        .sort((a, b) => b.length - a.length)[0];
+    const order = ['out', 'undecided', 'in'];
+    return (found?.characteristics ?? [])
+      .flatMap((row) => {
+        const feature = found?.features.find(({ name }) => name !== null && name === ofName(row.name));
+        if (!feature || row.value === null) return [];
+        const at = placed(feature.at_mm);
+        const value = `${number(row.value, row.unit === 'mm' ? 3 : 2)} ${row.unit === 'mm' ? 'mm' : '°'}`;
+        return [
+          {
+            key: `row ${row.name}`,
+            text: `${row.name} ${value}`,
+            verdict: row.verdict,
+            points: [at],
+            from: at,
+            to: at,
+          },
+        ];
+      })
+      .sort((a, b) => order.indexOf(a.verdict ?? 'in') - order.indexOf(b.verdict ?? 'in'))
+      .slice(0, MOST);
   }
 
   /** Writes a report, or the plan, and downloads it when it is there. */

@@ -4,6 +4,7 @@ import type { Store } from './store';
 import { term } from './terms';
 import { icon } from './icons';
 import { number, t } from './messages';
+import type { Drawn } from './ruler';
 import type { HandMeasurement, Quantity, Triple } from './types';
 import { choice } from './ui';
 import type { Hit } from './viewer';
@@ -56,6 +57,8 @@ export class Measuring {
   constructor(
     private readonly app: Store,
     private readonly exporting: Exporting,
+    /** What else has a label in the picture. */
+    private readonly others: () => readonly Drawn[],
   ) {}
 
   get all(): readonly HandMeasurement[] {
@@ -127,17 +130,20 @@ export class Measuring {
     const { app } = this;
     if (app.viewer.tool !== 'measure') this.places = [];
     const { all } = this;
-    const key = `${app.session.state?.project?.name} ${app.viewer.meshShown} ${all.map((one) => `${one.label}${one.value}`).join(' ')} ${t('measure.of.point')}`;
+    const others = this.others();
+    const key = `${others.map(({ key, text, verdict }) => `${key}${text}${verdict}`).join(' ')} ${app.session.state?.project?.name} ${app.viewer.meshShown} ${all.map((one) => `${one.label}${one.value}`).join(' ')} ${t('measure.of.point')}`;
     if (key === this.shown) return;
     this.shown = key;
-    app.viewer.showMeasurements(
-      all.map((one) => ({
+    app.viewer.showMeasurements([
+      ...all.map((one) => ({
+        key: one.label,
         text: `${one.label} ${valueOf(one)}`,
         points: one.elements.map(({ point_mm }) => point_mm),
         from: one.from_mm,
         to: one.to_mm,
       })),
-    );
+      ...others,
+    ]);
     app.requestUpdate();
   }
   private save(): void {

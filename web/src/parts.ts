@@ -24,7 +24,9 @@ export abstract class App extends Store {
   readonly live = new LiveStage(this);
   readonly setups = new Setups(this, () => this.chooseClouds());
   readonly editing = new Editing(this, this.inspecting);
-  readonly measuring = new Measuring(this, this.exporting);
+  readonly measuring = new Measuring(this, this.exporting, () =>
+    this.step === 'inspect' ? this.inspecting.labels : [],
+  );
   readonly sectioning = new Sectioning(this, this.exporting);
   readonly building = new Building(this, (settings) => this.build(settings));
   readonly pairing = new Pairing(this, this.inspecting);

@@ -1,10 +1,15 @@
 import * as THREE from 'three';
 
+import type { Point } from './strokes';
 import type { Triple } from './types';
 
 /** What the picture draws of a measurement. */
 export interface Drawn {
+  /** Tells a label that was dragged from the others. */
+  key: string;
   text: string;
+  /** Of a value with a tolerance. */
+  verdict?: 'in' | 'out' | 'undecided' | null;
   points: readonly Triple[];
   from: Triple;
   to: Triple;
@@ -16,7 +21,10 @@ const LINE = 18;
 const LETTER = 7.6;
 
 interface Anchor {
+  key: string;
   at: THREE.Vector3;
+  /** Where that is in the picture, pixels. */
+  seen: Point;
   width: number;
   leader: SVGLineElement;
   text: SVGTextElement;
@@ -30,19 +38,26 @@ interface Box {
 const element = <T extends SVGElement>(name: string): T =>
   document.createElementNS('http://www.w3.org/2000/svg', name) as T;
 
+const within = (least: number, value: number, most: number): number => Math.max(least, Math.min(most, value));
+
 /** Whether two labels, each given by its middle, cover each other. */
 const covers = (a: Box, b: Box): boolean =>
   Math.abs(a.x - b.x) < (a.width + b.width) / 2 + 6 && Math.abs(a.y - b.y) < LINE;
 
-/** Measurements in the scene, each with its label, and the points of the one that is being clicked. */
+/**
+ * Measurements in the scene, each with its label, and the points of the one that is being clicked. A label that is dragged
+ * stays beside its measurement as it was left; a double click lets it go.
+ */
 export class Ruler {
   readonly group = new THREE.Group();
   readonly labels = element<SVGSVGElement>('svg');
   private readonly kept = new THREE.Group();
   private readonly present = new THREE.Group();
   private anchors: Anchor[] = [];
+  /** From the measurement to the middle of its label, pixels. */
+  private readonly dragged = new Map<string, Point>();
 
-  constructor() {
+  constructor(private readonly moved: () => void) {
     this.group.add(this.kept, this.present);
     this.labels.setAttribute('class', 'view-labels');
     this.labels.setAttribute('aria-hidden', 'true');
@@ -57,7 +72,7 @@ export class Ruler {
   show(list: readonly Drawn[], size: number): void {
     this.kept.clear();
     this.labels.replaceChildren();
-    this.anchors = list.map(({ text: words, points, from, to }) => {
+    this.anchors = list.map(({ key, text: words, verdict, points, from, to }) => {
       for (const point of points) this.kept.add(ball(new THREE.Vector3(...point), size));
       const [a, b] = [new THREE.Vector3(...from), new THREE.Vector3(...to)];
       // The corner of an angle stands between the ends of its legs.
@@ -66,9 +81,32 @@ export class Ruler {
       const leader = element<SVGLineElement>('line');
       const text = element<SVGTextElement>('text');
       text.textContent = words;
+      for (const one of [leader, text]) one.setAttribute('class', verdict ?? '');
+      text.dataset['label'] = key;
       this.labels.append(leader, text);
       const at = middle[0]?.clone() ?? a.clone().lerp(b, 0.5);
-      return { at, width: LETTER * words.length, leader, text };
+      const anchor = { key, at, seen: [0, 0] as Point, width: LETTER * words.length, leader, text };
+      this.drag(anchor);
+      return anchor;
+    });
+  }
+  private drag({ key, seen, text }: Anchor): void {
+    let held: Point | null = null; // from the pointer to the middle of the label
+    text.addEventListener('pointerdown', (event) => {
+      held = [Number(text.getAttribute('x')) - event.clientX, Number(text.getAttribute('y')) - event.clientY];
+      text.setPointerCapture(event.pointerId);
+      event.stopPropagation();
+    });
+    text.addEventListener('pointermove', (event) => {
+      if (!held) return;
+      this.dragged.set(key, [event.clientX + held[0] - seen[0], event.clientY + held[1] - seen[1]]);
+      this.moved();
+    });
+    for (const end of ['pointerup', 'pointercancel'] as const) text.addEventListener(end, () => (held = null));
+    text.addEventListener('dblclick', (event) => {
+      this.dragged.delete(key);
+      event.stopPropagation();
+      this.moved();
     });
   }
   /** Shows or hides what was measured, and not what is being clicked. */
@@ -80,19 +118,24 @@ export class Ruler {
   place(camera: THREE.Camera, width: number, height: number): void {
     // The scale bar, which stands at the lower left.
     const placed: Box[] = [44, 26].map((up) => ({ x: 150, y: height - up, width: 300 }));
-    for (const { at, width: wide, leader, text } of this.anchors) {
+    // Those that were dragged first: the others move away from them.
+    const inOrder = [...this.anchors].sort((a, b) => Number(this.dragged.has(b.key)) - Number(this.dragged.has(a.key)));
+    for (const { key, at, seen: onPicture, width: wide, leader, text } of inOrder) {
       const seen = at.clone().project(camera);
       const shown = Math.abs(seen.x) < 1 && Math.abs(seen.y) < 1 && seen.z < 1;
       for (const one of [leader, text]) one.style.display = shown ? '' : 'none';
       if (!shown) continue;
       const [x, y] = [(0.5 + seen.x / 2) * width, (0.5 - seen.y / 2) * height];
+      onPicture[0] = x;
+      onPicture[1] = y;
+      const own = this.dragged.get(key);
       const box = {
-        x: Math.min(width - wide / 2 - 6, Math.max(wide / 2 + 6, x)),
-        y: Math.max(LINE, y - 14),
+        x: within(wide / 2 + 6, x + (own?.[0] ?? 0), Math.max(wide / 2 + 6, width - wide / 2 - 6)),
+        y: within(LINE, y + (own?.[1] ?? -14), height - 6),
         width: wide,
       };
       const step = box.y > height / 2 ? -4 : 4;
-      while (placed.some((one) => covers(one, box)) && box.y < height - LINE && box.y > LINE) box.y += step;
+      while (!own && placed.some((one) => covers(one, box)) && box.y < height - LINE && box.y > LINE) box.y += step;
       placed.push(box);
       text.setAttribute('x', box.x.toFixed(1));
       text.setAttribute('y', box.y.toFixed(1));

@@ -53,7 +53,7 @@ export class Viewer {
   readonly clouds = new CloudsView();
   private readonly table = new THREE.Group();
   private readonly surface = new SurfaceView();
-  private readonly ruler = new Ruler();
+  private readonly ruler = new Ruler(() => this.draw());
   private readonly cut = new SectionView();
   private readonly preview = new EditPreview();
   private readonly reference = new ReferenceView();
