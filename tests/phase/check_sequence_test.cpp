@@ -1,5 +1,6 @@
 #include "frangia/phase/temporal/check_sequence.h"
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <random>
@@ -11,6 +12,9 @@
 
 #include "frangia/core/angles.h"
 #include "frangia/phase/temporal/unwrap_sequence.h"
+#include "frangia/phase/waveform/fringe_response.h"
+
+#include "support/display_fringes.h"
 
 namespace frangia {
 namespace {
@@ -160,6 +164,39 @@ TEST(CheckSequence, CountsThePhaseErrorOfAFrameOfOtherLight) {
     EXPECT_GT(found.ripples_rad[2], 0.5 * std::sqrt(square));
     EXPECT_LT(found.ripples_rad[2], 1.2 * std::sqrt(square));
   }
+}
+
+TEST(CheckSequence, TakesAResponseThatIsCorrectedForNoErrorOfThePhase) {
+  constexpr double kGamma = 1.8;
+  const std::vector<Pattern> declared = whole_counts({1, 8, 40}, 3);
+  FringeWaveform waveform;
+  for (int order = 2; order <= 6; ++order)
+    waveform.harmonics.emplace_back(testing::gamma_harmonic(kGamma, order));
+  // A part that covers two fringes of the second pattern: the errors of the first are not averaged.
+  std::vector<FrameStack> stacks;
+  for (std::size_t m = 0; m < declared.size(); ++m) {
+    stacks.push_back(shown_frames(declared[m], declared[m], 1 + static_cast<unsigned>(m), kGamma));
+    for (Frame& frame : stacks.back().frames)
+      for (int y = 0; y < kViewHeight; ++y)
+        for (int x = 80; x < kViewWidth; ++x)
+          std::get<Image<std::uint8_t>>(frame)(x, y) = 40;
+  }
+  const auto largest_ripple = [&](bool corrected) {
+    std::vector<SequenceFrames> maps;
+    for (const FrameStack& stack : stacks) {
+      maps.push_back({&stack, least_squares(stack.pattern.shifts_rad)});
+      if (corrected) {
+        maps.back().correction =
+            response_table(waveform, maps.back().algorithm, stack.pattern.shifts_rad);
+      }
+    }
+    const SequenceCheck found =
+        check_sequence(maps, NoiseModel{1.5 * 1.5 + 1.0 / 12.0, 0.0}, checked_display(), true);
+    EXPECT_TRUE(found.consistent);
+    return *std::max_element(found.ripples_rad.begin(), found.ripples_rad.end());
+  };
+  EXPECT_GT(largest_ripple(false), 0.1);
+  EXPECT_LT(largest_ripple(true), 0.03);
 }
 
 TEST(CheckSequence, BlamesNoSoundSequenceOfADisplayThatIsNotLinear) {

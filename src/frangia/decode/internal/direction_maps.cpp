@@ -110,6 +110,7 @@ std::vector<SequenceFrames> frames_of(const DirectionInput& input, const Directi
     const auto orders = input.orders_rad.find(maps.fringes[m]->pattern.name);
     if (orders != input.orders_rad.end()) frames.back().orders_rad = orders->second;
     frames.back().systematic_rad = systematic_phase(maps.fits[m]).rad;
+    frames.back().correction = correction_of(maps.fringes[m]->pattern, maps.fits[m], input.options);
   }
   return frames;
 }

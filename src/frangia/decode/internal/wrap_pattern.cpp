@@ -29,18 +29,6 @@ FittedAlgorithm fit(const FrameStack& taken,
   return fit_algorithm(options.algorithm, taken, noise, warnings, gain_error);
 }
 
-/// The correction of the projector's response for one pattern, if the options ask for one.
-std::optional<ResponseTable> correction_of(const Pattern& pattern,
-                                           const FittedAlgorithm& fitted,
-                                           const DecodeOptions& options) {
-  const PhaseAlgorithm& algorithm = fitted.algorithm;
-  if (const FringeWaveform* waveform = find_waveform(options.waveforms, pattern))
-    return response_table(*waveform, algorithm, fitted.shifts_rad);
-  if (options.response) return response_table(*options.response, algorithm, fitted.shifts_rad);
-  if (!undoes_own_response(options)) return {};
-  return own_correction(fitted);
-}
-
 /// The algorithm of a map that was merged from several exposures; its shifts are those that were
 /// fitted.
 FittedAlgorithm algorithm_of(const Pattern& pattern, const FittedAlgorithm& fitted) {
@@ -59,7 +47,7 @@ void finish_wrapped(const FittedAlgorithm& of_frames,
   WrappedPhase& map = out.wrapped.back();
   if (options.own.wrap && !map.systematic_rad.empty()) return;
   const FittedAlgorithm fitted = algorithm_of(map.pattern, of_frames);
-  const auto table = correction_of(map.pattern, fitted, options);
+  const auto table = correction_of(map.pattern, of_frames, options);
   if (table) correct_response(*table, map);
   const ResponseTable* applied = table ? &*table : nullptr;
   const SystematicPhase systematic = systematic_phase(fitted, applied);
@@ -126,6 +114,18 @@ WrappedPhase own_wrapped(const FrameStack& stack,
 bool undoes_own_response(const DecodeOptions& options) {
   return options.undo_own_response && !options.response && options.waveforms.empty() &&
          !options.own.wrap;
+}
+
+std::optional<ResponseTable> correction_of(const Pattern& pattern,
+                                           const FittedAlgorithm& of_frames,
+                                           const DecodeOptions& options) {
+  const FittedAlgorithm fitted = algorithm_of(pattern, of_frames);
+  const PhaseAlgorithm& algorithm = fitted.algorithm;
+  if (const FringeWaveform* waveform = find_waveform(options.waveforms, pattern))
+    return response_table(*waveform, algorithm, fitted.shifts_rad);
+  if (options.response) return response_table(*options.response, algorithm, fitted.shifts_rad);
+  if (!undoes_own_response(options)) return {};
+  return own_correction(fitted);
 }
 
 std::vector<FittedAlgorithm> fit_all(std::span<const FrameStack* const> fringes,

@@ -8,6 +8,7 @@
 #include "frangia/frames/noise_model.h"
 #include "frangia/phase/algorithm/phase_algorithm.h"
 #include "frangia/phase/temporal/unwrap_temporally.h"
+#include "frangia/phase/waveform/fringe_response.h"
 #include "frangia/phase/wrap/phase_map.h"
 #include "frangia/phase/wrap/wrap_phase.h"
 #include "frangia/rig/projector.h"
@@ -23,6 +24,10 @@ struct SequenceFrames {
   std::vector<std::vector<double>> orders_rad{};
   /// Phase error that the waveform of these frames makes; none if it is unknown.
   std::optional<double> systematic_rad{};
+  /// What undoes the response of the projector, before a map is compared with what coarser ones
+  /// predict: they predict their own errors as many times as large as their fringes are. Decoding
+  /// does not apply it.
+  std::optional<ResponseTable> correction{};
 };
 
 /// Options of the decoding of a multi-frequency sequence.

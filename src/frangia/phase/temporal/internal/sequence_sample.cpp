@@ -58,6 +58,9 @@ SequenceSample::SequenceSample(std::span<const SequenceFrames> maps,
     FrameStack lines = columns ? sample_columns(*map.stack, options.pixels)
                                : sample_rows(*map.stack, options.pixels);
     maps_.push_back(wrap_phase(lines, map.algorithm, noise, wrap));
+    WrappedPhase corrected = maps_.back();
+    if (map.correction) correct_response(*map.correction, corrected);
+    corrected_rad_.push_back(std::move(corrected.phase_rad));
     frames_.push_back(std::move(lines.frames));
   }
   const PhaseRange field = phase_range(patterns_.front(), projector);
@@ -305,7 +308,7 @@ std::vector<double> SequenceSample::places_by(std::span<const std::size_t> maps)
   std::vector<double> places;
   for (const std::size_t i : compared_) {
     for (std::size_t m = 0; m < maps.size(); ++m)
-      pixel[m] = maps_[maps[m]].phase_rad.pixels()[i];
+      pixel[m] = corrected_rad_[maps[m]].pixels()[i];
     places.push_back(static_cast<double>(curve.nearest(pixel).unit));
   }
   return places;
@@ -348,7 +351,7 @@ double SequenceSample::ripple(std::size_t map) const {
   std::vector<float> predicted;
   std::vector<double> errors;
   for (std::size_t i = 0; i < compared_.size(); ++i) {
-    shown.push_back(maps_[map].phase_rad.pixels()[compared_[i]]);
+    shown.push_back(corrected_rad_[map].pixels()[compared_[i]]);
     predicted.push_back(static_cast<float>(wrap_rad(kTwoPi * per_unit * places[i])));
     errors.push_back(wrap_rad(static_cast<double>(shown.back()) - kTwoPi * per_unit * places[i]));
   }
@@ -366,7 +369,7 @@ double SequenceSample::shown_frequency(std::size_t map) const {
   if (places.empty()) return frequency_by_slopes(map);
   std::vector<float> phases;
   for (const std::size_t pixel : compared_)
-    phases.push_back(maps_[map].phase_rad.pixels()[pixel]);
+    phases.push_back(corrected_rad_[map].pixels()[pixel]);
   return best_frequency(places, phases, patterns_[map].fringes_per_unit(), last_ - first_);
 }
 

@@ -84,9 +84,10 @@ class SequenceSample {
   std::vector<Pattern> patterns_;
   std::vector<std::vector<Frame>> frames_;  ///< sampled lines; a line is a row of these frames
   std::vector<WrappedPhase> maps_;
-  std::vector<std::size_t> compared_;  ///< pixels whose distances are computed
-  std::vector<int> lines_;             ///< in which the ends of the field are looked for
-  double first_ = 0.0;                 ///< ends of the field
+  std::vector<Image<float>> corrected_rad_;  ///< their phases without the projector's response
+  std::vector<std::size_t> compared_;        ///< pixels whose distances are computed
+  std::vector<int> lines_;                   ///< in which the ends of the field are looked for
+  double first_ = 0.0;                       ///< ends of the field
   double last_ = 0.0;
 };
 
