@@ -26,7 +26,8 @@ using testing::Scene;
 FrameStack shot_noise_frames(const Pattern& pattern,
                              double step_error = 0.0,
                              int height = 400,
-                             std::uint32_t seed = 3) {
+                             std::uint32_t seed = 3,
+                             double fineness = 1.0) {
   const double gain_e = 60.0;
   const double read_counts = 0.6;
   std::mt19937 generator(seed);
@@ -38,7 +39,8 @@ FrameStack shot_noise_frames(const Pattern& pattern,
       for (int x = 0; x < image.width(); ++x) {
         const double mean = 20.0 + 0.16 * x;
         const double light =
-            mean * (1.0 + 0.7 * std::cos(0.1 * x + 0.02 * y + shift * (1.0 + step_error)));
+            mean * (1.0 + 0.7 * std::cos(kPi + fineness * (0.1 * x + 0.02 * y - kPi) +
+                                         shift * (1.0 + step_error)));
         const double sigma = std::hypot(read_counts, std::sqrt(light / gain_e));
         image(x, y) =
             static_cast<std::uint8_t>(std::lround(std::max(0.0, light + sigma * noise(generator))));
@@ -58,6 +60,19 @@ TEST(EstimateNoise, FindsShotAndReadNoiseFromFourFrames) {
   const NoiseModel noise = estimate_noise(stacks);
   for (const double counts : {30.0, 70.0, 110.0})
     EXPECT_NEAR(noise.variance(counts) / true_variance(counts), 1.0, 0.06) << counts;
+}
+
+TEST(EstimateNoise, FindsTheNoiseOfFramesOfWhichTheFirstIsDarkAllOver) {
+  // A part that covers a hundredth of a coarse fringe.
+  for (const int frames : {4, 5, 6, 8, 12}) {
+    Pattern pattern = quarter_steps();
+    pattern.shifts_rad = equal_shifts(frames, kTwoPi / frames);
+    const std::vector<FrameStack> stacks = {shot_noise_frames(pattern, 0.0, 400, 3, 0.001)};
+    const NoiseModel noise = estimate_noise(stacks);
+    for (const double counts : {30.0, 70.0, 110.0})
+      EXPECT_NEAR(noise.variance(counts) / true_variance(counts), 1.0, 0.15)
+          << frames << " " << counts;
+  }
 }
 
 TEST(EstimateNoise, IgnoresAStepError) {

@@ -20,14 +20,15 @@
 namespace frangia {
 namespace {
 
-/// The harmonics of the fringes in a combination of the frames.
-class CombinedHarmonics {
+/// Weights of the frames of a combination.
+using FrameWeights = std::vector<double>;
+
+/// The harmonics of the fringes of a stack.
+class FringeHarmonics {
  public:
   /// Finds the harmonics; there are none for fewer than four frames.
-  CombinedHarmonics(const FrameStack& stack, std::vector<double> weights)
-      : fit_(least_squares(stack.pattern.shifts_rad)),
-        shifts_(stack.pattern.shifts_rad),
-        weights_(std::move(weights)) {
+  explicit FringeHarmonics(const FrameStack& stack)
+      : fit_(least_squares(stack.pattern.shifts_rad)), shifts_(stack.pattern.shifts_rad) {
     if (shifts_.size() < 4) return;
     // The noise is not known yet; the scatter of the residuals decides.
     constexpr std::size_t kHarmonicSamples = 10'000;
@@ -39,8 +40,11 @@ class CombinedHarmonics {
       found_ = found_ || harmonic != 0.0;
   }
   [[nodiscard]] bool found() const { return found_; }
-  /// Their value at a pixel, counts.
-  [[nodiscard]] double value_at(const FrameStack& stack, int x, int y) const {
+  /// Their value in a combination of the frames at a pixel, counts.
+  [[nodiscard]] double value_at(const FrameStack& stack,
+                                const FrameWeights& weights,
+                                int x,
+                                int y) const {
     double cosine = 0.0;
     double sine = 0.0;
     for (std::size_t k = 0; k < shifts_.size(); ++k) {
@@ -51,14 +55,13 @@ class CombinedHarmonics {
     const double phase = std::atan2(sine, cosine);
     double value = 0.0;
     for (std::size_t k = 0; k < shifts_.size(); ++k)
-      value += weights_[k] * waveform_.light_at(phase + shifts_[k]);
+      value += weights[k] * waveform_.light_at(phase + shifts_[k]);
     return std::hypot(cosine, sine) * value;
   }
 
  private:
   PhaseAlgorithm fit_;
   std::vector<double> shifts_;
-  std::vector<double> weights_;
   FringeWaveform waveform_;
   bool found_ = false;
 };
@@ -69,25 +72,24 @@ using NoiseBins = std::array<NoiseSamples::Bin, NoiseSamples::kBins>;
 /// Gathers the noise in rows of one combination of the frames.
 class NoiseRowGatherer {
  public:
-  /// `stack` must outlive the gatherer; one weight a frame.
-  NoiseRowGatherer(const FrameStack& stack, std::vector<double> weights, int distance_px);
+  /// `stack` and `harmonics` must outlive the gatherer; one weight a frame.
+  NoiseRowGatherer(const FrameStack& stack,
+                   const FringeHarmonics& harmonics,
+                   FrameWeights weights,
+                   int distance_px)
+      : stack_(&stack),
+        harmonics_(&harmonics),
+        weights_(std::move(weights)),
+        distance_px_(static_cast<std::size_t>(distance_px)) {}
   /// Adds the absolute second differences along a row.
   void gather(int y, NoiseBins& bins) const;
 
  private:
   const FrameStack* stack_;
-  std::vector<double> weights_;
+  const FringeHarmonics* harmonics_;
+  FrameWeights weights_;
   std::size_t distance_px_;
-  CombinedHarmonics harmonics_;
 };
-
-NoiseRowGatherer::NoiseRowGatherer(const FrameStack& stack,
-                                   std::vector<double> weights,
-                                   int distance_px)
-    : stack_(&stack),
-      weights_(std::move(weights)),
-      distance_px_(static_cast<std::size_t>(distance_px)),
-      harmonics_(stack, weights_) {}
 
 void NoiseRowGatherer::gather(int y, NoiseBins& bins) const {
   const int width = width_of(stack_->frames.front());
@@ -108,9 +110,9 @@ void NoiseRowGatherer::gather(int y, NoiseBins& bins) const {
         },
         stack_->frames[k]);
   }
-  if (harmonics_.found()) {
+  if (harmonics_->found()) {
     for (int x = 0; x < width; ++x)
-      sum[static_cast<std::size_t>(x)] -= harmonics_.value_at(*stack_, x, y);
+      sum[static_cast<std::size_t>(x)] -= harmonics_->value_at(*stack_, weights_, x, y);
   }
   const std::size_t d = distance_px_;
   for (std::size_t i = d; i + d < sum.size(); ++i) {
@@ -139,8 +141,6 @@ constexpr double kMostSamples = 400'000;
 /// the single frames. Without fine fringes and texture both are equal within a few percent.
 constexpr double kFineFringes = 0.8;
 
-using FrameWeights = std::vector<double>;
-
 /// Each frame alone.
 std::vector<FrameWeights> single_frames(std::size_t count) {
   std::vector<FrameWeights> combinations;
@@ -162,14 +162,14 @@ FrameWeights mean_of_frames(const std::vector<double>& shifts_rad) {
   return mean;
 }
 
-/// The combination of four frames or more, of unit norm, that contains noise only.
-FrameWeights noise_combination(const std::vector<double>& shifts_rad) {
+/// Combinations of four frames or more, of unit norm, that contain noise only: the residual of each
+/// frame after the fit of mean, cosine and sine. That of one frame has mostly its own noise, which
+/// is small where coarse fringes are dark in it all over the part.
+std::vector<FrameWeights> noise_combinations(const std::vector<double>& shifts_rad) {
+  constexpr double kLeastResidual = 1e-6;  // of a frame that the fit always meets
   const std::size_t count = shifts_rad.size();
   const PhaseAlgorithm fit = least_squares(shifts_rad);
-  // The residual of one frame after the fit of mean, cosine and sine; the frame with the largest
-  // residual is used.
-  FrameWeights best;
-  double best_square = 0.0;
+  std::vector<FrameWeights> combinations;
   for (std::size_t frame = 0; frame < count; ++frame) {
     FrameWeights left(count);
     double square = 0.0;
@@ -179,13 +179,12 @@ FrameWeights noise_combination(const std::vector<double>& shifts_rad) {
       left[k] = (k == frame ? 1.0 : 0.0) - model;
       square += left[k] * left[k];
     }
-    if (square <= best_square) continue;
-    best_square = square;
-    best = left;
+    if (square < kLeastResidual) continue;
+    for (double& weight : left)
+      weight /= std::sqrt(square);
+    combinations.push_back(std::move(left));
   }
-  for (double& weight : best)
-    weight /= std::sqrt(best_square);
-  return best;
+  return combinations;
 }
 
 /// Robust variance of Gaussian noise from absolute values: a median, refined by three rounds of
@@ -254,19 +253,23 @@ void NoiseSamples::add(const FrameStack& stack) {
   const std::vector<double>& shifts = stack.pattern.shifts_rad;
   const RowRounds rounds(
       width_of(stack.frames.front()), height_of(stack.frames.front()), kFirstSamples, kMostSamples);
+  const FringeHarmonics harmonics(stack);
   if (shifts.size() > 3) {
-    const NoiseRowGatherer gatherer(stack, noise_combination(shifts), distance_px_);
+    std::vector<NoiseRowGatherer> frames;
+    for (const FrameWeights& weights : noise_combinations(shifts))
+      frames.emplace_back(stack, harmonics, weights, distance_px_);
     NoiseBins bins;
+    std::size_t rows = 0;
     for (int round = 0; round < rounds.count() && !are_filled(bins); ++round)
-      rounds.for_each_row(round, [&](int y) { gatherer.gather(y, bins); });
+      rounds.for_each_row(round, [&](int y) { frames[rows++ % frames.size()].gather(y, bins); });
     append(bins, bins_);
     return;
   }
   // Fine fringes add to the apparent noise of single frames, texture to that of their mean.
   std::vector<NoiseRowGatherer> frames;
   for (const FrameWeights& weights : single_frames(shifts.size()))
-    frames.emplace_back(stack, weights, distance_px_);
-  const NoiseRowGatherer mean_frame(stack, mean_of_frames(shifts), distance_px_);
+    frames.emplace_back(stack, harmonics, weights, distance_px_);
+  const NoiseRowGatherer mean_frame(stack, harmonics, mean_of_frames(shifts), distance_px_);
   NoiseBins single;
   NoiseBins mean;
   for (int round = 0; round < rounds.count() && !are_filled(mean); ++round) {
