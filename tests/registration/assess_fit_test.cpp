@@ -127,22 +127,25 @@ BundleSums sums_with_gain(const Bundle& bundle, const std::vector<double>& gain)
 
 TEST(AssessObservability, ComparesTheInformationOfThePairsWithThePrior) {
   const Bundle bundle = three_views();
+  const BundleSums sums = sums_with_gain(bundle, {24, 99, 15, 399, 35, 80});
+  const SurfelLists surfels = lists_of({10, 10, 10});
   RegistrationReport report;
-  assess_observability(report, bundle, sums_with_gain(bundle, {24, 99, 15, 399, 35, 80}), 100.0);
+  assess_observability(report, bundle, sums, surfels, 100.0);
   EXPECT_NEAR(report.weakest, 4.0, 1e-9);
   EXPECT_NEAR(report.condition, 5.0, 1e-9);
   // Tilts of 0.01 rad at an arm of 100 mm by 5 and 10; shifts of 2 mm by 4 and 20.
   EXPECT_NEAR(report.axis_sigma_mm, 0.5, 1e-9);
   EXPECT_TRUE(report.undetermined.empty());
-  assess_observability(report, bundle, sums_with_gain(bundle, {24, 99, 15, 399, 35, 80}), 300.0);
+  assess_observability(report, bundle, sums, surfels, 300.0);
   EXPECT_NEAR(report.axis_sigma_mm, 0.6, 1e-9) << "the tilt at a longer arm";
 }
 
 TEST(AssessObservability, NamesWhatTheViewsDetermineLessThanThreeTimesAsWellAsThePrior) {
   const Bundle bundle = three_views();
-  const auto undetermined = [&](const std::vector<double>& gain) {
+  const auto undetermined = [&](const std::vector<double>& gain,
+                                const std::vector<std::size_t>& surfels = {10, 10, 10}) {
     RegistrationReport report;
-    assess_observability(report, bundle, sums_with_gain(bundle, gain), 100.0);
+    assess_observability(report, bundle, sums_with_gain(bundle, gain), lists_of(surfels), 100.0);
     return report.undetermined;
   };
   using Names = std::vector<std::string>;
@@ -151,6 +154,7 @@ TEST(AssessObservability, NamesWhatTheViewsDetermineLessThanThreeTimesAsWellAsTh
   EXPECT_EQ(undetermined({50, 50, 50, 8.9, 50, 50}), Names{"the position of the axis"});
   EXPECT_EQ(undetermined({50, 50, 50, 50, 50, 8.9}), Names{"the angles of the views"});
   EXPECT_EQ(undetermined({0, 0, 0, 0, 0, 0}).size(), 3U);
+  EXPECT_EQ(undetermined({50, 50, 50, 50, 50, 0}, {10, 10, 0}), Names{}) << "of a view left out";
 }
 
 TEST(EffectiveWeight, CountsThePairsOfTwoViewsUpToTheirCommonError) {

@@ -57,6 +57,16 @@ TEST(ScoredRound, NamesWhatTurnedTheViewsThoughAHardlyNoticeableCauseIsMoreProba
   EXPECT_EQ(winner_of(round), 1U);
 }
 
+TEST(ScoredRound, NoticesWhatThePairsHaveInCommonOnlyWhereRegionsTellIt) {
+  PoseRound round = turned_views(0.0);
+  round.noise = {.scatter_mm = 0.03, .shared_mm = 0.002, .left_share = 1.0};
+  EXPECT_NEAR(noticeable_mm(round), 0.006, 1e-12) << "a fifth of the scatter";
+  round.noise.left_share = 0.36;  // of the regions: the others were fitted
+  EXPECT_NEAR(noticeable_mm(round), 2.5 * 0.002 / 0.6, 1e-12);
+  round.noise.left_share = 0.1;
+  EXPECT_NEAR(noticeable_mm(round), 0.75 * 0.03, 1e-12);
+}
+
 TEST(ScoredRound, NamesNothingWhereNoCauseIsNoticeable) {
   PoseRound round = turned_views(0.5 * kTableSigma_rad);
   add_cause(round, 500.0, {PoseCause::ViewMoved, {1}, 1e-6});

@@ -283,7 +283,7 @@ Attempt register_once(ViewStore& views,
   warn_if_untrusted();
   if (slid && !is_refined) run.warn(report.rig_alone_text());
   const PartScale scale = measure_part_scale(bundle, surfels, camera);
-  assess_observability(report, bundle, after, scale.radius_mm);
+  assess_observability(report, bundle, after, surfels, scale.radius_mm);
   warn_of_uncertain_axis(report, scale, options, run);
   apply_state(report, views, bundle.state);
   return {report, may_blame ? view_at_fault(report, work) : std::nullopt};

@@ -22,17 +22,14 @@ struct MeasuredUnknowns {
   Eigen::Index angles = 0;  ///< how many of them follow the four of the axis
 };
 
-MeasuredUnknowns measured_unknowns(const Bundle& bundle) {
+MeasuredUnknowns measured_unknowns(const SurfelLists& surfels, Eigen::Index unknowns) {
   MeasuredUnknowns measured{.all = {0, 1, 2, 3}};
-  const std::size_t views = bundle.maps.size();
-  for (std::size_t view = 1; view < views; ++view) {
-    const auto surfels = bundle.maps[view].surfels.pixels();
-    if (std::none_of(surfels.begin(), surfels.end(), [](const auto& s) { return s.sigma_mm > 0; }))
-      continue;
+  for (std::size_t view = 1; view < surfels.size(); ++view) {
+    if (surfels[view].empty()) continue;
     measured.all.push_back(static_cast<Eigen::Index>(view) + 3);
     ++measured.angles;
   }
-  for (auto i = static_cast<Eigen::Index>(views) + 3; i < bundle.prior_sigma.size(); ++i)
+  for (auto i = static_cast<Eigen::Index>(surfels.size()) + 3; i < unknowns; ++i)
     measured.all.push_back(i);
   return measured;
 }
@@ -66,8 +63,9 @@ double weakest_axis_sigma_mm(const SymmetricEigen<Eigen::Dynamic>& gain,
 void assess_observability(RegistrationReport& report,
                           const Bundle& bundle,
                           const BundleSums& sums,
+                          const SurfelLists& surfels,
                           double part_radius_mm) {
-  const MeasuredUnknowns measured = measured_unknowns(bundle);
+  const MeasuredUnknowns measured = measured_unknowns(surfels, bundle.prior_sigma.size());
   const auto gain = information_gain(bundle, sums, measured.all);
   report.weakest = std::sqrt(1.0 + std::max(0.0, gain.values[0]));
   report.condition =

@@ -220,6 +220,7 @@ PairNoise noise_after(const Bundle& bundle,
       std::max(1.0, ratio * static_cast<double>(median(sums.fit.over_sigma)) / kMedianOfNormal);
   noise.scatter_mm = ratio * static_cast<double>(median(sums.fit.distances_mm)) / kMedianOfNormal;
   std::vector<float> means_mm = sums.region_means_mm(motion - at, kFewest);
+  noise.regions = static_cast<double>(means_mm.size());
   for (float& mean : means_mm)
     mean = std::abs(mean);
   noise.shared_mm = std::max(bundle.systematic_mm,

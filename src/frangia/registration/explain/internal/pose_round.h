@@ -55,7 +55,11 @@ struct PairNoise {
   double excess = 1.0;  ///< of the distances over their noise, at least 1
   double scatter_mm = 0.0;
   double shared_mm = 0.0;  ///< what all pairs of a region of two views have in common
-  double scale = 1.0;      ///< of the equations, so that they count as independent samples
+  double regions = 0.0;    ///< how many show it
+  /// Share of the regions that the richest hypothesis does not follow, whatever they have in
+  /// common.
+  double left_share = 1.0;
+  double scale = 1.0;  ///< of the equations, so that they count as independent samples
 };
 
 /// The noise of pairs once motions x explain what they can.

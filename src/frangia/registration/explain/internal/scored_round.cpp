@@ -126,8 +126,12 @@ void weigh(PoseRound& round) {
   const Eigen::Index unknowns = data.gradient.size();
   const Eigen::MatrixXd table = padded(round.chart.table, unknowns);
   const PoseEvidence plain(data, table);
-  const Eigen::VectorXd rich = plain.posterior(everything(round.chart, unknowns)).motion;
-  round.noise = noise_after(round.bundle, round.sums, plain, at, rich);
+  const PosePosterior rich = plain.posterior(everything(round.chart, unknowns));
+  round.noise = noise_after(round.bundle, round.sums, plain, at, rich.motion);
+  // The number of changes that the data determines: MacKay 1992.
+  const double determined =
+      static_cast<double>(rich.changes.size()) - rich.changes_covariance.trace();
+  round.noise.left_share = std::max(0.0, 1.0 - determined / std::max(1.0, round.noise.regions));
   data.hessian *= round.noise.scale;
   data.gradient *= round.noise.scale;
   round.exact.emplace(data, padded(round.chart.with_exact_table().table, unknowns));
@@ -153,9 +157,16 @@ void score(PoseRound& round) {
 }
 
 double noticeable_mm(const PoseRound& round) {
-  constexpr double kCommon = 2.5;   // times what pairs of two views still have in common
-  constexpr double kScatter = 0.2;  // of a pair
-  return std::max(kCommon * round.noise.shared_mm, kScatter * round.noise.scatter_mm);
+  constexpr double kCommon = 2.5;      // times what pairs of two views still have in common
+  constexpr double kScatter = 0.2;     // of a pair
+  constexpr double kOfPair = 0.75;     // of a pair, where nothing tells what they have in common
+  constexpr double kLeastShare = 0.3;  // of the regions: fewer have been fitted
+  const PairNoise& noise = round.noise;
+  if (noise.left_share < kLeastShare)
+    return std::max(kCommon * noise.shared_mm, kOfPair * noise.scatter_mm);
+  // The regions that are left scatter by less than all of them would.
+  const double common_mm = noise.shared_mm / std::sqrt(noise.left_share);
+  return std::max(kCommon * common_mm, kScatter * noise.scatter_mm);
 }
 
 bool is_beyond_prior(const PoseRound& round) {

@@ -71,7 +71,8 @@ void weigh(PoseRound& round);
 void score(PoseRound& round);
 
 /// The smallest effect that is explained: what surfaces of sound scans have in common is not
-/// blamed, nor what is far below the scatter of one pair.
+/// blamed, nor what is far below the scatter of one pair; where too few regions tell what they have
+/// in common, nor what one pair hides.
 [[nodiscard]] double noticeable_mm(const PoseRound& round);
 
 /// Whether only an improbable change of axis or angles would explain the poses of the views.
