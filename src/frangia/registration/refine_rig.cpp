@@ -178,7 +178,6 @@ class RigFit {
   [[nodiscard]] bool widen() {
     constexpr double kNoticeably = 1.3;
     constexpr double kBeyond = 3.0;  // standard deviations
-    constexpr double kCommon = 2.5;  // times the systematic error of a view
     DriftBundle all = bundle_;
     all.free_directions = Eigen::MatrixXd::Identity(model_.count(), model_.count());
     const DriftSums sums = sum_drift(all, kComparedSurfels);
@@ -194,7 +193,7 @@ class RigFit {
     const double gain = gain_by_widening(hypotheses, evidence, bundle_.state.w, wider);
     const double effect_mm = bundle_.noise_mm * std::sqrt(gain / pairs);
     const bool is_beyond = bundle_.state.w.cwiseAbs().maxCoeff() > kBeyond;
-    if (!is_beyond && effect_mm < kCommon * bundle_.systematic_mm) return false;
+    if (!is_beyond && effect_mm < kCommonErrors * bundle_.systematic_mm) return false;
     if (widening_.size() == 0) widening_ = Eigen::VectorXd::Ones(wider.size());
     if ((wider.cwiseQuotient(widening_)).maxCoeff() < kNoticeably) return false;
     widening_ = wider;

@@ -33,6 +33,10 @@ struct Bundle {
 /// One list of surfels a view.
 using SurfelLists = std::vector<std::vector<SurfelMap::Surfel>>;
 
+/// What changes the distances of views by less than this many times the error that surfaces of
+/// sound scans have in common is no fault: some cause far off always explains a part of that.
+inline constexpr double kCommonErrors = 2.5;
+
 /// Picks surfels of each view as `pick_surfels` does. Each quarter of a list is one region of the
 /// view.
 [[nodiscard]] SurfelLists pick_all_surfels(const std::vector<SurfelMap>& maps, std::size_t count);

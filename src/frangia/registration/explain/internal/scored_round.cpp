@@ -157,16 +157,15 @@ void score(PoseRound& round) {
 }
 
 double noticeable_mm(const PoseRound& round) {
-  constexpr double kCommon = 2.5;      // times what pairs of two views still have in common
   constexpr double kScatter = 0.2;     // of a pair
   constexpr double kOfPair = 0.75;     // of a pair, where nothing tells what they have in common
   constexpr double kLeastShare = 0.3;  // of the regions: fewer have been fitted
   const PairNoise& noise = round.noise;
   if (noise.left_share < kLeastShare)
-    return std::max(kCommon * noise.shared_mm, kOfPair * noise.scatter_mm);
+    return std::max(kCommonErrors * noise.shared_mm, kOfPair * noise.scatter_mm);
   // The regions that are left scatter by less than all of them would.
   const double common_mm = noise.shared_mm / std::sqrt(noise.left_share);
-  return std::max(kCommon * common_mm, kScatter * noise.scatter_mm);
+  return std::max(kCommonErrors * common_mm, kScatter * noise.scatter_mm);
 }
 
 bool is_beyond_prior(const PoseRound& round) {
