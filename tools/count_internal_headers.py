@@ -7,7 +7,7 @@ import pathlib
 import re
 import sys
 
-MOST = 48
+MOST = 47
 
 
 def main(root, *options):

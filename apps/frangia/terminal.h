@@ -30,7 +30,7 @@ class Terminal {
   /// Keeps warnings and notes back until `release`, so that the reason why a result is not
   /// trustworthy can be the first line.
   void hold() { holding_ = !verbose; }
-  /// Prints what was kept back, with one line for what is said of several views alike.
+  /// Prints what was kept back. Messages that differ by their view and numbers alone are one line.
   void release();
 
   /// A warning that comes before all that is kept back; where it was given before, it moves.

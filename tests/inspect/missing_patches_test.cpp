@@ -25,12 +25,7 @@ Mesh plate_with_pin(float radius_mm) {
     vertex *= 0.25F;
     vertex.z() = distance_from(vertex, 10, 10) < radius_mm ? 17.0F : 5.0F;
   }
-  const auto top = static_cast<std::uint32_t>(nominal.vertices_mm.size());
-  for (std::uint32_t i = 0; i < top; ++i)
-    nominal.vertices_mm.emplace_back(nominal.vertices_mm[i].x(), nominal.vertices_mm[i].y(), 0.0F);
-  const auto upper = nominal.triangles;
-  for (const auto& [a, b, c] : upper)
-    nominal.triangles.push_back({a + top, c + top, b + top});
+  testing::add_floor(nominal);
   return nominal;
 }
 

@@ -230,12 +230,7 @@ TEST(SurfaceVerdict, OfAMissingBossIsOutThere) {
   Mesh nominal = testing::level_grid(41, 41);
   for (Vector3f& vertex : nominal.vertices_mm)
     vertex.z() = distance_from(vertex, 12, 25) < 6.5 ? 15.0F : 10.0F;
-  const auto top = static_cast<std::uint32_t>(nominal.vertices_mm.size());
-  for (std::uint32_t i = 0; i < top; ++i)
-    nominal.vertices_mm.emplace_back(nominal.vertices_mm[i].x(), nominal.vertices_mm[i].y(), 0.0F);
-  const auto upper = nominal.triangles;
-  for (const auto& [a, b, c] : upper)
-    nominal.triangles.push_back({a + top, c + top, b + top});
+  testing::add_floor(nominal);
   Mesh measured = testing::level_grid(41, 41);
   for (Vector3f& vertex : measured.vertices_mm)
     vertex.z() = 10.0F;

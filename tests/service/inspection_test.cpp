@@ -174,34 +174,6 @@ TEST_F(ServiceTest, InspectsTheNextPartByTheSamePlan) {
   EXPECT_TRUE(left[0].at("verdict").is_null());
 }
 
-TEST_F(ServiceTest, NamesTheFaceOfACadReferenceThatIsPicked) {
-  open_box();
-  const std::string bytes = read_text_file(std::filesystem::path(FRANGIA_SOURCE_DIR) /
-                                           "tests/data/cad-samples/plate.stp");
-  service_->add_to_reference(0, bytes);
-  static_cast<void>(command("set-reference",
-                            {{"name", "plate.stp"}, {"format", "stp"}, {"bytes", bytes.size()}}));
-  static_cast<void>(finish());
-  static_cast<void>(command("show-reference"));
-  if (finish().at("state") != "done") GTEST_SKIP() << "needs OpenCASCADE";
-  const auto face = [&](const Json& eye, const Json& direction) {
-    const Json ray{{"eye", eye}, {"direction", direction}, {"reference", true}};
-    return Json::parse(service_->pick(ray.dump())).at("hit").at("face");
-  };
-  const Json bore = face({0, 1, 5}, {1, 0, 0});
-  EXPECT_EQ(bore.at("kind"), "cylinder");
-  EXPECT_NEAR(bore.at("diameter_mm").get<double>(), 16.0, 1e-6);
-  EXPECT_EQ(face({0, 1, 4}, {-1, 0, 0}), bore);
-  const Json top = face({20, 5, 50}, {0, 0, -1});
-  EXPECT_EQ(top.at("kind"), "plane");
-  EXPECT_TRUE(top.at("diameter_mm").is_null());
-  EXPECT_NE(face({20, 5, -50}, {0, 0, 1}).at("number"), top.at("number"));
-  // As inspection.toml numbers it.
-  const Json features{{{"name", "bore"}, {"face", bore.at("number")}}};
-  static_cast<void>(command("set-plan", {{"plan", {{"align", "none"}, {"features", features}}}}));
-  EXPECT_EQ(state().at("project").at("plan").at("features")[0].at("face"), bore.at("number"));
-}
-
 TEST_F(ServiceTest, AlignsByPlacesThatArePickedOnSurfaceAndReference) {
   open_box();
   const auto file = folder_.path() / "moved.stl";

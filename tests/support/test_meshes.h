@@ -38,6 +38,17 @@ inline std::size_t open_edges(const Mesh& mesh) {
   return open;
 }
 
+/// Adds the shadow of a sheet that is seen from +z, at z = 0 and seen from below; its sides stay
+/// open.
+inline void add_floor(Mesh& sheet) {
+  const auto top = static_cast<std::uint32_t>(sheet.vertices_mm.size());
+  for (std::uint32_t i = 0; i < top; ++i)
+    sheet.vertices_mm.emplace_back(sheet.vertices_mm[i].x(), sheet.vertices_mm[i].y(), 0.0F);
+  const auto upper = sheet.triangles;
+  for (const auto& [a, b, c] : upper)
+    sheet.triangles.push_back({a + top, c + top, b + top});
+}
+
 /// A level sheet of vertices 1 mm apart, seen from +z.
 inline Mesh level_grid(std::uint32_t width, std::uint32_t height) {
   Mesh mesh;

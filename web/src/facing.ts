@@ -1,13 +1,11 @@
 import { html, type TemplateResult } from 'lit';
 import { meshOf } from './arrays';
+import { CAD_FORMATS } from './file_formats';
 import type { Inspecting } from './inspecting';
 import { number, t } from './messages';
 import type { Store } from './store';
 import type { Triple } from './types';
 import type { Hit, PickedFace } from './viewer_events';
-
-/** Formats of references whose faces are known. */
-const CAD: readonly string[] = ['step', 'stp'];
 
 /** Faces of a CAD reference, clicked to become features of the plan. */
 export class Facing {
@@ -93,7 +91,7 @@ export class Facing {
   /** The button that begins, and the face that was clicked. */
   panel(off: boolean): TemplateResult | string {
     const { app } = this;
-    if (!CAD.includes(app.project.reference?.format ?? '')) return '';
+    if (!CAD_FORMATS.includes(app.project.reference?.format ?? '')) return '';
     return html`<button
         class="btn wide"
         id="pick-face"

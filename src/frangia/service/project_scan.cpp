@@ -318,6 +318,7 @@ CaptureReport capture_project(
   options.decoded = decoded;
   StationBook book(project, std::move(stations), on_change);
   const StationRange ranges(plan.rig);
+  // Without the axis nothing says where a view belongs.
   const bool is_placed = plan.rig.turntable || plan.views.size() == 1;
   ViewWatch watch(plan.rig);
   options.check_view = [&](const ViewAssessment& found) {

@@ -10,7 +10,7 @@
 namespace frangia {
 
 /// How the points that a rig measures move with its changes: polynomials of third degree in the
-/// place, which differ from `PointDrift` by a thousandth, and cost a tenth of its time.
+/// place, which differ from `PointDrift` by a thousandth and need no projection into changed rigs.
 class DriftField {
  public:
   /// A field of no changes.

@@ -109,9 +109,7 @@ nlohmann::ordered_json Service::Implementation::start_scan(CommandArguments& arg
     change([&](OpenProject& opened) { opened.decoded = decoded; });
     // Each setup stands in its own pose on the table: the surface is that of the present one.
     std::optional<GrowingSurface> growing;
-    // Without the axis nothing says where a view belongs.
-    if (const std::optional<Rig> rig = opened().rig;
-        rig && (rig->turntable || stations.size() == 1)) {
+    if (const std::optional<Rig> rig = opened().rig) {
       growing.emplace(*rig, [this](const GrownSurface& grown) {
         change([&](OpenProject& opened) { opened.grown = grown; });
       });

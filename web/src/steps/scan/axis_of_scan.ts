@@ -8,7 +8,7 @@ import { capitalized, plain } from '../../ui';
 /** Fewer views do not show an axis; the server keeps the same limit. */
 const FEWEST_STATIONS = 3;
 
-/** Whether stations are to be joined about an axis that nobody knows. */
+/** Whether the scan has several stations and the axis of its turntable is unknown. */
 export const lacksAxis = (app: App): boolean =>
   app.project.can_scan && app.project.stations.length > 1 && !axisIsKnown(app);
 

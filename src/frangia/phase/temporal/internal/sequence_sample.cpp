@@ -58,9 +58,13 @@ SequenceSample::SequenceSample(std::span<const SequenceFrames> maps,
     FrameStack lines = columns ? sample_columns(*map.stack, options.pixels)
                                : sample_rows(*map.stack, options.pixels);
     maps_.push_back(wrap_phase(lines, map.algorithm, noise, wrap));
-    WrappedPhase corrected = maps_.back();
-    if (map.correction) correct_response(*map.correction, corrected);
-    corrected_rad_.push_back(std::move(corrected.phase_rad));
+    if (map.correction) {
+      WrappedPhase corrected = maps_.back();
+      correct_response(*map.correction, corrected);
+      corrected_rad_.push_back(std::move(corrected.phase_rad));
+    } else {
+      corrected_rad_.push_back(maps_.back().phase_rad);
+    }
     frames_.push_back(std::move(lines.frames));
   }
   const PhaseRange field = phase_range(patterns_.front(), projector);
