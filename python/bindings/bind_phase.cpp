@@ -123,14 +123,23 @@ void bind_maps(py::module_& module) {
       .value("OUT_OF_FIELD", PixelStatus::OutOfField)
       .value("CONTRADICTING", PixelStatus::Contradicting);
 
-  py::class_<NoiseModel>(module, "NoiseModel", "Variance of a pixel: floor + slope * counts.")
+  py::class_<NoiseModel>(
+      module,
+      "NoiseModel",
+      "Variance of a pixel: floor + slope * counts + dark * (range / (counts + range))^2.")
       .def(py::init([](double floor, double slope) {
-             return NoiseModel{floor, slope};
+             return NoiseModel{.floor_counts2 = floor, .slope_counts = slope};
            }),
            py::arg("floor_counts2"),
            py::arg("slope_counts"))
       .def_readonly("floor_counts2", &NoiseModel::floor_counts2, "Variance of a dark pixel.")
       .def_readonly("slope_counts", &NoiseModel::slope_counts, "Its increase per count.")
+      .def_readonly("dark_counts2",
+                    &NoiseModel::dark_counts2,
+                    "What a dark pixel has beyond the floor, of a camera that encodes its light.")
+      .def_readonly("dark_range_counts",
+                    &NoiseModel::dark_range_counts,
+                    "Brightness at which a quarter of that is left.")
       .def("variance", &NoiseModel::variance, py::arg("counts"), "Counts squared.");
 
   py::class_<FrameStack>(module, "FrameStack", "The frames of one pattern, in the order of shifts.")

@@ -378,8 +378,16 @@ class Mesh:
         ...
 
 class NoiseModel:
-    """Variance of a pixel: floor + slope * counts."""
+    """Variance of a pixel: floor + slope * counts + dark * (range / (counts + range))^2."""
     def __init__(self, floor_counts2: float, slope_counts: float) -> None:
+        ...
+    @property
+    def dark_counts2(self) -> float:
+        """What a dark pixel has beyond the floor, of a camera that encodes its light."""
+        ...
+    @property
+    def dark_range_counts(self) -> float:
+        """Brightness at which a quarter of that is left."""
         ...
     @property
     def floor_counts2(self) -> float:

@@ -10,11 +10,10 @@
 #include <utility>
 #include <vector>
 
-#include <Eigen/LU>
-
 #include "frangia/core/statistics.h"
 #include "frangia/phase/algorithm/phase_algorithm.h"
 #include "frangia/phase/waveform/fit_waveform.h"
+#include "frangia/phase/wrap/internal/fit_noise.h"
 #include "frangia/phase/wrap/internal/row_rounds.h"
 
 namespace frangia {
@@ -294,32 +293,15 @@ bool NoiseSamples::empty() const {
 }
 
 NoiseModel NoiseSamples::model() const {
-  // Weighted straight line through the bins. The variance of a bin is off by chance, and by
-  // rounding and texture: otherwise the many pixels of a dark background alone would decide.
-  constexpr double kModelError = 0.1;  // relative
-  Eigen::Matrix2d normal = Eigen::Matrix2d::Zero();
-  Eigen::Vector2d right = Eigen::Vector2d::Zero();
+  std::vector<phase::VarianceAt> variances;
   for (const Bin& bin : bins_) {
     if (bin.differences_counts.size() < kMinBinSamples) continue;
     const auto size = static_cast<double>(bin.differences_counts.size());
-    const double variance = std::max(robust_variance(bin.differences_counts), 1.0 / 12.0);
-    const Eigen::Vector2d row(1.0, bin.sum_counts / size);
-    const double weight = 1.0 / (variance * variance * (2.0 / size + kModelError * kModelError));
-    normal += weight * row * row.transpose();
-    right += weight * row * variance;
+    variances.push_back({bin.sum_counts / size,
+                         std::max(robust_variance(bin.differences_counts), 1.0 / 12.0),
+                         size});
   }
-  NoiseModel model;
-  if (normal(0, 0) == 0.0) return model;
-  Eigen::Vector2d line(right(0) / normal(0, 0), 0.0);
-  if (normal.determinant() > 1e-9 * normal(0, 0) * normal(1, 1)) line = normal.inverse() * right;
-  if (line(1) < 0.0) line = {right(0) / normal(0, 0), 0.0};
-  if (line(0) < model.floor_counts2) {
-    line = {model.floor_counts2,
-            std::max(0.0, (right(1) - model.floor_counts2 * normal(0, 1)) / normal(1, 1))};
-  }
-  model.floor_counts2 = line(0);
-  model.slope_counts = line(1);
-  return model;
+  return phase::fit_noise(variances, white_);
 }
 
 NoiseModel estimate_noise(std::span<const FrameStack> stacks) {

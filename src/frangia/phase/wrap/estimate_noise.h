@@ -15,8 +15,8 @@ namespace frangia {
 /// for step errors and motion, which are smooth across the image and cancel in a second difference
 /// along the rows; harmonics of the fringes are fitted and subtracted. For three frames the second
 /// difference is taken of the frames themselves, or of their mean where that varies less because
-/// the fringes are fine, and a robust variance suppresses the texture of the object. A straight
-/// line fitted to the variance over the brightness gives the floor and the slope.
+/// the fringes are fine, and a robust variance suppresses the texture of the object. A curve
+/// fitted to the variance over the brightness gives the model.
 ///
 /// @units    counts
 /// @missing  saturated pixels are ignored; with too few pixels the model is quantization noise

@@ -51,6 +51,8 @@ SumNoise noise_of_sums(const PhaseAlgorithm& algorithm, const NoiseModel& noise)
   }
   return {.variance_floor = static_cast<float>(noise.floor_counts2),
           .variance_slope = static_cast<float>(noise.slope_counts),
+          .variance_dark = static_cast<float>(noise.dark_counts2),
+          .dark_range = static_cast<float>(noise.dark_range_counts),
           .sine_gain = static_cast<float>(sine_gain),
           .cosine_gain = static_cast<float>(cosine_gain),
           .cross_gain = static_cast<float>(cross_gain)};
@@ -78,7 +80,9 @@ FRANGIA_VECTORIZED void find_precision(const WrapTile& __restrict tile,
     const float c = tile.cosine[i];
     const float square = s * s + c * c;
     const float mean = tile.mean[i] > 0.0F ? tile.mean[i] : 0.0F;
-    const float variance = f.variance_floor + f.variance_slope * mean;
+    const float left = f.dark_range / (mean + f.dark_range);
+    const float variance =
+        f.variance_floor + f.variance_slope * mean + f.variance_dark * left * left;
     const float gain = c * c * f.sine_gain + s * s * f.cosine_gain - 2.0F * s * c * f.cross_gain;
     const float product = variance * gain + kLeastVariance;
     if constexpr (!kAll) {
@@ -266,7 +270,7 @@ PhaseKernel::PhaseKernel(const FrameStack& stack,
     : stack_(&stack),
       algorithm_(&algorithm),
       noise_(noise_of_sums(algorithm, noise)),
-      is_four_step_(is_four_step(algorithm)) {
+      is_four_step_(is_four_step(algorithm) && noise.dark_counts2 == 0.0) {
   check_frames(stack, algorithm);
 }
 

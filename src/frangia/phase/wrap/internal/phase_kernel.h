@@ -14,6 +14,8 @@ namespace frangia {
 struct SumNoise {
   float variance_floor;  ///< of the camera noise, counts squared
   float variance_slope;  ///< of the camera noise, counts squared per count
+  float variance_dark;   ///< of the camera noise of dark pixels beyond the floor, counts squared
+  float dark_range;      ///< brightness at which a quarter of that is left, counts
   float sine_gain;       ///< sum of sine[k]^2
   float cosine_gain;     ///< sum of cosine[k]^2
   float cross_gain;      ///< sum of sine[k] cosine[k]
