@@ -369,6 +369,26 @@ class FramesAtFault(unittest.TestCase):
         self.assertEqual(code, 0, text)
         self.assertLess(error, 2.2 * sigma)
 
+    def test_frames_that_are_late_all_through_are_named_and_can_be_used(self):
+        # The fine pattern comes first, then the coarse one, whose last frame is missing.
+        for steps in (4, 6):
+            last = frame(lambda column: 0 * column, 7000)
+
+            def late(view, name, frames):
+                nonlocal last
+                shown = [last, *frames[:-1]]
+                last = frames[-1]
+                return shown
+
+            scan = self.scan(steps, coarse=True).capture(late)
+            code, _, text, _, _ = scan.reconstruct()
+            self.assertEqual(code, 5, text)
+            self.assertIn("all frames are late by one frame", text)
+            self.assertIn("--accept-remedy", text)
+            code, _, text, error, sigma = scan.reconstruct("--accept-remedy")
+            self.assertEqual(code, 0, text)
+            self.assertLess(error, 2.2 * sigma)
+
 
 if __name__ == "__main__":
     unittest.main(argv=[sys.argv[0], *sys.argv[2:]])

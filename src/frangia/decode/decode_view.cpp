@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "frangia/decode/explain/explain_lag.h"
 #include "frangia/decode/internal/decode_direction.h"
 #include "frangia/decode/select_stacks.h"
 
@@ -48,17 +49,70 @@ std::string misfit_of(const DecodedView& view) {
   return describe(checks);
 }
 
+namespace {
+
+/// The arguments of `decode_view`.
+struct ViewInput {
+  const DecodePlan& plan;
+  const Rig& rig;
+  const Image<Eigen::Vector2f>& rays;
+  const DecodeOptions& options;
+};
+
+DecodedView decode_directions(std::span<const FrameStack> stacks,
+                              const ViewInput& input,
+                              const Run& run) {
+  DecodedView out;
+  out.directions.clear();
+  for (const DirectionPlan& direction : input.plan.directions)
+    out.directions.push_back(
+        decode_direction({stacks, direction, input.rig, input.rays, input.options, run}));
+  return out;
+}
+
+/// Decodes frames that are out of step as what they show, where that is wanted and possible.
+/// Otherwise the view measures nothing: its checks say so.
+DecodedView decode_out_of_step(std::span<const FrameStack> stacks,
+                               const FrameLag& lag,
+                               const ViewInput& input,
+                               const Run& run) {
+  const std::vector<FrameStack> moved = in_step(stacks, lag);
+  if (input.options.accept_remedy && !moved.empty()) {
+    run.warn(describe(lag) + "; decoded as what they show");
+    return decode_directions(moved, input, run);
+  }
+  Run quiet = run;  // other findings would be consequences
+  quiet.on_warning = nullptr;
+  quiet.on_note = nullptr;
+  DecodedView out =
+      decode_directions(moved.empty() ? stacks : std::span<const FrameStack>(moved), input, quiet);
+  for (std::size_t i = 0; i < out.directions.size(); ++i) {
+    DecodedDirection& direction = out.directions[i];
+    direction.frames = judge_lag(input.plan.directions[i].maps, lag, !moved.empty());
+    if (direction.frames.empty()) continue;  // a Gray code alone
+    const FrameVerdict& verdict = direction.frames.front();
+    direction.check = SequenceCheck{.decided = true, .consistent = false};
+    direction.check->finding = verdict.finding + "; " + verdict.explanation.explanation.remedy;
+    for (const FrameVerdict& one : direction.frames)
+      direction.check->patterns.push_back(one.explanation.pattern);
+  }
+  return out;
+}
+
+}  // namespace
+
 DecodedView decode_view(std::span<const FrameStack> stacks,
                         const DecodePlan& plan,
                         const Rig& rig,
                         const Image<Eigen::Vector2f>& rays,
                         const DecodeOptions& options,
                         const Run& run) {
-  DecodedView out;
-  out.directions.clear();
-  for (const DirectionPlan& direction : plan.directions)
-    out.directions.push_back(decode_direction({stacks, direction, rig, rays, options, run}));
-  return out;
+  const ViewInput input{plan, rig, rays, options};
+  if (!options.accept_inconsistent) {
+    if (const std::optional<FrameLag> lag = explain_lag(stacks))
+      return decode_out_of_step(stacks, *lag, input, run);
+  }
+  return decode_directions(stacks, input, run);
 }
 
 DecodedView decode_view(std::span<const FrameStack> stacks,

@@ -100,6 +100,34 @@ export const FAULTS_DECODE = {
     'ab Bild {0} kommen die Bilder um eines zu spät',
     'dal fotogramma {0} in poi i fotogrammi sono in ritardo di uno',
   ],
+  'fault.allFramesLate': [
+    'all frames are late by {0}: each shows what should be seen {1} before',
+    'alle Bilder kommen um {0} zu spät: jedes zeigt, was {1} früher zu sehen sein sollte',
+    'tutti i fotogrammi sono in ritardo di {0}: ognuno mostra ciò che si dovrebbe vedere {1} prima',
+  ],
+  'fault.allFramesEarly': [
+    'all frames are early by {0}: each shows what should be seen {1} later',
+    'alle Bilder kommen um {0} zu früh: jedes zeigt, was {1} später zu sehen sein sollte',
+    'tutti i fotogrammi sono in anticipo di {0}: ognuno mostra ciò che si dovrebbe vedere {1} dopo',
+  ],
+  'fault.oneFrame': ['one frame', 'ein Bild', 'un fotogramma'],
+  'fault.twoFrames': ['two frames', 'zwei Bilder', 'due fotogrammi'],
+  'fault.threeFrames': ['three frames', 'drei Bilder', 'tre fotogrammi'],
+  'fault.decodedAsShown': [
+    '{0}; decoded as what they show',
+    '{0}; ausgewertet als das, was sie zeigen',
+    '{0}; decodificati per ciò che mostrano',
+  ],
+  'fault.longerDelay': [
+    'capture the frames again with a longer delay_s of the projector',
+    'die Bilder mit einem längeren delay_s des Projektors neu aufnehmen',
+    'riprendere i fotogrammi con un delay_s del proiettore più lungo',
+  ],
+  'fault.decodeAsShown': [
+    ', or set `accept_remedy` to decode each frame as what it shows',
+    ', oder jedes Bild als das auswerten, was es zeigt',
+    ', o decodificare ogni fotogramma per ciò che mostra',
+  ],
   'fault.frameTimesLight': [
     'frame {0} has {1} times the light',
     'Bild {0} hat das {1}-Fache des Lichts',

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "frangia/decode/explain/judge_frames.h"
+#include "frangia/diagnose/explanation.h"
+#include "frangia/frames/frame_stack.h"
+
+namespace frangia {
+
+/// All frames of a view show what frames before or behind them should: projector and camera are
+/// out of step from the first frame on.
+struct FrameLag {
+  int frames = 0;             ///< places that they are late; below 0: early
+  Explanation explanation{};  ///< with the lags that predict the same
+};
+
+/// Finds frames that are out of step all through a view.
+///
+/// Of one pattern by itself, such frames are those of another start, or with one that is lost. But
+/// taken as what they show, all patterns leave no residual, and have the same mean and modulation
+/// at each pixel. A lag and one that differs by a whole pattern predict the same.
+///
+/// @shape    the stacks in the order in which their frames were captured
+/// @missing  nothing where the frames are as described, are not better so, or do not tell: for
+///           fewer than two fringe patterns, or several exposures
+[[nodiscard]] std::optional<FrameLag> explain_lag(std::span<const FrameStack> stacks);
+
+/// The stacks with the frames that show them. A pattern at the end of the sequence lacks some.
+/// Empty if what is left of it does not determine the phase.
+[[nodiscard]] std::vector<FrameStack> in_step(std::span<const FrameStack> stacks,
+                                              const FrameLag& lag);
+
+/// The verdict on each fringe pattern of a view that is out of step: the view is left out.
+/// `may_remedy`: the frames can be decoded as what they show.
+[[nodiscard]] std::vector<FrameVerdict> judge_lag(std::span<const Pattern> patterns,
+                                                  const FrameLag& lag,
+                                                  bool may_remedy);
+
+/// A clause: "all frames are late by one frame: each shows what should be seen one frame before".
+[[nodiscard]] std::string describe(const FrameLag& lag);
+
+}  // namespace frangia
