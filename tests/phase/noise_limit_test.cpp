@@ -101,8 +101,9 @@ TEST(NoiseLimit, SigmaMatchesTheErrorsForEstimatedNoise) {
 }
 
 /// Frames of a camera that encodes its light as webcams do, of fringes that are sinusoidal in its
-/// counts, on a part that is 10 counts bright at the left and 150 at the right.
-FrameStack encoded_frames(std::size_t frames, double full_e, double read_e) {
+/// counts, on a part that is 10 counts bright at the left and 150 at the right. `first`: the first
+/// column that is lit.
+FrameStack encoded_frames(std::size_t frames, double full_e, double read_e, int first = 0) {
   FrameStack stack{.pattern = quarter_steps(), .frames = {}, .white_level = 255};
   stack.pattern.shifts_rad =
       testing::equal_shifts(static_cast<int>(frames), kTwoPi / static_cast<double>(frames));
@@ -113,7 +114,7 @@ FrameStack encoded_frames(std::size_t frames, double full_e, double read_e) {
         const double seen =
             (10.0 + 140.0 * x / kColumnsSeen) *
             (1.0 + 0.6 * std::cos(tilted_plane(x, y) + stack.pattern.shifts_rad[k]));
-        const double electrons = full_e * std::pow(seen / 255.0, 2.2);
+        const double electrons = x < first ? 0.0 : full_e * std::pow(seen / 255.0, 2.2);
         const std::uint64_t place =
             hash(hash(k + 5, static_cast<std::uint64_t>(y)), static_cast<std::uint64_t>(x));
         const double noisy =
@@ -151,6 +152,21 @@ TEST(NoiseLimit, SigmaMatchesTheErrorsOfACameraThatEncodesItsLight) {
       }
     }
   }
+}
+
+TEST(NoiseLimit, TheDarkBackgroundOfACameraThatEncodesItsLightIsNotMeasured) {
+  // Its noise is cut off at 0 counts, and far beyond that of the part, which is bright.
+  constexpr int kLit = 420;
+  const FrameStack stack = encoded_frames(4, 3000.0, 12.0, kLit);
+  const NoiseModel noise = estimate_noise({&stack, 1});
+  const WrappedPhase map = wrap_phase(stack, least_squares(stack.pattern.shifts_rad), noise);
+  std::size_t background = 0;
+  std::size_t part = 0;
+  for (int y = 0; y < kRowsSeen; ++y)
+    for (int x = 0; x < kColumnsSeen; ++x)
+      if (map.status(x, y) == PixelStatus::Measured) ++(x < kLit ? background : part);
+  EXPECT_LT(background, kRowsSeen * kLit / 20);
+  EXPECT_GT(part, kRowsSeen * (kColumnsSeen - kLit) * 19 / 20);
 }
 
 FrameAssessment assessment_of(const FrameStack& stack) {

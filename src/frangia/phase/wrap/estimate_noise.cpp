@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -66,7 +67,7 @@ class FringeHarmonics {
 };
 
 /// Absolute differences, binned by brightness.
-using NoiseBins = std::array<NoiseSamples::Bin, NoiseSamples::kBins>;
+using NoiseBins = NoiseSamples::Bins;
 
 /// Gathers the noise in rows of one combination of the frames.
 class NoiseRowGatherer {
@@ -117,14 +118,14 @@ void NoiseRowGatherer::gather(int y, NoiseBins& bins) const {
   for (std::size_t i = d; i + d < sum.size(); ++i) {
     if (std::max({brightest[i - d], brightest[i], brightest[i + d]}) >= stack_->white_level)
       continue;
-    // Clipping at 0 counts would reduce the apparent noise.
-    if (std::min({darkest[i - d], darkest[i], darkest[i + d]}) <= 0) continue;
+    const bool cut_off = std::min({darkest[i - d], darkest[i], darkest[i + d]}) <= 0;
     const double difference = (sum[i - d] - 2.0 * sum[i] + sum[i + d]) / std::sqrt(6.0);
     const double share = mean[i] / stack_->white_level;
-    const auto bin = std::min<std::size_t>(NoiseSamples::kBins - 1,
-                                           static_cast<std::size_t>(share * NoiseSamples::kBins));
-    bins[bin].differences_counts.push_back(static_cast<float>(std::abs(difference)));
-    bins[bin].sum_counts += mean[i];
+    const auto number = std::min<std::size_t>(
+        NoiseSamples::kBins - 1, static_cast<std::size_t>(share * NoiseSamples::kBins));
+    NoiseSamples::Bin& bin = cut_off ? bins.cut_off : bins.lit[number];
+    bin.differences_counts.push_back(static_cast<float>(std::abs(difference)));
+    bin.sum_counts += mean[i];
   }
 }
 
@@ -212,7 +213,7 @@ bool are_filled(const NoiseBins& bins) {
   double all = 0.0;
   double unused = 0.0;
   double fullest = 0.0;
-  for (const NoiseSamples::Bin& bin : bins) {
+  for (const NoiseSamples::Bin& bin : bins.lit) {
     const auto size = static_cast<double>(bin.differences_counts.size());
     all += size;
     unused += bin.differences_counts.size() < kMinBinSamples ? size : 0.0;
@@ -222,12 +223,16 @@ bool are_filled(const NoiseBins& bins) {
          unused <= std::max(kFew * (all - fullest), kStray * all);
 }
 
+void append(const NoiseSamples::Bin& from, NoiseSamples::Bin& to) {
+  const std::vector<float>& added = from.differences_counts;
+  to.differences_counts.insert(to.differences_counts.end(), added.begin(), added.end());
+  to.sum_counts += from.sum_counts;
+}
+
 void append(const NoiseBins& from, NoiseBins& to) {
-  for (std::size_t bin = 0; bin < to.size(); ++bin) {
-    const std::vector<float>& added = from[bin].differences_counts;
-    to[bin].differences_counts.insert(to[bin].differences_counts.end(), added.begin(), added.end());
-    to[bin].sum_counts += from[bin].sum_counts;
-  }
+  for (std::size_t bin = 0; bin < to.lit.size(); ++bin)
+    append(from.lit[bin], to.lit[bin]);
+  append(from.cut_off, to.cut_off);
 }
 
 /// The mean over the samples of the variances of their bins. A median over all of them would be
@@ -235,7 +240,7 @@ void append(const NoiseBins& from, NoiseBins& to) {
 double mean_variance(const NoiseBins& bins) {
   double sum = 0.0;
   double count = 0.0;
-  for (const NoiseSamples::Bin& bin : bins) {
+  for (const NoiseSamples::Bin& bin : bins.lit) {
     if (bin.differences_counts.size() < kMinBinSamples) continue;
     const auto size = static_cast<double>(bin.differences_counts.size());
     sum += size * robust_variance(bin.differences_counts);
@@ -287,21 +292,22 @@ void NoiseSamples::add(const NoiseSamples& other) {
 }
 
 bool NoiseSamples::empty() const {
-  return std::all_of(bins_.begin(), bins_.end(), [](const Bin& bin) {
+  return std::all_of(bins_.lit.begin(), bins_.lit.end(), [](const Bin& bin) {
     return bin.differences_counts.size() < kMinBinSamples;
   });
 }
 
 NoiseModel NoiseSamples::model() const {
-  std::vector<phase::VarianceAt> variances;
-  for (const Bin& bin : bins_) {
-    if (bin.differences_counts.size() < kMinBinSamples) continue;
+  const auto variance_of = [](const Bin& bin) -> std::optional<phase::VarianceAt> {
+    if (bin.differences_counts.size() < kMinBinSamples) return std::nullopt;
     const auto size = static_cast<double>(bin.differences_counts.size());
-    variances.push_back({bin.sum_counts / size,
-                         std::max(robust_variance(bin.differences_counts), 1.0 / 12.0),
-                         size});
-  }
-  return phase::fit_noise(variances, white_);
+    return phase::VarianceAt{
+        bin.sum_counts / size, std::max(robust_variance(bin.differences_counts), 1.0 / 12.0), size};
+  };
+  std::vector<phase::VarianceAt> variances;
+  for (const Bin& bin : bins_.lit)
+    if (const auto one = variance_of(bin)) variances.push_back(*one);
+  return phase::fit_noise(variances, variance_of(bins_.cut_off), white_);
 }
 
 NoiseModel estimate_noise(std::span<const FrameStack> stacks) {

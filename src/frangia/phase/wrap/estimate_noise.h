@@ -19,6 +19,9 @@ namespace frangia {
 /// fitted to the variance over the brightness gives the model.
 ///
 /// @units    counts
+/// Pixels that are cut off at 0 counts show less noise than they have; where they still show more
+/// than the curve of the others, dark pixels get what they tell.
+///
 /// @missing  saturated pixels are ignored; with too few pixels the model is quantization noise
 /// @source   Immerkaer 1996 for the differences; EMVA 1288, photon transfer curve, for the line
 class NoiseSamples {
@@ -33,6 +36,11 @@ class NoiseSamples {
     std::vector<float> differences_counts;  ///< their expected square is the variance
     double sum_counts = 0.0;                ///< of the brightness
   };
+  /// All of them.
+  struct Bins {
+    std::array<Bin, kBins> lit;
+    Bin cut_off;  ///< pixels at 0 counts in some frame
+  };
   /// Adds the samples of one stack. Stacks of other patterns than fringes are ignored.
   void add(const FrameStack& stack);
   void add(const NoiseSamples& other);     ///< of the same distance, of other frames
@@ -42,7 +50,7 @@ class NoiseSamples {
   [[nodiscard]] int distance_px() const { return distance_px_; }  ///< as it was constructed
 
  private:
-  std::array<Bin, kBins> bins_;
+  Bins bins_;
   int white_ = 255;
   int distance_px_;
 };

@@ -1,6 +1,7 @@
 #include "frangia/phase/wrap/internal/fit_noise.h"
 
 #include <algorithm>
+#include <optional>
 #include <span>
 
 #include <Eigen/LU>
@@ -51,11 +52,9 @@ constexpr double kLeastGain = 9.0;
 /// Shares of the white level that the dark part may reach to: encodings and read noises differ.
 constexpr double kRanges[] = {1.0 / 64, 1.0 / 32, 1.0 / 16, 1.0 / 8, 1.0 / 4};
 
-}  // namespace
-
-NoiseModel fit_noise(std::span<const VarianceAt> variances, int white_level) {
+/// The curve of pixels that are not cut off.
+NoiseModel fit_lit(std::span<const VarianceAt> variances, int white_level) {
   NoiseModel model;
-  if (variances.empty()) return model;
   const Curve line = fit(variances, [](double counts) { return counts; });
   model.floor_counts2 = line.floor;
   model.slope_counts = line.factor;
@@ -71,6 +70,25 @@ NoiseModel fit_noise(std::span<const VarianceAt> variances, int white_level) {
     least = dark.misfit;
     model = {.floor_counts2 = dark.floor, .dark_counts2 = dark.factor, .dark_range_counts = range};
   }
+  return model;
+}
+
+}  // namespace
+
+NoiseModel fit_noise(std::span<const VarianceAt> variances,
+                     const std::optional<VarianceAt>& cut_off,
+                     int white_level) {
+  if (variances.empty()) return {};
+  NoiseModel model = fit_lit(variances, white_level);
+  constexpr double kLeft = 0.341;  // of the variance of Gaussian noise about 0 counts
+  constexpr double kSure = 2.0;    // rounding alone is less
+  if (!cut_off || cut_off->variance_counts2 < kSure * model.variance(cut_off->counts)) return model;
+  const double range = white_level / 32.0;
+  const double left = range / (cut_off->counts + range);
+  model.dark_range_counts = range;
+  model.dark_counts2 = 0.0;
+  model.dark_counts2 =
+      (cut_off->variance_counts2 / kLeft - model.variance(cut_off->counts)) / (left * left);
   return model;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <span>
 
 #include "frangia/frames/noise_model.h"
@@ -15,11 +16,14 @@ struct VarianceAt {
 
 /// Fits a noise model to variances. It is a straight line over the brightness; where the noise
 /// falls with brightness, as that of cameras that encode their light, the model has a dark part
-/// instead.
+/// instead. `cut_off` is that of pixels at 0 counts, which show less noise than they have: where it
+/// exceeds the others' curve, the dark part comes from it.
 ///
 /// @units    counts
 /// @missing  without variances the model is quantization noise
 /// @source   EMVA 1288, photon transfer curve
-[[nodiscard]] NoiseModel fit_noise(std::span<const VarianceAt> variances, int white_level);
+[[nodiscard]] NoiseModel fit_noise(std::span<const VarianceAt> variances,
+                                   const std::optional<VarianceAt>& cut_off,
+                                   int white_level);
 
 }  // namespace frangia::phase
