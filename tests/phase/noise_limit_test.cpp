@@ -156,8 +156,8 @@ TEST(NoiseLimit, SigmaMatchesTheErrorsOfACameraThatEncodesItsLight) {
 
 TEST(NoiseLimit, TheDarkBackgroundOfACameraThatEncodesItsLightIsNotMeasured) {
   // Its noise is cut off at 0 counts, and far beyond that of the part, which is bright.
-  constexpr int kLit = 420;
-  const FrameStack stack = encoded_frames(4, 3000.0, 12.0, kLit);
+  constexpr int kLit = 560;
+  const FrameStack stack = encoded_frames(4, 20000.0, 40.0, kLit);
   const NoiseModel noise = estimate_noise({&stack, 1});
   const WrappedPhase map = wrap_phase(stack, least_squares(stack.pattern.shifts_rad), noise);
   std::size_t background = 0;
