@@ -139,41 +139,86 @@ double median_of(const Eigen::ArrayXd& values) {
   return median(std::vector<double>(values.begin(), values.end()));
 }
 
+constexpr double kLeast_counts2 = 1.0;  ///< of a squared modulation: less is none
+
+/// Darkest and brightest counts of each pixel.
+struct Levels {
+  Eigen::ArrayXd dark;
+  Eigen::ArrayXd range;
+};
+
+Levels levels_of(const Eigen::ArrayXXd& counts) {
+  const Eigen::ArrayXd dark = counts.rowwise().minCoeff();
+  return {dark, (counts.rowwise().maxCoeff() - dark).max(std::sqrt(kLeast_counts2))};
+}
+
+/// How far the frames of a Gray code, as it is shown from a place of the sequence on, are from dark
+/// and from bright: the mean square over half of the range.
+Eigen::ArrayXd between_levels(const Eigen::ArrayXXd& counts,
+                              const Levels& levels,
+                              std::ptrdiff_t from,
+                              std::ptrdiff_t frames) {
+  const std::ptrdiff_t begin = std::max<std::ptrdiff_t>(0, from);
+  const std::ptrdiff_t end = std::min<std::ptrdiff_t>(counts.cols(), from + frames);
+  Eigen::ArrayXd sum = Eigen::ArrayXd::Zero(counts.rows());
+  for (std::ptrdiff_t k = begin; k < end; ++k) {
+    const Eigen::ArrayXd share = (counts.col(k) - levels.dark) / levels.range;
+    sum += (2.0 * share.min(1.0 - share)).square();
+  }
+  return sum / static_cast<double>(std::max<std::ptrdiff_t>(1, end - begin));
+}
+
+/// How much mean and modulation of two patterns differ, over the modulation. Fine fringes have less
+/// contrast, by one factor.
+Eigen::ArrayXd difference_of(const Fitted& a, const Fitted& b) {
+  const double factor = median_of(b.modulation / a.modulation.max(std::sqrt(kLeast_counts2)));
+  const Eigen::ArrayXd other = factor * a.modulation;
+  return ((b.mean - a.mean).square() + 0.5 * (b.modulation - other).square()) /
+         (0.5 * (b.modulation.square() + other.square())).max(kLeast_counts2);
+}
+
+/// The same of fringes beside the levels of a Gray code, of which they are one share everywhere.
+Eigen::ArrayXd difference_of(const Fitted& fringes, const Levels& levels) {
+  const Eigen::ArrayXd mean = (fringes.mean - levels.dark) / levels.range;
+  const Eigen::ArrayXd modulation = fringes.modulation / levels.range;
+  const double usual = std::max(median_of(modulation), 1e-3);
+  return ((mean - median_of(mean)).square() + 0.5 * (modulation - usual).square()) /
+         (usual * usual);
+}
+
 /// What the patterns leave if their frames are late by `lag`: the median over the pixels of the
 /// mean square of residuals, and of how the patterns differ in mean and modulation, over the
 /// modulation. Nothing if no two patterns tell.
 std::optional<double> misfit_of(const Eigen::ArrayXXd& counts,
                                 std::span<const FrameStack> stacks,
                                 int lag) {
+  const Levels levels = levels_of(counts);
   std::vector<Fitted> fits;
-  std::ptrdiff_t begin = 0;
+  std::vector<Eigen::ArrayXd> terms;
+  std::ptrdiff_t begin = lag;
   for (const FrameStack& stack : stacks) {
+    const auto frames = std::ssize(stack.frames);
+    if (stack.pattern.kind == PatternKind::Gray)
+      terms.push_back(between_levels(counts, levels, begin, frames));
     if (has_fringes(stack)) {
-      Fitted one = fit(counts, stack.pattern, begin + lag);
+      Fitted one = fit(counts, stack.pattern, begin);
       if (one.mean.size() > 0) fits.push_back(std::move(one));
     }
-    begin += std::ssize(stack.frames);
+    begin += frames;
   }
-  if (fits.size() < 2) return std::nullopt;
-  constexpr double kLeast_counts2 = 1.0;  // of the modulation: less is none
-  Eigen::ArrayXd sum = Eigen::ArrayXd::Zero(counts.rows());
-  int terms = 0;
+  const bool has_code = !terms.empty();
+  if (fits.size() < (has_code ? 1U : 2U)) return std::nullopt;
   for (std::size_t i = 0; i < fits.size(); ++i) {
     const Fitted& one = fits[i];
-    if (one.rest.size() > 0) {
-      sum += one.rest / one.modulation.square().max(kLeast_counts2);
-      ++terms;
-    }
-    if (i == 0) continue;
-    const Fitted& last = fits[i - 1];  // fine fringes have less contrast, by one factor
-    const double factor =
-        median_of(one.modulation / last.modulation.max(std::sqrt(kLeast_counts2)));
-    const Eigen::ArrayXd other = factor * last.modulation;
-    sum += ((one.mean - last.mean).square() + 0.5 * (one.modulation - other).square()) /
-           (0.5 * (one.modulation.square() + other.square())).max(kLeast_counts2);
-    ++terms;
+    if (one.rest.size() > 0)
+      terms.push_back(one.rest / one.modulation.square().max(kLeast_counts2));
+    if (has_code) terms.push_back(difference_of(one, levels));
+    if (i > 0) terms.push_back(difference_of(fits[i - 1], one));
   }
-  return median_of(sum / terms);
+  Eigen::ArrayXd sum = Eigen::ArrayXd::Zero(counts.rows());
+  for (const Eigen::ArrayXd& term : terms)
+    sum += term;
+  return median_of(sum / static_cast<double>(terms.size()));
 }
 
 /// Whether what is left of a pattern, in the order of its shifts, determines the phase.
@@ -195,10 +240,13 @@ bool predict_alike(int a, int b, std::span<const FrameStack> stacks) {
 
 std::optional<FrameLag> explain_lag(std::span<const FrameStack> stacks) {
   const auto fringes = std::count_if(stacks.begin(), stacks.end(), has_fringes);
+  const bool has_code = std::any_of(stacks.begin(), stacks.end(), [](const FrameStack& one) {
+    return one.pattern.kind == PatternKind::Gray;
+  });
   const bool bracketed = std::any_of(stacks.begin(), stacks.end(), [](const FrameStack& one) {
     return one.pattern.exposure_count() > 1;
   });
-  if (fringes < 2 || bracketed) return std::nullopt;
+  if (fringes < (has_code ? 1 : 2) || bracketed) return std::nullopt;
   const Eigen::ArrayXXd counts = lit_counts(sequence_of(stacks));
   if (counts.rows() < static_cast<Eigen::Index>(kFewestPixels)) return std::nullopt;
   const std::optional<double> described = misfit_of(counts, stacks, 0);
