@@ -43,7 +43,7 @@ await tell(home, async () => {
   passed('the first page');
 
   await command(page, 'create-project', { name: 'Plate', part: 'plate', stations: 3 });
-  coarsenCamera(path.join(home, 'projects', 'Plate'));
+  coarsenCamera(path.join(home, 'projects', 'Plate'), 4);
   await inEachLook(async (which) => {
     for (const key of ['2', '4']) {
       await page.keyboard.press(key);

@@ -29,7 +29,7 @@ await tell(home, async () => {
   const browser = await launch();
   let page = await openPage(browser, server.url);
   await createProject(page, 'Plate', 'plate', STATIONS);
-  coarsenCamera(path.join(home, 'projects', 'Plate'));
+  coarsenCamera(path.join(home, 'projects', 'Plate'), 4);
   await page.keyboard.press('4');
   await page.waitForSelector('#scan:not([disabled])');
   const project = path.join(home, 'projects', 'Plate');

@@ -57,7 +57,7 @@ await tell(home, async () => {
   await page.setInputFiles('input[type=file]', path.join(here, '../../examples/simulated-digital.toml'));
   await page.getByText('Create', { exact: true }).click();
   await page.waitForSelector('#choose-devices:not([disabled])');
-  coarsenCamera(path.join(home, 'projects', 'Uploaded'));
+  coarsenCamera(path.join(home, 'projects', 'Uploaded'), 3);
   await reopen(page, 'Uploaded');
   await page.click('#choose-devices');
   // A setting with few values is chosen; what fails is said in the reader's language.

@@ -23,7 +23,7 @@ class CadInspectProgram : public ::testing::Test {
         std::string(FRANGIA_MAKE_CAD_PARTS) + " " + folder_.path().string() + " > /dev/null";
     ASSERT_EQ(std::system(command.c_str()), 0);
     // The ball of primitives.step is 40 mm wide and 200 mm from the origin.
-    write_mesh(at("ball.ply"), testing::sphere({200, 0, 0}, 20.01));
+    write_mesh(at("ball.ply"), testing::sphere({200, 0, 0}, 20.01, 45));
   }
   [[nodiscard]] std::string at(const std::string& name) const {
     return (folder_.path() / name).string();

@@ -25,13 +25,13 @@ using testing::run_shell;
 
 class CaptureOfPoses : public ::testing::Test {
  protected:
-  CaptureOfPoses() { write_rig(folder_.path() / "truth.toml", testing::small_rig("digital")); }
+  CaptureOfPoses() { write_rig(folder_.path() / "truth.toml", testing::small_rig("digital", 4)); }
 
   /// A maker's rig that states sizes only; its devices simulate truth.toml.
   [[nodiscard]] std::string maker_rig(const std::string& camera_keys = "") const {
     const auto file = folder_.path() / "maker.toml";
     std::ofstream(file) << "format = \"frangia-rig\"\nversion = 1\n"
-                           "[camera]\nsize_px = [480, 384]\n"
+                           "[camera]\nsize_px = [240, 192]\n"
                            "[projector]\nmodel = \"pinhole\"\nsize_px = [1280, 800]\n"
                            "[devices.camera]\ndriver = \"simulated\"\ntrue_rig = \"truth.toml\"\n"
                         << camera_keys

@@ -101,11 +101,11 @@ TEST(CalibrateProgram, WritesACharucoBoardWithItsKeys) {
   EXPECT_NE(picture.output.find("ends with .pdf"), std::string::npos) << picture.output;
 }
 
-/// Writes the digital rig with half the pixels of its camera on a side; returns the option that
-/// takes it.
-std::string with_small_rig(const TemporaryFolder& folder) {
+/// Writes the digital rig with `divisor` times fewer pixels of its camera on a side; returns the
+/// option that takes it.
+std::string with_small_rig(const TemporaryFolder& folder, int divisor = 2) {
   const std::string rig = (folder.path() / "small.toml").string();
-  write_rig(rig, testing::small_rig("digital"));
+  write_rig(rig, testing::small_rig("digital", divisor));
   return " --rig " + rig;
 }
 
@@ -134,7 +134,7 @@ TEST(CalibrateProgram, WritesTheRigOfSimulatedPosesAndNoneForAFault) {
   const auto rig = folder.path() / "rig.toml";
   const Answer simulated =
       run_program("simulate --calibration checkerboard --views 5 --samples 1 -o " + poses +
-                  with_small_rig(folder));
+                  with_small_rig(folder, 4));
   ASSERT_EQ(simulated.exit_code, 0) << simulated.output;
   std::ofstream(folder.path() / "poses/rig.toml", std::ios::app)
       << "\n[devices.camera]\ndriver = \"simulated\"\n";

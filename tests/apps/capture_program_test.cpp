@@ -8,7 +8,11 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "frangia/rig/read_rig.h"
+#include "frangia/rig/write_rig.h"
+
 #include "support/run_program.h"
+#include "support/small_scan.h"
 #include "support/temporary_folder.h"
 
 namespace frangia {
@@ -151,10 +155,11 @@ TEST_F(CaptureProgram, NeedsTheTableAngleToContinueWithoutAHomeSwitch) {
 
 TEST_F(CaptureProgram, CalibratesADisplayIntoACopyOfARigOfWhichOnlySizesAreKnown) {
   const auto path = [&](const char* name) { return (folder_.path() / name).string(); };
-  std::filesystem::copy_file(std::string(FRANGIA_SOURCE_DIR) + "/examples/python/small-rig.toml",
-                             path("truth.toml"));
+  Rig truth = read_rig(std::string(FRANGIA_SOURCE_DIR) + "/examples/python/small-rig.toml");
+  testing::make_coarser(truth.reference().model, 2);
+  write_rig(path("truth.toml"), truth);
   std::ofstream(path("maker.toml"))
-      << "format = \"frangia-rig\"\nversion = 1\n\n[camera]\nsize_px = [320, 256]\n\n"
+      << "format = \"frangia-rig\"\nversion = 1\n\n[camera]\nsize_px = [160, 128]\n\n"
          "[projector]\nmodel = \"pinhole\"\nsize_px = [640, 400]\n\n"
          "[devices.camera]\ndriver = \"simulated\"\npart = \"plate\"\n"
          "true_rig = \"truth.toml\"\ndisplay_gamma = 2.2\nlate_frames = 1\n\n"

@@ -183,10 +183,10 @@ TEST_F(InspectProgram, WritesTheAlignedMeshAndStatesItsPose) {
 }
 
 TEST_F(InspectProgram, WritesDeviationsReportAndSections) {
-  Mesh mesh = testing::sphere({0, 0, 0}, 20.2);
+  Mesh mesh = testing::sphere({0, 0, 0}, 20.2, 45);
   mesh.sigma_mm.assign(mesh.vertices_mm.size(), 0.01F);
   write_mesh(at("mesh.ply"), mesh);
-  write_mesh(at("ball.stl"), testing::sphere({0, 0, 0}, 20.0, 150));
+  write_mesh(at("ball.stl"), testing::sphere({0, 0, 0}, 20.0, 100));
   std::ofstream(at("inspection.toml")) << R"(format = "frangia-inspection"
 version = 1
 part = "ball"

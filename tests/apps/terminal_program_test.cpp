@@ -36,6 +36,11 @@ std::string rig_file() {
   return std::string(FRANGIA_SOURCE_DIR) + "/tests/data/small-interferometer.toml";
 }
 
+/// A digital rig with few pixels.
+std::string with_small_rig() {
+  return " --rig " + std::string(FRANGIA_SOURCE_DIR) + "/examples/python/small-rig.toml";
+}
+
 class TerminalProgram : public ::testing::Test {
  protected:
   [[nodiscard]] std::string path(const std::string& name) const {
@@ -49,7 +54,7 @@ class TerminalProgram : public ::testing::Test {
 };
 
 TEST_F(TerminalProgram, ShowsASummaryByDefaultAndTheRestUnderVerbose) {
-  simulate("ball-bar --rig angular --views 1");
+  simulate("ball-bar --views 1" + with_small_rig());
   const std::string reconstruct = "reconstruct " + path("scan") + " -o " + path("a.ply");
   const Answer brief = run_program(reconstruct);
   EXPECT_EQ(brief.exit_code, 0);
@@ -65,8 +70,7 @@ TEST_F(TerminalProgram, ShowsASummaryByDefaultAndTheRestUnderVerbose) {
 }
 
 TEST_F(TerminalProgram, SaysOnceWhatIsAlikeInSeveralViews) {
-  simulate("ball-bar --views 4 --rig " + std::string(FRANGIA_SOURCE_DIR) +
-           "/examples/python/small-rig.toml --samples 1 --flicker 0.04");
+  simulate("ball-bar --views 4 --samples 1 --flicker 0.04" + with_small_rig());
   const std::string decode = "decode " + path("scan") + " -o " + path("maps");
   const auto count = [](const Answer& answer, const std::string& part) {
     int found = 0;
@@ -84,7 +88,7 @@ TEST_F(TerminalProgram, SaysOnceWhatIsAlikeInSeveralViews) {
 }
 
 TEST_F(TerminalProgram, PrintsOneLineForEachView) {
-  simulate("ball-bar --rig angular --views 2");
+  simulate("ball-bar --views 2" + with_small_rig());
   const std::string reconstruct = "reconstruct " + path("scan") + " -o " + path("a.ply");
   const Answer answer = run_program(reconstruct);
   EXPECT_EQ(answer.exit_code, 0);
@@ -111,7 +115,7 @@ TEST_F(TerminalProgram, SaysWhatItWrote) {
 }
 
 TEST_F(TerminalProgram, TakesLengthsWithUnits) {
-  simulate("ball-bar --rig angular --views 1");
+  simulate("ball-bar --views 1" + with_small_rig());
   const auto triangles = [&](const std::string& voxel) {
     const Answer answer = run_program("--json reconstruct " + path("scan") + " --voxel " + voxel +
                                       " -o " + path("a.ply") + " 2>/dev/null");
@@ -125,7 +129,7 @@ TEST_F(TerminalProgram, TakesLengthsWithUnits) {
 }
 
 TEST_F(TerminalProgram, NamesTheLimitThatRejectedAllPixels) {
-  simulate("ball-bar --rig angular --views 1");
+  simulate("ball-bar --views 1" + with_small_rig());
   const Answer answer =
       run_program("--quiet reconstruct " + path("scan") + " --max-sigma 1e-9 -o " + path("a.ply"));
   EXPECT_EQ(answer.exit_code, 5);  // no view is left
@@ -133,7 +137,7 @@ TEST_F(TerminalProgram, NamesTheLimitThatRejectedAllPixels) {
 }
 
 TEST_F(TerminalProgram, NamesAVoxelThatIsLargerThanThePart) {
-  simulate("ball-bar --rig angular --views 2");
+  simulate("ball-bar --views 2" + with_small_rig());
   const Answer answer =
       run_program("--quiet reconstruct " + path("scan") + " --voxel 500mm -o " + path("a.ply"));
   EXPECT_EQ(answer.exit_code, 3);
@@ -217,7 +221,9 @@ class ProgressOnTerminal : public testing::PseudoTerminalTest {
 
 TEST_F(ProgressOnTerminal, TheBarOfAStageNeverRunsBackwards) {
   const std::string scan = (folder_.path() / "scan").string();
-  const Answer simulated = run_on_terminal("simulate bracket --views 6 -o " + scan);
+  const Answer simulated =
+      run_on_terminal("simulate bracket --views 6 --rig " + std::string(FRANGIA_SOURCE_DIR) +
+                      "/examples/python/small-rig.toml -o " + scan);
   ASSERT_EQ(simulated.exit_code, 0) << simulated.output;
   const Answer answer = run_on_terminal("reconstruct " + scan + " -o " + scan + ".ply");
   ASSERT_EQ(answer.exit_code, 0) << answer.output;

@@ -65,11 +65,13 @@ class CalibrateArtifacts : public ::testing::Test {
   [[nodiscard]] static Rig truth() {
     return read_rig(shared_folder->path() / "plate" / "truth-rig.toml");
   }
-  /// What all captures together give, calibrated once: it takes half a minute.
+  /// What all captures together give, calibrated once.
   [[nodiscard]] static const ArtifactCalibration& found() {
     if (shared_result == nullptr) {
       shared_result = new ArtifactCalibration(  // NOLINT(*-owning-memory) deleted with the suite
-          calibrate_artifacts(std::vector{scan("screen"), scan("plate"), scan("ball-bar")}));
+          calibrate_artifacts(std::vector{scan("screen"), scan("plate"), scan("ball-bar")},
+                              {},
+                              {.plate_sites = 28}));
     }
     return *shared_result;
   }

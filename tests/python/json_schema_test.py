@@ -20,10 +20,7 @@ SCHEMAS = SOURCE / "docs" / "json"
 SMALL = SOURCE / "tests" / "data" / "small-interferometer.toml"
 CAPTURE = """
 [camera]
-size_px = [240, 192]
-focal_px = [450.0, 450.0]
-principal_point_px = [122.24, 93.96]
-{values}
+{camera}
 [projector]
 model = "pinhole"
 position_mm = [-180.0, -20.0, 30.0]
@@ -66,9 +63,15 @@ driver = "simulated"
 """
 
 
-def rig_text(part=None):
+def rig_text(part=None, width_px=160):
+    """A part needs few pixels; a board needs more."""
+    share = width_px / 240
+    camera = (
+        f"size_px = [{width_px}, {width_px * 4 // 5}]\nfocal_px = [{450 * share}, {450 * share}]\n"
+        f"principal_point_px = [{122.74 * share - 0.5}, {94.46 * share - 0.5}]\nwhite_level = 255"
+    )
     devices = DEVICES.format(part=part) if part else ""
-    return 'format = "frangia-rig"\nversion = 1\n' + CAPTURE.format(values="white_level = 255", devices=devices)
+    return 'format = "frangia-rig"\nversion = 1\n' + CAPTURE.format(camera=camera, devices=devices)
 
 
 def schema(name):
@@ -191,12 +194,12 @@ class Answers(unittest.TestCase):
         self.answer(
             "calibrate",
             "piezo",
-            SOURCE / "examples/simulated-interferometer.toml",
+            SMALL,
             "--steps",
             "9",
             verb="calibrate-piezo",
         )
-        (self.folder / "truth.toml").write_text(rig_text())
+        (self.folder / "truth.toml").write_text(rig_text(width_px=240))
         (self.folder / "maker.toml").write_text(MAKER)
         self.answer("calibrate", "display", "maker.toml", "-o", "display.toml", verb="calibrate-display")
         self.answer(
@@ -208,9 +211,9 @@ class Answers(unittest.TestCase):
             "--square",
             "14mm",
             "--poses",
-            "4",
+            "3",
             verb="calibrate-capture",
-            input="\n\n\n\n\n",
+            input="\n\n\n\n",
         )
         self.answer("calibrate", "rig", "poses", "-o", "calibrated.toml", verb="calibrate-rig")
 
@@ -221,6 +224,7 @@ class Answers(unittest.TestCase):
         self.answer("calibrate", "import", "rig.yml", "-o", "imported.toml", verb="calibrate-import")
         self.answer("calibrate", "refine", "scan", "-o", "refined.toml", verb="calibrate-refine")
         self.answer("calibrate", "check", "rig.toml", "scan", verb="calibrate-check")
+        (self.folder / "fine.toml").write_text(rig_text(width_px=240))
         self.run_quietly("simulate", "plate", "--rig", "rig.toml", "--views", "1", "--ramp", "16", "-o", "ramp")
         self.answer("response", "ramp", "-o", "response.toml")
         self.run_quietly(
@@ -229,14 +233,14 @@ class Answers(unittest.TestCase):
             "checkerboard",
             "--on-turntable",
             "--rig",
-            "rig.toml",
+            "fine.toml",
             "--views",
-            "4",
+            "3",
             "-o",
             "turning",
         )
         self.answer(
-            "calibrate", "turntable", "turning", "--rig", "rig.toml", "-o", "turned.toml", verb="calibrate-turntable"
+            "calibrate", "turntable", "turning", "--rig", "fine.toml", "-o", "turned.toml", verb="calibrate-turntable"
         )
 
     @unittest.skipUnless("--demo" in sys.argv, "a demo takes a minute")
@@ -248,8 +252,8 @@ class Answers(unittest.TestCase):
         self.answer("algorithms", SOURCE / "examples/algorithms/my-algorithm.toml")
         self.answer("plan", "--rig", "digital", "--fringes", "64", verb="plan-patterns")
         self.answer("plan", "patterns", "--rig", "angular", verb="plan-patterns")
-        self.run_quietly("simulate", "plate", "--rig", SMALL, "--views", "1", "-o", "small")
-        part = ("small/truth.ply", "--rig", SMALL, "--views", "2", "--tolerance", "1mm")  # few scans are tried
+        self.run_quietly("simulate", "shaft", "--rig", SMALL, "--views", "1", "-o", "small")
+        part = ("small/truth.ply", "--rig", SMALL, "--views", "1", "--tolerance", "1mm")  # few scans are tried
         planned = self.answer("plan", "scan", *part, "--quick", verb="plan-scan")
         self.assertGreater(len(planned["tried"]), 1)
 

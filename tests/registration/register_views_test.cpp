@@ -40,6 +40,14 @@ class RegisterViews : public ::testing::Test {
 
   /// Views of the knobbly part all around, as `MisalignedTable::take` renders them.
   static ViewStore knobbly_views(int count) {
+    constexpr int kMost = 8;
+    if (count < kMost && kMost % count == 0) {  // every so many of them
+      const ViewStore all = knobbly_views(kMost);
+      ViewStore some;
+      for (int i = 0; i < count; ++i)
+        some.add(all.load(static_cast<std::size_t>(i * kMost / count)));
+      return some;
+    }
     static std::map<int, ViewStore> rendered;
     const auto [at, is_new] = rendered.try_emplace(count);
     if (is_new) at->second = Table(count).take(knobbly);
@@ -105,7 +113,7 @@ TEST_F(RegisterViews, FindsTheAxisAndTheAnglesOfManyViews) {
 }
 
 TEST_F(RegisterViews, LeavesOutAMovedViewOfMany) {
-  constexpr int kViews = 16;
+  constexpr int kViews = 12;
   const CameraModel camera = small_camera_model(80, 400.0);
   const Table table(kViews);
   ViewStore views = table.take(knobbly, camera);

@@ -17,13 +17,47 @@ namespace {
 
 constexpr double kSigmaOfMedian = 1.4826;  // of the absolute values of normal residuals
 
+/// Where the surfels of the views are in the state of a bundle. Those of a view that is compared
+/// often are computed once.
+class SurfelPlaces {
+ public:
+  /// `surfels` of each view are compared with the views that it is paired with.
+  SurfelPlaces(const DriftBundle& bundle, std::size_t surfels)
+      : bundle_(bundle),
+        moved_((bundle.state.w - bundle.linearized_at).cast<float>()),
+        known_(bundle.views.size()) {
+    parallel_chunks(known_.size(), 1, [&](std::size_t view, std::size_t /*end*/) {
+      const auto own = bundle.views[view].map.surfels.pixels();
+      if (own.size() > 2 * surfels * bundle.pairs[view].size()) return;
+      std::vector<Eigen::Vector3d> places(own.size());
+      for (std::size_t i = 0; i < own.size(); ++i)
+        if (own[i].sigma_mm > 0.0F) places[i] = of(view, i);
+      known_[view] = std::move(places);
+    });
+  }
+
+  /// That of a surfel of the map of a view.
+  [[nodiscard]] Eigen::Vector3d of(std::size_t view, std::size_t surfel) const {
+    if (!known_[view].empty()) return known_[view][surfel];
+    const DriftView& own = bundle_.views[view];
+    const Eigen::Vector3d point = own.map.surfels.pixels()[surfel].point_mm.cast<double>();
+    return point + (own.field.of(point) * moved_).cast<double>();
+  }
+
+ private:
+  const DriftBundle& bundle_;
+  Eigen::VectorXf moved_;
+  std::vector<std::vector<Eigen::Vector3d>> known_;  ///< by view; empty: computed when asked for
+};
+
 /// Sums one view against the views that it is paired with.
 class ViewComparison {
  public:
-  ViewComparison(const DriftBundle& bundle, std::size_t from)
+  ViewComparison(const DriftBundle& bundle, const SurfelPlaces& places, std::size_t from)
       : bundle_(bundle),
+        places_(places),
+        from_view_(from),
         from_(bundle.views[from]),
-        moved_((bundle.state.w - bundle.linearized_at).cast<float>()),
         free_(bundle.free_directions.cast<float>()) {
     const Eigen::Index count = free_.cols() + bundle.state.table.unknowns();
     sums.hessian = Eigen::MatrixXd::Zero(count, count);
@@ -38,32 +72,28 @@ class ViewComparison {
     const auto own = from_.map.surfels.pixels();
     std::size_t present = 0;
     for (std::size_t i = 0; i < own.size(); ++i) {
-      if (own[i].sigma_mm > 0.0F && present++ % every == 0) add_pair(own[i], i, to, transfer);
+      if (own[i].sigma_mm > 0.0F && present++ % every == 0) add_pair(own[i], i, other, transfer);
     }
   }
 
   DriftSums sums;
 
  private:
-  [[nodiscard]] Eigen::Vector3d place_of(const SurfelMap::Surfel& surfel,
-                                         const DriftField& field) const {
-    const Eigen::Vector3d point = surfel.point_mm.cast<double>();
-    return point + (field.of(point) * moved_).cast<double>();
-  }
-
   void add_pair(const SurfelMap::Surfel& surfel,
                 std::size_t index,
-                const DriftView& to,
+                std::size_t other,
                 const ViewTransfer& transfer) {
+    const DriftView& to = bundle_.views[other];
     const auto width = static_cast<std::size_t>(from_.map.surfels.width());
     const auto height = static_cast<std::size_t>(from_.map.surfels.height());
     region_ = (2 * (index % width) < width ? 0 : 1) + (2 * (index / width) < height ? 0 : 2);
-    const Eigen::Vector3d own = place_of(surfel, from_.field);
+    const Eigen::Vector3d own = places_.of(from_view_, index);
     const Eigen::Vector3d point = transfer.apply(own);
     const SurfelMap::Surfel* found = surfel_at(to.map, bundle_.camera, point);
     if (found == nullptr) return;
     SurfelMap::Surfel target = *found;
-    target.point_mm = place_of(*found, to.field).cast<float>();
+    const auto at = static_cast<std::size_t>(found - to.map.surfels.pixels().data());
+    target.point_mm = places_.of(other, at).cast<float>();
     const Eigen::Vector3d facing = transfer.rotation() * surfel.normal.cast<double>();
     const SurfelPair pair(point, facing, target);
     if (facing.dot(point) >= 0.0 || !pair.faces_alike()) return;
@@ -97,29 +127,41 @@ class ViewComparison {
     for (Eigen::Index i = 0; i < table; ++i)
       add(i, by_rig[i]);
     if (to != from_.station) {
-      for (Eigen::Index i = 0; i < 2; ++i) {
+      for (Eigen::Index i = 0; i < 2; ++i)
         add(table + i, by.tilt[i]);
+      for (Eigen::Index i = 0; i < 2; ++i)
         add(table + 2 + i, by.shift[i]);
-      }
+    }
+    const std::size_t first = values_.size();  // the unknowns before it stand side by side
+    if (to != from_.station) {
       if (to != 0) add(table + 3 + static_cast<Eigen::Index>(to), by.angle_to);
       if (from_.station != 0)
         add(table + 3 + static_cast<Eigen::Index>(from_.station), by.angle_from);
     }
-    for (std::size_t i = 0; i < indices_.size(); ++i) {
-      sums.gradient[indices_[i]] += weight * values_[i] * distance;
-      sums.region_gradients(indices_[i], region_) += weight * values_[i] * distance;
-      for (std::size_t j = 0; j < indices_.size(); ++j)
-        sums.hessian(indices_[i], indices_[j]) += weight * values_[i] * values_[j];
+    weighted_.resize(values_.size());
+    for (std::size_t i = 0; i < values_.size(); ++i) {
+      weighted_[i] = weight * values_[i];
+      sums.gradient[indices_[i]] += weighted_[i] * distance;
+      sums.region_gradients(indices_[i], region_) += weighted_[i] * distance;
+    }
+    for (std::size_t j = 0; j < values_.size(); ++j) {
+      double* const column = &sums.hessian(0, indices_[j]);
+      for (std::size_t i = 0; i < first; ++i)
+        column[i] += weighted_[i] * values_[j];
+      for (std::size_t i = first; i < values_.size(); ++i)
+        column[indices_[i]] += weighted_[i] * values_[j];
     }
   }
 
   const DriftBundle& bundle_;
+  const SurfelPlaces& places_;
+  std::size_t from_view_;
   const DriftView& from_;
-  Eigen::VectorXf moved_;
   Eigen::MatrixXf free_;
   Eigen::Index region_ = 0;  ///< of the surfel
   std::vector<Eigen::Index> indices_;
   std::vector<double> values_;
+  std::vector<double> weighted_;
 };
 
 }  // namespace
@@ -134,12 +176,13 @@ double DriftSums::weight(const DriftBundle& bundle) const {
 }
 
 DriftSums sum_drift(const DriftBundle& bundle, std::size_t surfels) {
+  const SurfelPlaces places(bundle, surfels);
   std::vector<DriftSums> parts(bundle.views.size());
   parallel_chunks(parts.size(), 1, [&](std::size_t view, std::size_t /*end*/) {
     const auto own = bundle.views[view].map.surfels.pixels();
     const auto present = static_cast<std::size_t>(
         std::count_if(own.begin(), own.end(), [](const auto& s) { return s.sigma_mm > 0.0F; }));
-    ViewComparison comparison(bundle, view);
+    ViewComparison comparison(bundle, places, view);
     for (const std::size_t other : bundle.pairs[view])
       comparison.compare_with(other, present / surfels + 1);
     parts[view] = std::move(comparison.sums);
