@@ -61,6 +61,20 @@ TEST(ConfusedCauses, ALampIsNoUnevenSteps) {
   }
 }
 
+TEST(ConfusedCauses, FlickerThatTheRoomDoesNotShareIsNoLamp) {
+  for (const int steps : {6, 8}) {
+    for (const unsigned seed : {1U, 2U, 3U}) {
+      RenderedFrames frames({.ambient = 0.0, .light = 150.0, .gamma = 1.6, .seed = seed}, steps);
+      for (std::size_t k = 0; k < frames.frames.size(); ++k)
+        for (double& light : frames.frames[k])
+          light = 10.0 + (k == 4 ? 1.066 : 1.0) * light;
+      const FrameExplanation found = explain_frames(frames.stack(), frames.noise());
+      EXPECT_FALSE(found.has_fault())
+          << steps << " steps, seed " << seed << ": " << describe(found.explanation);
+    }
+  }
+}
+
 TEST(ConfusedCauses, StepsOfFourFramesThatAreTooLongAreNoMovedPart) {
   RenderedFrames coarse({.period_px = 90.0, .seed = 3}, 4);
   FrameStack reference = coarse.stack();

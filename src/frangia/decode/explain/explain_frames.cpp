@@ -226,6 +226,7 @@ FrameExplanation explain_frames(const FrameStack& stack,
       const bool by_others = one.cause == FrameCause::Exposure && sample.has_reference();
       if (!covers && !by_others && one.cause != FrameCause::Exchanged) continue;
       FrameScore score = score_frames(sample, one);
+      if (one.cause == FrameCause::Lamp && std::abs(score.lamp_share) < kStructuralLamp) continue;
       if (one.cause == FrameCause::Gain) prefer_dark_room(sample, one, score);
       one.displacement_px = score.largest_displacement_px;
       candidates.push_back({std::move(one), std::move(score)});

@@ -12,6 +12,9 @@ inline constexpr double kPriorGain = 0.03;
 inline constexpr double kStructuralGain = 0.1;
 /// Prior standard deviation of the light of another lamp over the counts of the brightest frame.
 inline constexpr double kPriorLamp = 0.3;
+/// Light of another lamp, over that of the brightest frame, below which none is named: flicker of a
+/// projector, which the light of the room does not share, looks like it.
+inline constexpr double kStructuralLamp = 0.02;
 /// Prior standard deviation of the steps of a projector that does not show the shifts of scan.toml.
 inline constexpr double kPriorStep_rad = 0.15;
 /// Witnesses in what a hypothesis leaves beyond the noise: it may be one smooth field.

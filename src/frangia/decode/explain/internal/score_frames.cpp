@@ -272,6 +272,10 @@ class FrameFit {
       else if (!hypothesis_.path.empty() && !hypothesis_.moves_part && !hypothesis_.moves_image)
         out.step_errors_rad = kPriorMovement_rad * found(count - 1) *
                               Eigen::VectorXd::Map(hypothesis_.path.data(), shown_.cols());
+      if (hypothesis_.lamp_on) {  // the first two of its four columns, the last of all
+        const double light = (values_.col(0).array() + modulation_).mean();
+        out.lamp_share = kPriorLamp * (found(count - 4) * mean_scale_ / light + found(count - 3));
+      }
       const Eigen::Index last = shown_.cols() + 2 * std::ssize(waves_) + movement_count();
       out.displacements_px.resize(std::ssize(hypothesis_.displaced), 2);
       for (Eigen::Index k = 0; k < out.displacements_px.rows(); ++k)

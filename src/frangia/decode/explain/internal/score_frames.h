@@ -24,6 +24,7 @@ struct FrameScore {
   Eigen::MatrixX2d displacements_px;  ///< of the displaced frames, if these are displaced
   double largest_displacement_px = 0.0;  ///< of whole frames
   Eigen::VectorXd step_errors_rad;       ///< of the shown frames, if their steps are free
+  double lamp_share = 0.0;               ///< light of another lamp over that of the brightest frame
   /// Normal matrix of the nuisances, each in units of its prior; the price of what they may
   /// explain follows from it.
   Eigen::MatrixXd nuisances;
