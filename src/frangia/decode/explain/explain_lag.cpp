@@ -102,18 +102,15 @@ struct Fitted {
   Eigen::ArrayXd rest;  ///< variance of the residual; empty for three frames
 };
 
-/// The pattern as it is shown from a place of the sequence on. Empty if fewer frames than three
-/// are left of it.
-Fitted fit(const Eigen::ArrayXXd& counts, const Pattern& pattern, std::ptrdiff_t from) {
+/// The frames of a pattern: their places in the sequence, and the shifts that they show.
+struct Placed {
   std::vector<Eigen::Index> places;
   std::vector<double> shifts_rad;
-  for (std::size_t k = 0; k < pattern.shifts_rad.size(); ++k) {
-    const std::ptrdiff_t place = from + static_cast<std::ptrdiff_t>(k);
-    if (place < 0 || place >= counts.cols()) continue;
-    places.push_back(place);
-    shifts_rad.push_back(pattern.shifts_rad[k]);
-  }
-  if (places.size() < kFewestFrames) return {};
+};
+
+/// `pattern` has three frames or more.
+Fitted fit(const Eigen::ArrayXXd& counts, const Placed& pattern) {
+  const auto& [places, shifts_rad] = pattern;
   const PhaseAlgorithm weights = least_squares(shifts_rad);
   const auto sum = [&](const std::vector<double>& of) {
     Eigen::ArrayXd out = Eigen::ArrayXd::Zero(counts.rows());
@@ -139,86 +136,91 @@ double median_of(const Eigen::ArrayXd& values) {
   return median(std::vector<double>(values.begin(), values.end()));
 }
 
-constexpr double kLeast_counts2 = 1.0;  ///< of a squared modulation: less is none
-
-/// Darkest and brightest counts of each pixel.
-struct Levels {
-  Eigen::ArrayXd dark;
-  Eigen::ArrayXd range;
-};
-
-Levels levels_of(const Eigen::ArrayXXd& counts) {
-  const Eigen::ArrayXd dark = counts.rowwise().minCoeff();
-  return {dark, (counts.rowwise().maxCoeff() - dark).max(std::sqrt(kLeast_counts2))};
-}
-
-/// How far the frames of a Gray code, as it is shown from a place of the sequence on, are from dark
-/// and from bright: the mean square over half of the range.
-Eigen::ArrayXd between_levels(const Eigen::ArrayXXd& counts,
-                              const Levels& levels,
-                              std::ptrdiff_t from,
-                              std::ptrdiff_t frames) {
-  const std::ptrdiff_t begin = std::max<std::ptrdiff_t>(0, from);
-  const std::ptrdiff_t end = std::min<std::ptrdiff_t>(counts.cols(), from + frames);
-  Eigen::ArrayXd sum = Eigen::ArrayXd::Zero(counts.rows());
-  for (std::ptrdiff_t k = begin; k < end; ++k) {
-    const Eigen::ArrayXd share = (counts.col(k) - levels.dark) / levels.range;
-    sum += (2.0 * share.min(1.0 - share)).square();
-  }
-  return sum / static_cast<double>(std::max<std::ptrdiff_t>(1, end - begin));
-}
-
-/// How much mean and modulation of two patterns differ, over the modulation. Fine fringes have less
-/// contrast, by one factor.
-Eigen::ArrayXd difference_of(const Fitted& a, const Fitted& b) {
-  const double factor = median_of(b.modulation / a.modulation.max(std::sqrt(kLeast_counts2)));
-  const Eigen::ArrayXd other = factor * a.modulation;
-  return ((b.mean - a.mean).square() + 0.5 * (b.modulation - other).square()) /
-         (0.5 * (b.modulation.square() + other.square())).max(kLeast_counts2);
-}
-
-/// The same of fringes beside the levels of a Gray code, of which they are one share everywhere.
-Eigen::ArrayXd difference_of(const Fitted& fringes, const Levels& levels) {
-  const Eigen::ArrayXd mean = (fringes.mean - levels.dark) / levels.range;
-  const Eigen::ArrayXd modulation = fringes.modulation / levels.range;
-  const double usual = std::max(median_of(modulation), 1e-3);
-  return ((mean - median_of(mean)).square() + 0.5 * (modulation - usual).square()) /
-         (usual * usual);
-}
-
-/// What the patterns leave if their frames are late by `lag`: the median over the pixels of the
-/// mean square of residuals, and of how the patterns differ in mean and modulation, over the
-/// modulation. Nothing if no two patterns tell.
-std::optional<double> misfit_of(const Eigen::ArrayXXd& counts,
-                                std::span<const FrameStack> stacks,
-                                int lag) {
-  const Levels levels = levels_of(counts);
-  std::vector<Fitted> fits;
-  std::vector<Eigen::ArrayXd> terms;
-  std::ptrdiff_t begin = lag;
-  for (const FrameStack& stack : stacks) {
-    const auto frames = std::ssize(stack.frames);
-    if (stack.pattern.kind == PatternKind::Gray)
-      terms.push_back(between_levels(counts, levels, begin, frames));
-    if (has_fringes(stack)) {
-      Fitted one = fit(counts, stack.pattern, begin);
-      if (one.mean.size() > 0) fits.push_back(std::move(one));
-    }
-    begin += frames;
-  }
-  const bool has_code = !terms.empty();
-  if (fits.size() < (has_code ? 1U : 2U)) return std::nullopt;
+/// What the patterns leave together: the median over the pixels of the mean square of residuals,
+/// and of how the patterns differ in mean and modulation, over the modulation. Nothing if no two
+/// patterns tell.
+std::optional<double> misfit_of(const std::vector<Fitted>& fits) {
+  if (fits.size() < 2) return std::nullopt;
+  constexpr double kLeast_counts2 = 1.0;  // of the modulation: less is none
+  Eigen::ArrayXd sum = Eigen::ArrayXd::Zero(fits.front().mean.size());
+  int terms = 0;
   for (std::size_t i = 0; i < fits.size(); ++i) {
     const Fitted& one = fits[i];
-    if (one.rest.size() > 0)
-      terms.push_back(one.rest / one.modulation.square().max(kLeast_counts2));
-    if (has_code) terms.push_back(difference_of(one, levels));
-    if (i > 0) terms.push_back(difference_of(fits[i - 1], one));
+    if (one.rest.size() > 0) {
+      sum += one.rest / one.modulation.square().max(kLeast_counts2);
+      ++terms;
+    }
+    if (i == 0) continue;
+    const Fitted& last = fits[i - 1];  // fine fringes have less contrast, by one factor
+    const double factor =
+        median_of(one.modulation / last.modulation.max(std::sqrt(kLeast_counts2)));
+    const Eigen::ArrayXd other = factor * last.modulation;
+    sum += ((one.mean - last.mean).square() + 0.5 * (one.modulation - other).square()) /
+           (0.5 * (one.modulation.square() + other.square())).max(kLeast_counts2);
+    ++terms;
   }
-  Eigen::ArrayXd sum = Eigen::ArrayXd::Zero(counts.rows());
-  for (const Eigen::ArrayXd& term : terms)
-    sum += term;
-  return median_of(sum / static_cast<double>(terms.size()));
+  return median_of(sum / terms);
+}
+
+/// The fringe patterns whose frames are late by `lag`, without those of fewer than three frames.
+std::vector<Placed> placed_at(std::span<const FrameStack> stacks,
+                              std::ptrdiff_t frames,
+                              std::ptrdiff_t lag) {
+  std::vector<Placed> out;
+  std::ptrdiff_t begin = lag;
+  for (const FrameStack& stack : stacks) {
+    Placed one;
+    for (std::size_t k = 0; has_fringes(stack) && k < stack.frames.size(); ++k) {
+      const std::ptrdiff_t place = begin + static_cast<std::ptrdiff_t>(k);
+      if (place < 0 || place >= frames) continue;
+      one.places.push_back(place);
+      one.shifts_rad.push_back(stack.pattern.shifts_rad[k]);
+    }
+    if (one.places.size() >= kFewestFrames) out.push_back(std::move(one));
+    begin += std::ssize(stack.frames);
+  }
+  return out;
+}
+
+std::vector<Fitted> fit_all(const Eigen::ArrayXXd& counts, const std::vector<Placed>& patterns) {
+  std::vector<Fitted> out;
+  for (const Placed& one : patterns)
+    out.push_back(fit(counts, one));
+  return out;
+}
+
+/// The frames of one pattern with a fault: two of them exchanged, or one left out.
+std::vector<Placed> with_one_fault(const Placed& pattern) {
+  std::vector<Placed> out;
+  for (std::size_t i = 0; i < pattern.places.size(); ++i) {
+    for (std::size_t k = i + 1; k < pattern.places.size(); ++k) {
+      out.push_back(pattern);
+      std::swap(out.back().shifts_rad[i], out.back().shifts_rad[k]);
+    }
+    if (pattern.places.size() == kFewestFrames) continue;
+    out.push_back(pattern);
+    out.back().places.erase(out.back().places.begin() + static_cast<std::ptrdiff_t>(i));
+    out.back().shifts_rad.erase(out.back().shifts_rad.begin() + static_cast<std::ptrdiff_t>(i));
+  }
+  return out;
+}
+
+/// What the patterns leave as they are described, or with one fault of one of them, where that is
+/// less.
+double misfit_without_lag(const Eigen::ArrayXXd& counts,
+                          const std::vector<Placed>& patterns,
+                          double described) {
+  std::vector<Fitted> fits = fit_all(counts, patterns);
+  double least = described;
+  for (std::size_t i = 0; i < fits.size(); ++i) {
+    Fitted own = fits[i];
+    for (const Placed& other : with_one_fault(patterns[i])) {
+      fits[i] = fit(counts, other);
+      least = std::min(least, misfit_of(fits).value_or(described));
+    }
+    fits[i] = std::move(own);
+  }
+  return least;
 }
 
 /// Whether what is left of a pattern, in the order of its shifts, determines the phase.
@@ -240,27 +242,29 @@ bool predict_alike(int a, int b, std::span<const FrameStack> stacks) {
 
 std::optional<FrameLag> explain_lag(std::span<const FrameStack> stacks) {
   const auto fringes = std::count_if(stacks.begin(), stacks.end(), has_fringes);
-  const bool has_code = std::any_of(stacks.begin(), stacks.end(), [](const FrameStack& one) {
-    return one.pattern.kind == PatternKind::Gray;
-  });
   const bool bracketed = std::any_of(stacks.begin(), stacks.end(), [](const FrameStack& one) {
     return one.pattern.exposure_count() > 1;
   });
-  if (fringes < (has_code ? 1 : 2) || bracketed) return std::nullopt;
+  if (fringes < 2 || bracketed) return std::nullopt;
   const Eigen::ArrayXXd counts = lit_counts(sequence_of(stacks));
   if (counts.rows() < static_cast<Eigen::Index>(kFewestPixels)) return std::nullopt;
-  const std::optional<double> described = misfit_of(counts, stacks, 0);
+  const auto frames_in_all = counts.cols();
+  const std::vector<Placed> in_place = placed_at(stacks, frames_in_all, 0);
+  const std::optional<double> described = misfit_of(fit_all(counts, in_place));
   if (!described || *described < kOutOfStep * kOutOfStep) return std::nullopt;
+  const double without_lag = misfit_without_lag(counts, in_place, *described);
+  if (without_lag < kOutOfStep * kOutOfStep) return std::nullopt;
   // Gaussian rests of unknown size, that are one smooth field each.
   const auto evidence = [](double misfit) {
     return -0.5 * kFieldWitnesses * std::log(misfit + kRestInStep * kRestInStep);
   };
   std::vector<FrameLag> lags{{}};
-  std::vector<ScoredHypothesis> scored{{"the frames are as described", evidence(*described)}};
+  std::vector<ScoredHypothesis> scored{{"the frames are as described", evidence(without_lag)}};
   for (const int frames : kLags) {
     if (predict_alike(frames, 0, stacks)) continue;
-    const std::optional<double> misfit = misfit_of(counts, stacks, frames);
-    if (!misfit || *misfit > kMostLeft * *described) continue;
+    const std::optional<double> misfit =
+        misfit_of(fit_all(counts, placed_at(stacks, frames_in_all, frames)));
+    if (!misfit || *misfit > kMostLeft * without_lag) continue;
     lags.push_back({frames});
     std::size_t alike = 1;
     while (!predict_alike(lags[alike].frames, frames, stacks))

@@ -22,12 +22,11 @@ struct FrameLag {
 ///
 /// Of one pattern by itself, such frames are those of another start, or with one that is lost. But
 /// taken as what they show, all patterns leave no residual, and have the same mean and modulation
-/// at each pixel, and a Gray code is dark or bright there. A lag and one that differs by a whole
-/// pattern predict the same.
+/// at each pixel. A lag and one that differs by a whole pattern predict the same.
 ///
 /// @shape    the stacks in the order in which their frames were captured
 /// @missing  nothing where the frames are as described, are not better so, or do not tell: for
-///           one fringe pattern without a Gray code, or for several exposures
+///           fewer than two fringe patterns, or several exposures
 [[nodiscard]] std::optional<FrameLag> explain_lag(std::span<const FrameStack> stacks);
 
 /// The stacks with the frames that show them. A pattern at the end of the sequence lacks some.
