@@ -126,7 +126,7 @@ TEST(ExplainLag, BlamesNoFramesInStep) {
   }
 }
 
-TEST(ExplainLag, SaysNothingOfOnePatternOrOfSeveralExposures) {
+TEST(ExplainLag, SaysNothingOfOnePatternOfSeveralExposuresOrOfFramesOfSeveralSizes) {
   std::vector<FrameStack> one = captured(4, 1);
   one.resize(1);
   EXPECT_FALSE(explain_lag(one));
@@ -135,6 +135,9 @@ TEST(ExplainLag, SaysNothingOfOnePatternOrOfSeveralExposures) {
     stack.pattern.exposures_ms = {8.0, 2.0};
   EXPECT_FALSE(explain_lag(bracketed));
   EXPECT_FALSE(explain_lag({}));
+  std::vector<FrameStack> uneven = captured(4, 1);
+  uneven[2].frames[1] = Image<std::uint8_t>(8, 8);
+  EXPECT_FALSE(explain_lag(uneven));
 }
 
 TEST(InStep, GivesEachPatternTheFramesThatShowIt) {

@@ -47,6 +47,14 @@ std::vector<Shown> sequence_of(std::span<const FrameStack> stacks) {
   return out;
 }
 
+/// Whether all frames have one size; those that do not are refused where they are decoded.
+bool are_alike(const std::vector<Shown>& sequence) {
+  return std::all_of(sequence.begin(), sequence.end(), [&](const Shown& one) {
+    return width_of(*one.frame) == width_of(*sequence.front().frame) &&
+           height_of(*one.frame) == height_of(*sequence.front().frame);
+  });
+}
+
 bool has_fringes(const FrameStack& stack) {
   return stack.pattern.kind == PatternKind::Fringe &&
          stack.frames.size() == stack.pattern.shifts_rad.size() &&
@@ -245,8 +253,9 @@ std::optional<FrameLag> explain_lag(std::span<const FrameStack> stacks) {
   const bool bracketed = std::any_of(stacks.begin(), stacks.end(), [](const FrameStack& one) {
     return one.pattern.exposure_count() > 1;
   });
-  if (fringes < 2 || bracketed) return std::nullopt;
-  const Eigen::ArrayXXd counts = lit_counts(sequence_of(stacks));
+  const std::vector<Shown> sequence = sequence_of(stacks);
+  if (fringes < 2 || bracketed || !are_alike(sequence)) return std::nullopt;
+  const Eigen::ArrayXXd counts = lit_counts(sequence);
   if (counts.rows() < static_cast<Eigen::Index>(kFewestPixels)) return std::nullopt;
   const auto frames_in_all = counts.cols();
   const std::vector<Placed> in_place = placed_at(stacks, frames_in_all, 0);
