@@ -38,8 +38,8 @@ class NoiseSamples {
   };
   /// All of them.
   struct Bins {
-    std::array<Bin, kBins> lit;
-    Bin cut_off;  ///< pixels at 0 counts in some frame
+    std::array<Bin, kBins> lit;  ///< of equal width in brightness
+    Bin cut_off;                 ///< pixels at 0 counts in some frame
   };
   /// Adds the samples of one stack. Stacks of other patterns than fringes are ignored.
   void add(const FrameStack& stack);
