@@ -356,18 +356,21 @@ class FramesAtFault(unittest.TestCase):
         found = {one["pattern"]: (one["cause"], one["frames"]) for one in json.loads(done.stdout)["explanations"]}
         self.assertEqual(found, {"p1280": ("as-described", []), "p40": ("lamp", [3])})
 
-    def test_frames_that_are_late_are_used_if_the_remedy_is_accepted(self):
-        def late(view, name, frames):
-            return frames[:5] + frames[4:-1] if name == "f" else frames
-
-        scan = self.scan(12).capture(late)
+    def expect_remedied(self, scan, cause):
+        """The cause is named and the remedy offered; with it the part is measured."""
         code, _, text, _, _ = scan.reconstruct()
         self.assertEqual(code, 5, text)
-        self.assertIn("the frames from 5 on are late by one", text)
+        self.assertIn(cause, text)
         self.assertIn("--accept-remedy", text)
         code, _, text, error, sigma = scan.reconstruct("--accept-remedy")
         self.assertEqual(code, 0, text)
         self.assertLess(error, 2.2 * sigma)
+
+    def test_frames_that_are_late_are_used_if_the_remedy_is_accepted(self):
+        def late(view, name, frames):
+            return frames[:5] + frames[4:-1] if name == "f" else frames
+
+        self.expect_remedied(self.scan(12).capture(late), "the frames from 5 on are late by one")
 
     def test_frames_that_are_late_all_through_are_named_and_can_be_used(self):
         # The fine pattern comes first, then the coarse one, whose last frame is missing.
@@ -381,13 +384,7 @@ class FramesAtFault(unittest.TestCase):
                 return shown
 
             scan = self.scan(steps, coarse=True).capture(late)
-            code, _, text, _, _ = scan.reconstruct()
-            self.assertEqual(code, 5, text)
-            self.assertIn("all frames are late by one frame", text)
-            self.assertIn("--accept-remedy", text)
-            code, _, text, error, sigma = scan.reconstruct("--accept-remedy")
-            self.assertEqual(code, 0, text)
-            self.assertLess(error, 2.2 * sigma)
+            self.expect_remedied(scan, "all frames are late by one frame")
 
 
 if __name__ == "__main__":

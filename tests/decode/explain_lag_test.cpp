@@ -198,6 +198,15 @@ TEST(DecodeView, DecodesFramesThatAreLateAsWhatTheyShowIfThatIsAccepted) {
   EXPECT_NEAR(std::sqrt(square / measured), 1.0, 0.2);
 }
 
+TEST(JudgeLag, AdvisesALongerDelayForLateFramesAlone) {
+  const std::vector<Pattern> patterns{captured(4, 0).front().pattern};
+  const auto remedy = [&](int frames) {
+    return judge_lag(patterns, {.frames = frames}, false).front().explanation.explanation.remedy;
+  };
+  EXPECT_NE(remedy(1).find("delay_s"), std::string::npos);
+  EXPECT_EQ(remedy(-1).find("delay_s"), std::string::npos);
+}
+
 TEST(DecodeView, OffersNoRemedyForLateFramesThatLackTheFinestPattern) {
   const DecodedView view =
       decode_view(captured(3, 1), rig_of_frames(), {}, {.accept_remedy = true});

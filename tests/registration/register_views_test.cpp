@@ -41,7 +41,7 @@ class RegisterViews : public ::testing::Test {
   /// Views of the knobbly part all around, as `MisalignedTable::take` renders them.
   static ViewStore knobbly_views(int count) {
     constexpr int kMost = 8;
-    if (count < kMost && kMost % count == 0) {  // every so many of them
+    if (count < kMost && kMost % count == 0) {  // some of the eight, evenly spaced
       const ViewStore all = knobbly_views(kMost);
       ViewStore some;
       for (int i = 0; i < count; ++i)

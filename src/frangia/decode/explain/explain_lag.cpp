@@ -231,10 +231,21 @@ double misfit_without_lag(const Eigen::ArrayXXd& counts,
   return least;
 }
 
-/// Whether what is left of a pattern, in the order of its shifts, determines the phase.
-bool determines_phase(const FrameStack& stack) {
-  if (stack.pattern.kind != PatternKind::Fringe) return false;
-  return stack.frames.size() >= kFewestFrames;
+/// Whether the frames of each pattern are in the sequence, or enough of them for a phase.
+bool leaves_phases(std::span<const FrameStack> stacks, int lag) {
+  std::ptrdiff_t all = 0;
+  for (const FrameStack& stack : stacks)
+    all += std::ssize(stack.frames);
+  std::ptrdiff_t begin = lag;
+  for (const FrameStack& stack : stacks) {
+    const std::ptrdiff_t end = begin + std::ssize(stack.frames);
+    const std::ptrdiff_t left = std::min(end, all) - std::max<std::ptrdiff_t>(begin, 0);
+    const auto least =
+        has_fringes(stack) ? std::ptrdiff_t{kFewestFrames} : std::ssize(stack.frames);
+    if (left < least) return false;
+    begin = end;
+  }
+  return true;
 }
 
 /// Whether two lags predict the same frames: they differ by whole patterns of equal length.
@@ -286,7 +297,7 @@ std::optional<FrameLag> explain_lag(std::span<const FrameStack> stacks) {
   if (!found.is_decided() || found.likeliest == 0) return std::nullopt;
   // Of those that predict the same, one that leaves a phase of all patterns.
   FrameLag best = lags[found.likeliest];
-  for (std::size_t i = 1; i < lags.size() && in_step(stacks, best).empty(); ++i)
+  for (std::size_t i = 1; i < lags.size() && !leaves_phases(stacks, best.frames); ++i)
     if (scored[i].prediction == scored[found.likeliest].prediction &&
         scored[i].log_evidence > scored[found.likeliest].log_evidence - kNamedLogOdds)
       best = lags[i];
@@ -295,6 +306,7 @@ std::optional<FrameLag> explain_lag(std::span<const FrameStack> stacks) {
 }
 
 std::vector<FrameStack> in_step(std::span<const FrameStack> stacks, const FrameLag& lag) {
+  if (!leaves_phases(stacks, lag.frames)) return {};
   const std::vector<Shown> sequence = sequence_of(stacks);
   std::vector<FrameStack> out;
   std::ptrdiff_t begin = 0;
@@ -313,7 +325,6 @@ std::vector<FrameStack> in_step(std::span<const FrameStack> stacks, const FrameL
       if (has_fringes(stack)) moved.pattern.shifts_rad.push_back(stack.pattern.shifts_rad[k]);
     }
     begin += std::ssize(stack.frames);
-    if (moved.frames.size() < stack.frames.size() && !determines_phase(moved)) return {};
     out.push_back(std::move(moved));
   }
   return out;
@@ -333,7 +344,9 @@ std::vector<FrameVerdict> judge_lag(std::span<const Pattern> patterns,
     found.best.faults = 1;
     found.alike = {found.best};
     found.explanation = lag.explanation;
-    found.explanation.remedy = "capture the frames again with a longer delay_s of the projector";
+    found.explanation.remedy =
+        lag.frames > 0 ? "capture the frames again with a longer delay_s of the projector"
+                       : "capture the frames again, the projector and the camera in step";
     if (may_remedy)
       found.explanation.remedy += ", or set `accept_remedy` to decode each frame as what it shows";
     one.finding = describe(found.explanation);

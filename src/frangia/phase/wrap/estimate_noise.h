@@ -18,10 +18,10 @@ namespace frangia {
 /// the fringes are fine, and a robust variance suppresses the texture of the object. A curve
 /// fitted to the variance over the brightness gives the model.
 ///
-/// @units    counts
 /// Pixels that are cut off at 0 counts show less noise than they have; where they still show more
 /// than the curve of the others, dark pixels get what they tell.
 ///
+/// @units    counts
 /// @missing  saturated pixels are ignored; with too few pixels the model is quantization noise
 /// @source   Immerkaer 1996 for the differences; EMVA 1288, photon transfer curve, for the line
 class NoiseSamples {

@@ -83,7 +83,8 @@ NoiseModel fit_noise(std::span<const VarianceAt> variances,
   constexpr double kLeft = 0.341;  // of the variance of Gaussian noise about 0 counts
   constexpr double kSure = 2.0;    // rounding alone is less
   if (!cut_off || cut_off->variance_counts2 < kSure * model.variance(cut_off->counts)) return model;
-  const double range = white_level / 32.0;
+  constexpr double kRange = 1.0 / 32;  // of the white level; they tell the dark end alone
+  const double range = kRange * white_level;
   const double left = range / (cut_off->counts + range);
   model.dark_range_counts = range;
   model.dark_counts2 = 0.0;

@@ -65,8 +65,9 @@ FRANGIA_VECTORIZED void find_phase(const WrapTile& __restrict tile,
     phase_rad[i] = fast_atan2(tile.sine[i], tile.cosine[i]);
 }
 
-/// `kAll`: what a map keeps; else the precision alone.
-template <bool kAll>
+/// `kAll`: what a map keeps; else the precision alone. `kDark`: the noise of dark pixels exceeds
+/// the straight line, which takes a division.
+template <bool kAll, bool kDark>
 FRANGIA_VECTORIZED void find_precision(const WrapTile& __restrict tile,
                                        std::size_t n,
                                        SumNoise f,
@@ -80,9 +81,11 @@ FRANGIA_VECTORIZED void find_precision(const WrapTile& __restrict tile,
     const float c = tile.cosine[i];
     const float square = s * s + c * c;
     const float mean = tile.mean[i] > 0.0F ? tile.mean[i] : 0.0F;
-    const float left = f.dark_range / (mean + f.dark_range);
-    const float variance =
-        f.variance_floor + f.variance_slope * mean + f.variance_dark * left * left;
+    float variance = f.variance_floor + f.variance_slope * mean;
+    if constexpr (kDark) {
+      const float left = f.dark_range / (mean + f.dark_range);
+      variance += f.variance_dark * left * left;
+    }
     const float gain = c * c * f.sine_gain + s * s * f.cosine_gain - 2.0F * s * c * f.cross_gain;
     const float product = variance * gain + kLeastVariance;
     if constexpr (!kAll) {
@@ -284,10 +287,11 @@ void PhaseKernel::wrap(std::size_t at,
   }
   sum_frames(*stack_, *algorithm_, at, n, scratch, out.brightest);
   find_phase(scratch, n, out.phase_rad);
+  const bool is_dark = noise_.variance_dark > 0.0F;
   if (out.precision == nullptr) {
-    find_precision<true>(scratch, n, noise_, out);
+    (is_dark ? find_precision<true, true> : find_precision<true, false>)(scratch, n, noise_, out);
   } else {
-    find_precision<false>(scratch, n, noise_, out);
+    (is_dark ? find_precision<false, true> : find_precision<false, false>)(scratch, n, noise_, out);
   }
 }
 
