@@ -270,17 +270,6 @@ TEST(JudgeFrames, ReturnsTheShiftsOfUnevenSteps) {
   EXPECT_NEAR(deg_from_rad(verdict.remedy_rad[2] - verdict.remedy_rad[1]), 68.0, 1.5);
 }
 
-TEST(JudgeFrames, TakesUnevenStepsOfFiveFramesForNoLamp) {
-  const std::vector<double> shown_deg{0.0, 72.0, 151.0, 212.0, 288.0};
-  RenderedFrames frames({.seed = 27}, shown_deg);
-  FrameStack stack = frames.stack();
-  for (std::size_t k = 0; k < shown_deg.size(); ++k)
-    stack.pattern.shifts_rad[k] = kTwoPi * static_cast<double>(k) / 5.0;
-  const FrameVerdict verdict = judge_frames(stack, frames.noise());
-  EXPECT_EQ(verdict.explanation.best.cause, FrameCause::Steps) << verdict.finding;
-  EXPECT_TRUE(verdict.explanation.has_fault());
-}
-
 TEST(JudgeFrames, TakesNoFrameForExact) {
   // The first frame is off: the start of the fringes moves by a sixth of it.
   const std::vector<double> shown_deg{8.0, 60.0, 120.0, 180.0, 240.0, 300.0};

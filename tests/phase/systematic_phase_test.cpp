@@ -149,6 +149,27 @@ TEST(SystematicPhase, FlickerOfTwelveFramesIsCompensated) {
   EXPECT_LT(worst, 1.3 * none);
 }
 
+TEST(SystematicPhase, FlickerOfAProjectorWithAGammaInALitRoomIsCompensated) {
+  for (const int frames : {5, 6, 8, 12}) {
+    for (const double dark_counts : {150.0, 700.0}) {
+      DisplayScene scene{.gamma = 1.6,
+                         .peak_counts = 2900.0,
+                         .dark_counts = dark_counts,
+                         .noise_counts = 8.0,
+                         .white_level = 4095};
+      const PhaseErrors steady = errors_of(scene, frames, true);
+      for (const double start : {1.0, 2.0, 3.0}) {
+        scene.gains.clear();
+        for (int k = 0; k < frames; ++k)
+          scene.gains.push_back(0.042 * std::sin(2.3 * k * k + start));
+        const PhaseErrors found = errors_of(scene, frames, true);
+        EXPECT_LT(found.rms_rad, 1.3 * steady.rms_rad) << frames << ", " << dark_counts;
+        EXPECT_LT(found.over_sigma, 1.5) << frames << ", " << dark_counts;
+      }
+    }
+  }
+}
+
 TEST(SystematicPhase, CountsFlickerOfThreeAndFourFrames) {
   for (const int frames : {3, 4}) {
     DisplayScene scene{.gains = {0.03, -0.021, 0.001, 0.018}};

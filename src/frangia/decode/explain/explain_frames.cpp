@@ -150,6 +150,26 @@ std::vector<ScoredHypothesis> join_movements(const std::vector<Candidate>& candi
   return scored;
 }
 
+/// RMS effect on the phase of errors of the steps that are not decided, each as likely as its
+/// evidence says, rad.
+double spread_of_steps(const std::vector<Candidate>& candidates,
+                       const std::vector<ScoredHypothesis>& scored) {
+  double highest = scored.front().log_evidence;
+  for (const ScoredHypothesis& one : scored)
+    highest = std::max(highest, one.log_evidence);
+  double all = 0.0;
+  double square = 0.0;
+  for (std::size_t i = 0; i < scored.size(); ++i) {
+    const double odds = std::exp(scored[i].log_evidence - highest);
+    const Eigen::VectorXd& errors_rad = candidates[i].score.step_errors_rad;
+    all += odds;
+    if (errors_rad.size() == 0) continue;
+    const auto count = static_cast<double>(errors_rad.size());
+    square += odds * 2.0 / count * (errors_rad.array() - errors_rad.mean()).square().mean();
+  }
+  return std::sqrt(square / all);
+}
+
 /// Names what a lost frame shows.
 std::string text_of(const FrameHypothesis& hypothesis, const FrameSample& sample, int white_level) {
   std::string text = describe(hypothesis);
@@ -282,6 +302,8 @@ FrameExplanation explain_frames(const FrameStack& stack,
     const auto shown = std::count(out.best.free.begin(), out.best.free.end(), false);
     out.unexplained_rad = score.unexplained * std::sqrt(2.0 / static_cast<double>(shown));
   }
+  if (!out.explanation.is_decided())
+    out.unexplained_rad = std::hypot(out.unexplained_rad, spread_of_steps(candidates, scored));
   return out;
 }
 

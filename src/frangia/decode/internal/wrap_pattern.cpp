@@ -1,5 +1,6 @@
 #include "frangia/decode/internal/wrap_pattern.h"
 
+#include <cmath>
 #include <optional>
 #include <string>
 
@@ -36,6 +37,15 @@ FittedAlgorithm algorithm_of(const Pattern& pattern, const FittedAlgorithm& fitt
   if (pattern.exposure_count() == 1) return used;
   used.algorithm = least_squares(fitted.shifts_rad);
   used.algorithm.name = fitted.algorithm.name;
+  // Its weights compensate no gains: what these do to the phase is counted.
+  WaveformFit& waveform = used.waveform;
+  const auto frames = static_cast<double>(fitted.shifts_rad.size());
+  const double on_mean = (1.0 - waveform.steady_share) * waveform.mean_over_modulation;
+  waveform.flicker_error_rad =
+      std::hypot(waveform.flicker_error_rad,
+                 std::sqrt(2.0 / frames) * waveform.flicker() * std::hypot(on_mean, 1.0));
+  waveform.gains.clear();
+  waveform.steady_share = 0.0;
   return used;
 }
 
@@ -121,9 +131,11 @@ std::optional<ResponseTable> correction_of(const Pattern& pattern,
                                            const DecodeOptions& options) {
   const FittedAlgorithm fitted = algorithm_of(pattern, of_frames);
   const PhaseAlgorithm& algorithm = fitted.algorithm;
+  const std::vector<double>& shifts = fitted.shifts_rad;
   if (const FringeWaveform* waveform = find_waveform(options.waveforms, pattern))
-    return response_table(*waveform, algorithm, fitted.shifts_rad);
-  if (options.response) return response_table(*options.response, algorithm, fitted.shifts_rad);
+    return response_table(*waveform, algorithm, shifts, fitted.waveform.gains);
+  if (options.response)
+    return response_table(*options.response, algorithm, shifts, fitted.waveform.gains);
   if (!undoes_own_response(options)) return {};
   return own_correction(fitted);
 }

@@ -65,7 +65,8 @@ class FreeHarmonics {
 /// residuals of the sampled pixels.
 double explained_by_harmonics(const FrameStack& stack) {
   const NoiseModel unit{.floor_counts2 = 1.0};  // squares in counts
-  const FringeBins bins = bin_fringes(stack, stack.pattern.shifts_rad, unit, kStepSamples);
+  const FringeBins bins = bin_fringes(
+      stack, stack.pattern.shifts_rad, unit, kStepSamples, least_squares(stack.pattern.shifts_rad));
   if (bins.pixels == 0) return 0.0;
   return explained_residual(bins, stack.pattern.shifts_rad) / static_cast<double>(bins.pixels);
 }

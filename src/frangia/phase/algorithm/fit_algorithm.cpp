@@ -20,17 +20,9 @@ double mean_of(const std::vector<double>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
-/// Divides the weight of each frame by its gain.
-void compensate_gains(const std::vector<double>& gains, PhaseAlgorithm& algorithm) {
-  for (auto* weights : {&algorithm.sine, &algorithm.cosine, &algorithm.mean, &algorithm.outer}) {
-    for (std::size_t k = 0; k < std::min(weights->size(), gains.size()); ++k)
-      (*weights)[k] /= 1.0 + gains[k];
-  }
-}
-
 void fit_waveform_of(const FrameStack& stack, const NoiseModel& noise, FittedAlgorithm& out) {
   out.waveform = fit_waveform(stack, out.shifts_rad, noise);
-  compensate_gains(out.waveform.gains, out.algorithm);
+  compensate_gains(out.waveform.gains, out.waveform.steady_share, out.shifts_rad, out.algorithm);
 }
 
 FittedAlgorithm fit_advanced_iterative(const FrameStack& stack,

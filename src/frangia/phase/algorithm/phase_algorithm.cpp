@@ -128,6 +128,33 @@ void refer_to_shift_zero(const std::vector<double>& shifts_rad, PhaseAlgorithm& 
 
 }  // namespace
 
+void compensate_gains(std::span<const double> gains,
+                      double steady_share,
+                      const std::vector<double>& shifts_rad,
+                      PhaseAlgorithm& algorithm) {
+  if (gains.empty()) return;
+  const auto divide_by_gains = [&](std::vector<double>& weights) {
+    for (std::size_t k = 0; k < gains.size(); ++k)
+      weights[k] /= 1.0 + gains[k];
+  };
+  const auto of_mean = [&](const std::vector<double>& weights) {
+    double sum = 0.0;
+    for (std::size_t k = 0; k < gains.size(); ++k)
+      sum += weights[k] * (1.0 + (1.0 - steady_share) * gains[k]);
+    return sum;
+  };
+  std::vector<double> mean = least_squares(shifts_rad).mean;
+  divide_by_gains(mean);
+  for (auto* weights : {&algorithm.sine, &algorithm.cosine, &algorithm.mean, &algorithm.outer}) {
+    if (weights->size() != gains.size()) continue;
+    const double wanted = weights == &algorithm.mean ? 1.0 : 0.0;
+    divide_by_gains(*weights);  // which leaves a share of the steady light
+    const double left = (of_mean(*weights) - wanted) / of_mean(mean);
+    for (std::size_t k = 0; k < gains.size(); ++k)
+      (*weights)[k] -= left * mean[k];
+  }
+}
+
 void subtract_phase_offset(double angle_rad, PhaseAlgorithm& algorithm) {
   if (!algorithm.outer.empty()) {
     algorithm.phase_offset_rad += angle_rad;

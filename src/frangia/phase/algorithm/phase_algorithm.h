@@ -59,6 +59,15 @@ struct PhaseAlgorithm {
 /// Changes an algorithm so that it returns a phase smaller by `angle_rad`.
 void subtract_phase_offset(double angle_rad, PhaseAlgorithm& algorithm);
 
+/// Changes an algorithm so that it measures frames of which the light of the projector has a gain
+/// of 1 + gains[k]. The rest of their mean, `steady_share` of it, has none.
+///
+/// @shape    one relative gain per frame, with these shifts; empty for none
+void compensate_gains(std::span<const double> gains,
+                      double steady_share,
+                      const std::vector<double>& shifts_rad,
+                      PhaseAlgorithm& algorithm);
+
 /// An algorithm and the frames for which it was made.
 struct LinearAlgorithm {
   PhaseAlgorithm algorithm;        ///< its coefficients include the shifts

@@ -16,15 +16,23 @@ struct ResidualFit {
   std::vector<std::complex<double>> harmonics;  ///< 0 where not observable
   std::vector<double> sigma;                    ///< of each amplitude; NaN where not observable
   std::vector<double> gains;                    ///< relative, mean 0; empty unless fitted
-  double gain_sigma = 0.0;                      ///< rms standard deviation of the gains
+  double steady_share = 0.0;   ///< of the mean counts: light of the room, which no gain acts on
+  double gain_sigma = 0.0;     ///< rms standard deviation of the gains
   double gain_chi2 = 0.0;      ///< what gains explain beyond harmonics, over what nothing explains
   bool gains_explain = false;  ///< gains fit the residuals, and better than errors of the shifts
 };
 
-/// Fits the binned residuals, with gains of the frames if `with_gains`.
+/// What gains of the frames are fitted.
+enum class GainFit {
+  None,
+  Small,    ///< their effects alone: whether the frames flicker at all
+  Flicker,  ///< with their products: they act on the harmonics, and not on steady light
+};
+
+/// Fits the binned residuals.
 [[nodiscard]] ResidualFit fit_residuals(const FringeBins& bins,
                                         const std::vector<double>& shifts_rad,
-                                        bool with_gains);
+                                        GainFit gain_fit);
 
 /// The part of the weighted sum of squared residuals that harmonics explain.
 [[nodiscard]] double explained_residual(const FringeBins& bins,

@@ -204,8 +204,8 @@ Eigen::VectorXd vector_of(const std::vector<double>& values) {
 FringeBins bin_fringes(const FrameStack& stack,
                        const std::vector<double>& shifts_rad,
                        const NoiseModel& noise,
-                       std::size_t samples) {
-  const PhaseAlgorithm fit = least_squares(shifts_rad);
+                       std::size_t samples,
+                       const PhaseAlgorithm& algorithm) {
   const Eigen::Index frames = std::ssize(shifts_rad);
   FringeBins out;
   out.residual = Eigen::ArrayXXd::Zero(kPhaseBins, frames);
@@ -214,15 +214,18 @@ FringeBins bin_fringes(const FrameStack& stack,
   out.tile_log_mean = out.tile_count;
   const GridSamples grid = sample_grid(stack, samples);
 
-  // Mean, cosine and sine of each pixel.
-  Eigen::MatrixX3d weights(frames, 3);
-  weights << vector_of(fit.mean), vector_of(fit.cosine), vector_of(fit.sine);
-  const Eigen::MatrixX3f fringes = grid.counts.matrix() * weights.cast<float>();
+  const auto mean_cosine_sine = [&](const PhaseAlgorithm& by) -> Eigen::MatrixX3f {
+    Eigen::MatrixX3d weights(frames, 3);
+    weights << vector_of(by.mean), vector_of(by.cosine), vector_of(by.sine);
+    return grid.counts.matrix() * weights.cast<float>();
+  };
+  const Eigen::MatrixX3f fringes = mean_cosine_sine(algorithm);
+  const Eigen::MatrixX3f fitted = mean_cosine_sine(least_squares(shifts_rad));
   const Eigen::ArrayXf modulations = fringes.rightCols<2>().rowwise().norm();
   const auto is_unsaturated = unsaturated(grid.counts, stack.white_level, noise);
   const auto is_modulated = [&](Eigen::Index i) {
     const double mean = fringes(i, 0);
-    const double sigma = fit.noise_gain * std::sqrt(noise.variance(mean));
+    const double sigma = algorithm.noise_gain * std::sqrt(noise.variance(mean));
     return mean > 0.0 && sigma <= kMaxBinnedSigma * static_cast<double>(modulations(i));
   };
   ModulationLevels levels(std::max(1e-9, static_cast<double>(modulations.maxCoeff())));
@@ -255,8 +258,9 @@ FringeBins bin_fringes(const FrameStack& stack,
     const double weight = modulation * modulation / noise.variance(mean);
     out.weight(bin) += weight;
     out.mean_over_modulation(bin) += weight * mean / modulation;
+    const Eigen::Vector3d fringe = fitted.row(i).cast<double>();
     for (Eigen::Index k = 0; k < frames; ++k) {
-      const double model = mean + cosine * shift_cosine(k) - sine * shift_sine(k);
+      const double model = fringe(0) + fringe(1) * shift_cosine(k) - fringe(2) * shift_sine(k);
       out.residual(bin, k) +=
           weight * (static_cast<double>(grid.counts(i, k)) - model) / modulation;
     }

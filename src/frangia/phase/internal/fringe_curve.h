@@ -9,6 +9,7 @@
 #include "frangia/core/angles.h"
 #include "frangia/frames/frame_stack.h"
 #include "frangia/frames/noise_model.h"
+#include "frangia/phase/algorithm/phase_algorithm.h"
 
 namespace frangia {
 
@@ -77,11 +78,12 @@ struct FringeBins {
   Eigen::ArrayXXd tile_log_mean;  ///< sum of the logarithm of the mean
 };
 
-/// Samples about `samples` pixels of a stack on a regular grid and bins them by the phase that
-/// least squares measures.
+/// Samples about `samples` pixels of a stack on a regular grid and bins them by the phase that the
+/// algorithm measures. The residuals are those of least squares.
 [[nodiscard]] FringeBins bin_fringes(const FrameStack& stack,
                                      const std::vector<double>& shifts_rad,
                                      const NoiseModel& noise,
-                                     std::size_t samples);
+                                     std::size_t samples,
+                                     const PhaseAlgorithm& algorithm);
 
 }  // namespace frangia

@@ -199,6 +199,8 @@ void add_hidden_harmonics(std::size_t frames,
 constexpr std::size_t kMinFringePixels = 2000;  ///< fewer do not cover the fringe
 /// With more frames, the gains of single frames hardly affect the phase.
 constexpr std::size_t kMaxGainFrames = 32;
+/// Rounds of the fit of flicker, which shifts the phases by which the frames are sorted.
+constexpr int kFlickerRounds = 2;
 /// Fewer frames do not tell flicker from motion.
 constexpr std::size_t kMinGainFrames = 5;
 /// Largest gain of a frame that is flicker: the weights of a frame of hardly any light would grow
@@ -264,6 +266,23 @@ void add_steps_by_residual(const ResidualFit& residuals, WaveformFit& out) {
   out.is_flicker = false;
 }
 
+double rms(const std::vector<double>& gains) {
+  double square = 0.0;
+  for (const double gain : gains)
+    square += gain * gain / static_cast<double>(gains.size());
+  return std::sqrt(square);
+}
+
+/// Whether the frames flickered, and tell it from motion.
+bool determine_gains(const ResidualFit& residuals) {
+  if (residuals.gains.size() < kMinGainFrames || !residuals.gains_explain) return false;
+  const bool at_fault = std::any_of(residuals.gains.begin(),
+                                    residuals.gains.end(),
+                                    [](double gain) { return std::abs(gain) > kMaxGain; });
+  const double flicker = rms(residuals.gains);
+  return !at_fault && flicker >= kMinFlicker && flicker >= kMinFlickerSigmas * residuals.gain_sigma;
+}
+
 /// Whether the shifts divide a turn evenly, in any order.
 bool are_even(const std::vector<double>& shifts_rad) {
   constexpr double kSame_rad = 1e-3;
@@ -288,10 +307,7 @@ int WaveformFit::largest_harmonic() const {
 }
 
 double WaveformFit::flicker() const {
-  double square = 0.0;
-  for (const double gain : gains)
-    square += gain * gain / static_cast<double>(gains.size());
-  return std::sqrt(square);
+  return gains.empty() ? 0.0 : rms(gains);
 }
 
 WaveformFit fit_waveform(const FrameStack& stack,
@@ -302,13 +318,24 @@ WaveformFit fit_waveform(const FrameStack& stack,
   out.waveform.period_px = stack.pattern.period_px;
   out.waveform.direction = stack.pattern.direction;
   const std::size_t frames = shifts_rad.size();
-  const FringeBins bins =
-      bin_fringes(stack, shifts_rad, noise, std::min(options.samples, kMaxSampledCounts / frames));
+  const auto bins_by = [&](const PhaseAlgorithm& algorithm) {
+    const std::size_t samples = std::min(options.samples, kMaxSampledCounts / frames);
+    return bin_fringes(stack, shifts_rad, noise, samples, algorithm);
+  };
+  FringeBins bins = bins_by(least_squares(shifts_rad));
   if (bins.pixels < kMinFringePixels) return out;
-  out.mean_over_modulation = (bins.weight * bins.mean_over_modulation).sum() / bins.weight.sum();
   // The shifts of an angular projector are not exact: their errors and gains cannot be separated.
   const bool with_gains = stack.pattern.fringes_per_degree == 0.0 && frames <= kMaxGainFrames;
-  const ResidualFit residuals = fit_residuals(bins, shifts_rad, with_gains);
+  ResidualFit residuals =
+      fit_residuals(bins, shifts_rad, with_gains ? GainFit::Small : GainFit::None);
+  const bool has_gains = with_gains && determine_gains(residuals);
+  for (int round = 0; round < kFlickerRounds && has_gains; ++round) {
+    PhaseAlgorithm algorithm = least_squares(shifts_rad);  // whose phases lack their effect
+    compensate_gains(residuals.gains, residuals.steady_share, shifts_rad, algorithm);
+    bins = bins_by(algorithm);
+    residuals = fit_residuals(bins, shifts_rad, GainFit::Flicker);
+  }
+  out.mean_over_modulation = (bins.weight * bins.mean_over_modulation).sum() / bins.weight.sum();
   out.waveform.harmonics.assign(residuals.harmonics.size(), 0.0);
   out.sigma = residuals.sigma;
   for (std::size_t i = 0; i < residuals.harmonics.size(); ++i) {
@@ -325,18 +352,10 @@ WaveformFit fit_waveform(const FrameStack& stack,
       add_steps_by_residual(residuals, out);
   }
   if (with_gains && are_even(shifts_rad)) add_hidden_harmonics(frames, third, out);
-  if (!with_gains || frames < kMinGainFrames || !residuals.gains_explain) return out;
-  if (std::any_of(residuals.gains.begin(), residuals.gains.end(), [](double gain) {
-        return std::abs(gain) > kMaxGain;
-      }))
-    return out;
+  if (!has_gains) return out;
   out.gains = residuals.gains;
-  const double flicker = out.flicker();
-  if (flicker < kMinFlicker || flicker < kMinFlickerSigmas * residuals.gain_sigma) {
-    out.gains.clear();
-  } else {
-    out.flicker_error_rad = 0.0;  // is compensated
-  }
+  out.steady_share = residuals.steady_share;
+  out.flicker_error_rad = 0.0;  // is compensated
   return out;
 }
 

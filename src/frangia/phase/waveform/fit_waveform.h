@@ -19,6 +19,8 @@ struct WaveformFit {
   /// Relative gain of each frame: lamp or exposure flicker. Empty unless it is significant and the
   /// frames tell it from motion.
   std::vector<double> gains;
+  /// Share of the mean counts that no gain acts on: light of the room. 0 without gains.
+  double steady_share = 0.0;
   /// Mean ratio of mean to modulation of the sampled pixels; a gain error acts on the mean.
   double mean_over_modulation = 0.0;
   /// Rms phase error due to flicker that the frames do not determine, such as that of three or four
@@ -34,6 +36,8 @@ struct WaveformFit {
 
   /// Returns the order of the largest significant harmonic; 0 if there is none.
   [[nodiscard]] int largest_harmonic() const;
+  /// What multiplies the mean counts in a frame of this gain, and its fringes by 1 + gain.
+  [[nodiscard]] double gain_of_mean(double gain) const { return 1.0 + (1.0 - steady_share) * gain; }
   /// Returns the rms of the gains; 0 if there is no flicker.
   [[nodiscard]] double flicker() const;
 };

@@ -179,11 +179,12 @@ constexpr std::size_t kTableIntervals = 1024;  ///< intervals of the table
 template <typename Light>
 std::optional<ResponseTable> table_of(const Light& light_of,
                                       const PhaseAlgorithm& algorithm,
-                                      const std::vector<double>& shifts_rad) {
+                                      const std::vector<double>& shifts_rad,
+                                      std::span<const double> gains) {
   std::vector<double> light(shifts_rad.size());
   const auto measured_phase = [&](double phase) {
     for (std::size_t k = 0; k < light.size(); ++k)
-      light[k] = light_of(phase + shifts_rad[k]);
+      light[k] = light_of(phase + shifts_rad[k]) * (gains.empty() ? 1.0 : 1.0 + gains[k]);
     return phase_of(algorithm, light);
   };
   // The measured phase is unwrapped, so that it rises over the whole fringe.
@@ -224,23 +225,31 @@ ResponseTable required(std::optional<ResponseTable> table) {
 
 ResponseTable response_table(const ResponseCurve& response,
                              const PhaseAlgorithm& algorithm,
-                             const std::vector<double>& shifts_rad) {
+                             const std::vector<double>& shifts_rad,
+                             std::span<const double> gains) {
+  const auto light_of = [&](double phase) {
+    return response.light_of(0.5 + 0.5 * std::cos(phase));
+  };
+  double mean = 0.0;  // gains act on a part of the mean light, which no algorithm measures
+  for (std::size_t i = 0; i < kProjectedPhases; ++i)
+    mean += light_of(kTwoPi * static_cast<double>(i) / kProjectedPhases) / kProjectedPhases;
   return required(
-      table_of([&](double phase) { return response.light_of(0.5 + 0.5 * std::cos(phase)); },
-               algorithm,
-               shifts_rad));
+      table_of([&](double phase) { return light_of(phase) - mean; }, algorithm, shifts_rad, gains));
 }
 
 ResponseTable response_table(const FringeWaveform& waveform,
                              const PhaseAlgorithm& algorithm,
-                             const std::vector<double>& shifts_rad) {
-  return required(find_response_table(waveform, algorithm, shifts_rad));
+                             const std::vector<double>& shifts_rad,
+                             std::span<const double> gains) {
+  return required(find_response_table(waveform, algorithm, shifts_rad, gains));
 }
 
 std::optional<ResponseTable> find_response_table(const FringeWaveform& waveform,
                                                  const PhaseAlgorithm& algorithm,
-                                                 const std::vector<double>& shifts_rad) {
-  return table_of([&](double phase) { return waveform.light_at(phase); }, algorithm, shifts_rad);
+                                                 const std::vector<double>& shifts_rad,
+                                                 std::span<const double> gains) {
+  return table_of(
+      [&](double phase) { return waveform.light_at(phase); }, algorithm, shifts_rad, gains);
 }
 
 double correction_at(const ResponseTable& table, double phase_rad) {

@@ -50,24 +50,29 @@ struct ResponseTable {
 
 /// Computes the correction for fringes of full contrast that are shown without a look-up table.
 ///
+/// @shape    `gains`: those of the frames that the weights of the algorithm compensate; empty for
+///           none
 /// @errors   Error(Input) when the response is so nonlinear that two phases measure alike
 /// @source   Zhang and Yau 2007
 [[nodiscard]] ResponseTable response_table(const ResponseCurve& response,
                                            const PhaseAlgorithm& algorithm,
-                                           const std::vector<double>& shifts_rad);
+                                           const std::vector<double>& shifts_rad,
+                                           std::span<const double> gains = {});
 
 /// Computes the correction for a waveform of the fringes.
 ///
 /// @errors   Error(Input) when two phases measure alike
 [[nodiscard]] ResponseTable response_table(const FringeWaveform& waveform,
                                            const PhaseAlgorithm& algorithm,
-                                           const std::vector<double>& shifts_rad);
+                                           const std::vector<double>& shifts_rad,
+                                           std::span<const double> gains = {});
 
 /// The same; empty where two phases measure alike.
 [[nodiscard]] std::optional<ResponseTable> find_response_table(
     const FringeWaveform& waveform,
     const PhaseAlgorithm& algorithm,
-    const std::vector<double>& shifts_rad);
+    const std::vector<double>& shifts_rad,
+    std::span<const double> gains = {});
 
 /// Returns the correction at a measured phase.
 ///

@@ -29,8 +29,8 @@ double rms_error(const FittedAlgorithm& fitted,
   for (int i = 0; i < kErrorPhases; ++i) {
     const double phase = kTwoPi * (i + 0.37) / kErrorPhases;
     for (std::size_t k = 0; k < shifts.size(); ++k) {
-      light[k] = (1.0 + gains[k]) *
-                 (fitted.waveform.mean_over_modulation + waveform.light_at(phase + shifts[k]));
+      light[k] = fitted.waveform.gain_of_mean(gains[k]) * fitted.waveform.mean_over_modulation +
+                 (1.0 + gains[k]) * waveform.light_at(phase + shifts[k]);
     }
     double found = phase_of(fitted.algorithm, light);
     if (table != nullptr) found += correction_at(*table, found);
@@ -64,7 +64,8 @@ std::optional<ResponseTable> own_correction(const FittedAlgorithm& fitted) {
   constexpr double kWins = 2.0;  // error over what the correction leaves uncertain
   const double error = harmonic_phase_error(fitted, nullptr);
   if (error < kNegligible_rad) return {};
-  auto table = find_response_table(fitted.waveform.waveform, fitted.algorithm, fitted.shifts_rad);
+  auto table = find_response_table(
+      fitted.waveform.waveform, fitted.algorithm, fitted.shifts_rad, fitted.waveform.gains);
   if (!table || error < kWins * std::sqrt(harmonic_variance(fitted, &*table))) return {};
   return table;
 }

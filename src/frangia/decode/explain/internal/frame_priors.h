@@ -8,6 +8,9 @@ inline constexpr double kPriorFault = 0.01;
 inline constexpr double kNamedLogOdds = 4.605;
 /// Prior standard deviation of the gain of a frame, of lamp and exposure.
 inline constexpr double kPriorGain = 0.03;
+/// Prior standard deviation of the share of steady light in the mean counts: light of the room, on
+/// which the gains of the projector do not act.
+inline constexpr double kPriorSteadyShare = 0.3;
 /// Gain of a frame, and its logarithm, beyond which it is at fault; less is flicker.
 inline constexpr double kStructuralGain = 0.1;
 /// Prior standard deviation of the light of another lamp over the counts of the brightest frame.

@@ -9,6 +9,9 @@ namespace frangia {
 
 /// Standard deviation, over the scale of a pixel, of counts that no model of fringes predicts.
 inline constexpr double kOutlierSize = 0.4;
+/// Width of the density of counts of fringes over the scale of a pixel: a frame that is darker or
+/// brighter everywhere by less than a quarter of it is no sound one.
+inline constexpr double kBroad = 0.35;
 
 /// Log of the normal density of `count` values with this sum of squares.
 [[nodiscard]] inline double log_normal(double square, double variance, double count) {

@@ -28,9 +28,6 @@ constexpr double kLimit = 9.0;  ///< squared residuals count up to this multiple
 constexpr int kRounds = 3;
 /// No model of fringes is more exact, relative to the modulation.
 constexpr double kModelError = 0.005;
-/// Width of the density of counts of fringes over the scale of a pixel: a frame that is darker or
-/// brighter everywhere by less than a quarter of it is no sound one.
-constexpr double kBroad = 0.35;
 
 /// The least squares solution of two unknowns of which none is negative.
 Eigen::Vector2d solve_positive(const Eigen::Matrix2d& normal, const Eigen::Vector2d& right) {
@@ -53,9 +50,11 @@ class FrameFit {
  public:
   FrameFit(const FrameSample& sample,
            const FrameHypothesis& hypothesis,
-           const Eigen::ArrayXd& counted)
+           const Eigen::ArrayXd& counted,
+           bool has_products)
       : sample_(sample),
         hypothesis_(hypothesis),
+        has_products_(has_products),
         design_(design_of(hypothesis)),
         pixels_(sample.counts.rows()),
         counted_(counted.size() > 0 ? counted : Eigen::ArrayXd::Ones(pixels_)) {
@@ -114,35 +113,49 @@ class FrameFit {
     if (hypothesis_.path.empty()) return 0;
     return hypothesis_.moves_part ? 8 : hypothesis_.moves_image ? 2 : 1;
   }
+  /// The first of two columns: steady light as the albedo, and alike at all pixels.
+  [[nodiscard]] Eigen::Index first_steady() const { return shown_.cols(); }
+  [[nodiscard]] Eigen::Index first_wave() const { return shown_.cols() + 2; }
   [[nodiscard]] Eigen::Index nuisance_count() const {
-    return shown_.cols() + 2 * std::ssize(waves_) + movement_count() +
+    return first_wave() + 2 * std::ssize(waves_) + movement_count() +
            2 * std::ssize(hypothesis_.displaced) +
            (hypothesis_.has_free_steps ? shown_.cols() : 0) + (hypothesis_.lamp_on ? 4 : 0);
   }
 
-  /// What the nuisances of one pixel change in its frames, per unit of their priors: gains,
-  /// harmonics, a movement of the part or of whole frames, and errors of the steps.
-  void add_nuisances(Eigen::Index pixel, Eigen::MatrixXd& effects) const {
+  /// What the nuisances of one pixel change in its frames, per unit of their priors: gains, the
+  /// share of steady light, harmonics, a movement of the part or of whole frames, and errors of the
+  /// steps. Gains act on the harmonics and not on steady light: the effects are those about the
+  /// values that were found before.
+  void add_nuisances(Eigen::Index pixel,
+                     const Eigen::VectorXd& about,
+                     Eigen::MatrixXd& effects) const {
     const double phase = std::atan2(values_(pixel, 2), values_(pixel, 1));
     const double amplitude = std::hypot(values_(pixel, 1), values_(pixel, 2));
     const double b = modulation_(pixel);
     effects.setZero();
-    const Eigen::Index after_waves = shown_.cols() + 2 * std::ssize(waves_);
+    const Eigen::Index after_waves = first_wave() + 2 * std::ssize(waves_);
+    const Eigen::Vector2d steady =
+        kPriorSteadyShare * Eigen::Vector2d(values_(pixel, 0), 0.5 * mean_scale_);
+    const double flickering = values_(pixel, 0) - steady.dot(about.segment<2>(first_steady()));
     for (Eigen::Index i = 0; i < shown_.cols(); ++i) {
       const auto k = static_cast<std::size_t>(design_.shown[static_cast<std::size_t>(i)]);
       const double gain = hypothesis_.gains[k];
       const std::complex<double> turn = std::polar(1.0, phase + hypothesis_.shifts_rad[k]);
-      effects(i, i) = kPriorGain * gain * (values_(pixel, 0) + amplitude * turn.real());
+      const double by_gain = kPriorGain * gain;
+      effects(i, i) = by_gain * (flickering + amplitude * turn.real());
+      effects.row(i).segment<2>(first_steady()) = -by_gain * about(i) * steady.transpose();
       std::complex<double> power = turn;
-      Eigen::Index column = shown_.cols();
+      Eigen::Index column = first_wave();
       std::size_t wave = 0;
       for (int order = 2; order <= kHighestHarmonic && wave < waves_.size(); ++order) {
         power *= turn;
         if (waves_[wave] != order) continue;
         ++wave;
         const double size = gain * b * prior_harmonic(order);
-        effects(i, column++) = size * power.real();
-        effects(i, column++) = size * power.imag();
+        for (const double light : {size * power.real(), size * power.imag()}) {
+          effects(i, i) += kPriorGain * light * about(column);
+          effects(i, column++) = light;
+        }
       }
       const double slope = -gain * amplitude * turn.imag();  // of counts over phase
       column = after_waves;
@@ -188,10 +201,10 @@ class FrameFit {
   /// Fits mean, modulation and phase again to the frames without their nuisances, which shift the
   /// phase of uneven steps. The modulation that the variance refers to stays: nuisances that cancel
   /// each other would lower it, and so raise the density of the same residuals.
-  void refine_values(const Eigen::VectorXd& found, const std::vector<Eigen::MatrixXd>& effects) {
+  void refine_values(const Eigen::VectorXd& change, const std::vector<Eigen::MatrixXd>& effects) {
     for (Eigen::Index i = 0; i < pixels_; ++i) {
       const Eigen::VectorXd without =
-          shown_.row(i).transpose() - product(effects[static_cast<std::size_t>(i)], found);
+          shown_.row(i).transpose() - product(effects[static_cast<std::size_t>(i)], change);
       values_.row(i) = product(design_.inverse, without).transpose();
     }
   }
@@ -220,9 +233,13 @@ class FrameFit {
     const auto used = static_cast<std::size_t>(count > 0 ? pixels_ : 0);
     std::vector<Eigen::MatrixXd> effects(used, Eigen::MatrixXd(shown_.cols(), count));
     std::vector<Eigen::MatrixXd> rows(used, Eigen::MatrixXd(freedom, count));
+    Eigen::VectorXd found = Eigen::VectorXd::Zero(count);
+    Eigen::VectorXd about = found;  // stays 0 where the nuisances have no products
+    Eigen::VectorXd share = found;  // of steady light, about which the model is linear
     const auto find_rows = [&] {
+      if (count > 0) share.segment<2>(first_steady()) = about.segment<2>(first_steady());
       for (std::size_t i = 0; i < rows.size(); ++i) {
-        add_nuisances(static_cast<Eigen::Index>(i), effects[i]);
+        add_nuisances(static_cast<Eigen::Index>(i), about, effects[i]);
         rows[i] = transposed_product(design_.rest, effects[i]);
       }
     };
@@ -231,8 +248,7 @@ class FrameFit {
     double relative = 0.05;  // of the modulation, to begin with
     variance_ = sample_.variance + relative * relative * modulation_.square();
     Eigen::MatrixXd normal;
-    Eigen::VectorXd found = Eigen::VectorXd::Zero(count);
-    for (int round = 0; round < kRounds && count > 0; ++round) {
+    for (int round = 1; count > 0; ++round) {
       normal = Eigen::MatrixXd::Zero(count, count);
       Eigen::VectorXd right = Eigen::VectorXd::Zero(count);
       for (Eigen::Index i = 0; i < pixels_; ++i) {
@@ -242,19 +258,22 @@ class FrameFit {
         const double weight =
             counted_(i) * std::min(1.0, kLimit / std::max(over, 1e-9)) / variance_(i);
         normal.selfadjointView<Eigen::Lower>().rankUpdate(row.transpose(), weight);
-        right += weight * transposed_product(row, rest_.row(i).transpose());
+        right += weight * transposed_product(row, rest_.row(i).transpose() + product(row, share));
       }
       normal = Eigen::MatrixXd(normal.selfadjointView<Eigen::Lower>());
       Eigen::MatrixXd with_prior = normal;
       with_prior.diagonal().array() += 1.0;
       found = solve_symmetric(with_prior, right);
+      const Eigen::VectorXd change = found - share;
       for (Eigen::Index i = 0; i < pixels_; ++i) {
         residual_.row(i) =
-            rest_.row(i) - product(rows[static_cast<std::size_t>(i)], found).transpose();
+            rest_.row(i) - product(rows[static_cast<std::size_t>(i)], change).transpose();
       }
       relative = excess_over_modulation();
-      if (round + 1 == kRounds) break;
-      refine_values(found, effects);
+      if (round == kRounds) break;
+      const double largest = kPriorGain * found.head(shown_.cols()).cwiseAbs().maxCoeff();
+      if (has_products_ && largest < kStructuralGain) about = found;
+      refine_values(change, effects);
       find_rows();
     }
     if (count == 0) {
@@ -276,7 +295,7 @@ class FrameFit {
         const double light = (values_.col(0).array() + modulation_).mean();
         out.lamp_share = kPriorLamp * (found(count - 4) * mean_scale_ / light + found(count - 3));
       }
-      const Eigen::Index last = shown_.cols() + 2 * std::ssize(waves_) + movement_count();
+      const Eigen::Index last = first_wave() + 2 * std::ssize(waves_) + movement_count();
       out.displacements_px.resize(std::ssize(hypothesis_.displaced), 2);
       for (Eigen::Index k = 0; k < out.displacements_px.rows(); ++k)
         out.displacements_px.row(k) =
@@ -327,6 +346,7 @@ class FrameFit {
   const FrameSample& sample_;
   double mean_scale_ = sample_.scale_counts.mean();
   const FrameHypothesis& hypothesis_;
+  bool has_products_;  ///< of gains with harmonics and with the share of steady light
   FrameDesign design_;
   double mean_path_ = 0.0;
   Eigen::Index pixels_;
@@ -343,6 +363,17 @@ class FrameFit {
   std::vector<int> waves_;  ///< orders of the harmonics that leave a residual
 };
 
+/// Whether gains of the frames may be flicker of the projector, which acts on all that it shows and
+/// not on the light of the room. Where a fault has unknowns of its own these would resemble it.
+bool may_flicker(const FrameHypothesis& hypothesis, const FrameScore& score) {
+  constexpr double kLeast = 0.003;
+  constexpr std::ptrdiff_t kFewest = 5;  // fewer frames do not tell the share of steady light
+  return hypothesis.path.empty() && hypothesis.displaced.empty() && !hypothesis.has_free_steps &&
+         !hypothesis.lamp_on && hypothesis.cause != FrameCause::Exposure &&
+         std::count(hypothesis.free.begin(), hypothesis.free.end(), false) >= kFewest &&
+         score.largest_gain > kLeast && score.largest_gain < kStructuralGain;
+}
+
 }  // namespace
 
 double FrameScore::log_evidence(double share) const {
@@ -356,27 +387,10 @@ double FrameScore::log_evidence(double share) const {
 FrameScore score_frames(const FrameSample& sample,
                         const FrameHypothesis& hypothesis,
                         const Eigen::ArrayXd& counted) {
-  return FrameFit(sample, hypothesis, counted).score();
-}
-
-double rough_score(const Eigen::MatrixXd& moments,
-                   const Eigen::VectorXd& means,
-                   double relative_noise,
-                   const FrameHypothesis& hypothesis) {
-  const FrameDesign design = design_of(hypothesis);
-  const double noise = relative_noise * relative_noise;
-  double out = -static_cast<double>(design.span.cols()) * std::log(kBroad);
-  for (std::size_t k = 0; k < hypothesis.free.size(); ++k) {
-    if (!hypothesis.free[k]) continue;
-    const auto i = static_cast<Eigen::Index>(k);
-    out -= 0.5 * std::log(std::max(moments(i, i) - means(i) * means(i), 0.0) + noise);
-  }
-  const Eigen::Index freedom = design.rest.cols();
-  if (freedom == 0) return out;
-  const Eigen::MatrixXd shown = moments(design.shown, design.shown);
-  const double left = congruence(design.rest, shown).trace();
-  const auto count = static_cast<double>(freedom);
-  return out - 0.5 * count * std::log(left / count + noise);
+  FrameScore out = FrameFit(sample, hypothesis, counted, false).score();
+  if (!may_flicker(hypothesis, out)) return out;
+  FrameScore flickering = FrameFit(sample, hypothesis, counted, true).score();
+  return flickering.log_evidence(1.0) > out.log_evidence(1.0) ? flickering : out;
 }
 
 }  // namespace frangia

@@ -13,7 +13,8 @@ ResidualModel::ResidualModel(const FittedAlgorithm& fitted)
       waveform_(fitted.waveform.waveform),
       has_harmonics_(fitted.waveform.largest_harmonic() > 0),
       shifts_(fitted.shifts_rad),
-      gains_(fitted.waveform.gains) {
+      gains_(fitted.waveform.gains),
+      steady_share_(fitted.waveform.steady_share) {
   gains_.resize(shifts_.size(), 0.0);
   for (const double shift : shifts_)
     directions_.emplace_back(std::cos(shift), -std::sin(shift));
@@ -44,8 +45,9 @@ double ResidualModel::squared_residual(const std::vector<double>& counts) const 
 }
 
 double ResidualModel::unexplained_residual(std::vector<double>& counts) const {
+  const double steady = steady_share_ * fringe_of(counts).mean;
   for (std::size_t k = 0; k < counts.size(); ++k)
-    counts[k] /= 1.0 + gains_[k];
+    counts[k] = steady + (counts[k] - steady) / (1.0 + gains_[k]);
   if (has_harmonics_) {
     const Eigen::Vector2d wave = fringe_of(counts).wave;
     const double modulation = wave.norm();

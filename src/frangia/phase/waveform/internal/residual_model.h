@@ -34,6 +34,7 @@ class ResidualModel {
   bool has_harmonics_;
   std::vector<double> shifts_;
   std::vector<double> gains_;
+  double steady_share_;                      ///< of the mean counts, which no gain acts on
   std::vector<Eigen::Vector2d> directions_;  ///< of the wave in the frames
 };
 
