@@ -105,6 +105,13 @@ TEST(FindTurntableTop, TakesNoCylinderWithNothingAboveForARim) {
   EXPECT_FALSE(find_turntable_top(look_horizontally_at(disc(40.0, 0.0)), small_camera_model()));
 }
 
+TEST(FindTurntableTop, TakesNoEndOfARodForADisc) {
+  const Shape rod = [](const Eigen::Vector3d& p) {
+    return std::max(p.head<2>().norm() - 15.0, std::max(p.z() - 40.0, 1.0 - p.z()));
+  };
+  EXPECT_FALSE(find_turntable_top(look_at(rod), small_camera_model()));
+}
+
 TEST(FindTurntableTop, FindsNoneUnderASphere) {
   EXPECT_FALSE(find_turntable_top(look_at(testing::sphere(30.0)), small_camera_model()));
 }

@@ -1,6 +1,7 @@
 // Registration of views of a part that was moved between them.
 #include <algorithm>
 #include <cmath>
+#include <random>
 #include <string>
 #include <vector>
 
@@ -58,6 +59,58 @@ TEST(MovedPart, IsNotDistortedByAViewOfAPartThatSlidOnItsFaces) {
   const auto report = register_views(views, small_camera_model(), {table.given, table.stations()});
   EXPECT_EQ(report.outliers, std::vector<std::size_t>{1});
   EXPECT_LT(testing::shift_mm(report.table, table.truth), 0.03);
+}
+
+/// Ties of the same points of the part in all views, with noise of 0.01 mm in each coordinate.
+std::vector<PointTie> ties_of_points(const std::vector<Eigen::Isometry3d>& rig_from_object) {
+  std::mt19937 generator(5);
+  std::normal_distribution<double> noise(0.0, 0.01);
+  std::vector<PointTie> ties;
+  for (const Eigen::Vector3d& point : {Eigen::Vector3d(30.0, 18.0, -14.0),
+                                       Eigen::Vector3d(-20.0, 18.0, -14.0),
+                                       Eigen::Vector3d(25.0, -18.0, -14.0),
+                                       Eigen::Vector3d(-24.0, -15.0, 16.0)}) {
+    std::vector<Eigen::Vector3d> seen;
+    for (const Eigen::Isometry3d& pose : rig_from_object)
+      seen.push_back(pose * point + Eigen::Vector3d::NullaryExpr([&] { return noise(generator); }));
+    const Eigen::Matrix3d covariance = 1e-4 * Eigen::Matrix3d::Identity();
+    const double share = 2.0 / static_cast<double>(seen.size());
+    for (std::size_t from = 0; from < seen.size(); ++from)
+      for (std::size_t to = 0; to < from; ++to)
+        ties.push_back({from, to, seen[from], seen[to], covariance, covariance, share});
+  }
+  return ties;
+}
+
+TEST(MovedPart, IsPlacedByTheTargetsOfAPartThatSlidOnItsFaces) {
+  const MisalignedTable table(8);
+  const Shape angle = testing::both(testing::box({34.0, 22.0, 4.0}, {0.0, 0.0, -16.0}),
+                                    testing::box({4.0, 22.0, 18.0}, {-26.0, 0.0, 2.0}));
+  const Eigen::Vector3d way(0.8, 0.6, 0.0);
+  const Shape pushed = [&](const Eigen::Vector3d& p) { return angle(p - way); };
+  ViewStore views = table.take(angle);
+  std::vector<Eigen::Isometry3d> truth;
+  for (std::size_t i = 0; i < 8; ++i) {
+    truth.push_back(table.truth.rig_from_object(table.true_angles_rad[i]));
+    if (i < 4) continue;
+    views.replace(i, testing::snapshot(pushed, small_camera_model(), truth.back()));
+    truth.back() = truth.back() * Eigen::Translation3d(way);
+  }
+  const std::vector<PointTie> ties = ties_of_points(truth);
+  const std::vector<Station> stations = table.stations();
+  TurntableStations given{table.given, stations};
+  given.ties = ties;
+  const auto report = register_views(views, small_camera_model(), given);
+  EXPECT_EQ(report.explanation.best, PoseCause::PartMoved) << report.text();
+  EXPECT_TRUE(report.outliers.empty()) << report.text();
+  double squares_mm2 = 0.0;
+  for (const PointTie& tie : ties) {
+    squares_mm2 += (views.rig_from_object(tie.from).inverse() * tie.from_mm -
+                    views.rig_from_object(tie.to).inverse() * tie.to_mm)
+                       .squaredNorm();
+  }
+  const double noise_mm = 0.01 * std::sqrt(2.0 * 3.0);
+  EXPECT_LT(std::sqrt(squares_mm2 / static_cast<double>(ties.size())), 1.5 * noise_mm);
 }
 
 TEST(MovedPart, IsNotTrustworthyWhenNothingExplainsWhatViewsDisagreeAbout) {

@@ -34,6 +34,9 @@ PoseRound turned_views(double turn_rad) {
                        -kPairsWeight * right};
   round.evidence.emplace(data, round.chart.table);
   round.exact.emplace(data, round.chart.table);
+  round.sums.halves = {data, data};
+  for (NormalEquations& half : round.sums.halves)
+    half.hessian *= 0.5;
   round.sums.weight = kPairsWeight;
   round.noise.scatter_mm = 0.001;
   round.noise.shared_mm = 0.0001;

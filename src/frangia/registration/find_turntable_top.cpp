@@ -283,10 +283,12 @@ std::optional<TurntableTop> find_disc(const TableCloud& cloud) {
   const bool level = plane.normal().z() > std::cos(kTopLimits.max_tilt_rad);
   const bool round = disc.visible_edge >= kTopLimits.min_visible_edge &&
                      disc.edge_variation < kTopLimits.max_edge_variation;
+  const double above_mm = reach_above(cloud.points, top.height_mm() + margin_mm);
+  const bool carries_part = above_mm > 0.0;  // else it is the top of a rod
   const bool expected =
-      std::abs(top.height_mm()) < kTopLimits.relative_max_height * cloud.working_distance_mm ||
-      disc.radius_mm >
-          kTopLimits.min_width_ratio * reach_above(cloud.points, top.height_mm() + margin_mm);
+      carries_part &&
+      (std::abs(top.height_mm()) < kTopLimits.relative_max_height * cloud.working_distance_mm ||
+       disc.radius_mm > kTopLimits.min_width_ratio * above_mm);
   return nothing_below && level && round && expected ? std::optional(top) : std::nullopt;
 }
 

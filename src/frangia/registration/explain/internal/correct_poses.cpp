@@ -44,6 +44,10 @@ struct CauseFit {
     const double share = scored.noise.scale * scored.sums.weight / round.sums.weight;
     data.hessian *= share;
     data.gradient *= share;
+    if (!round.bundle.ties.empty()) {
+      data.add(from_stated(sum_pose_ties(round.bundle, {round.poses, nullptr}),
+                           round.chart.motions_to(round.poses)));
+    }
     round.evidence.emplace(std::move(data), round.chart.table);
     const auto views = static_cast<Eigen::Index>(6 * round.poses.size());
     found = round.evidence->posterior(motions_of(cause, round.chart.setting, views));

@@ -189,6 +189,11 @@ void free_poses(Bundle& bundle,
     const Eigen::VectorXd off = chart.motions_to(poses) - chart.stated;
     at.hessian.diagonal() += information;
     at.gradient = weight * data.gradient + information.cwiseProduct(off);
+    if (!bundle.ties.empty()) {
+      const NormalEquations ties = sum_pose_ties(bundle, {poses, nullptr});
+      at.hessian += ties.hessian;
+      at.gradient += ties.gradient;
+    }
     for (std::size_t view = 0; view < poses.size(); ++view)
       hold_open_motions(at, data.hessian, sums.fit, chart.setting, view, off);
     at.median_residual = static_cast<double>(median(sums.fit.distances_mm));

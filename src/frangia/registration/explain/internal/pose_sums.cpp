@@ -306,4 +306,45 @@ PoseSums sum_poses(const Bundle& bundle, const SurfelLists& surfels, const Posed
   return all;
 }
 
+NormalEquations sum_pose_ties(const Bundle& bundle, const PosedViews& views) {
+  constexpr double kSigmas = 4.0;
+  const EquationsOfViews of_views(bundle.maps.size(), views.rig);
+  const Eigen::Index unknowns = of_views.unknowns();
+  NormalEquations all{Eigen::MatrixXd::Zero(unknowns, unknowns), Eigen::VectorXd::Zero(unknowns)};
+  const Eigen::Index size = 6 + (views.rig == nullptr ? 0 : views.rig->count);
+  const auto row_of = [&](const Eigen::Isometry3d& object_from_rig,
+                          const Eigen::Vector3d& point,
+                          const Eigen::Vector3d& along) {
+    Eigen::VectorXd row(size);
+    row.head<6>() = row_of_motion(object_from_rig * point, along);
+    if (views.rig != nullptr) {
+      row.tail(views.rig->count) = views.rig->field.of(point).transpose().cast<double>() *
+                                   (object_from_rig.linear().transpose() * along);
+    }
+    return row;
+  };
+  for (const PointTie& tie : bundle.ties) {
+    const Eigen::Isometry3d& from = views.object_from_rig[tie.from];
+    const Eigen::Isometry3d& to = views.object_from_rig[tie.to];
+    const Eigen::Matrix3d covariance =
+        from.linear() * tie.from_covariance_mm2 * from.linear().transpose() +
+        to.linear() * tie.to_covariance_mm2 * to.linear().transpose();
+    const SymmetricEigen<3> own = symmetric_eigen(covariance);
+    const Eigen::Vector3d away = own.vectors.transpose() * (from * tie.from_mm - to * tie.to_mm);
+    const double chi = std::sqrt(away.cwiseAbs2().cwiseQuotient(own.values).sum());
+    const double weight = tie.share * std::min(1.0, kSigmas / std::max(chi, kSigmas));
+    NormalEquations part{Eigen::MatrixXd::Zero(2 * size, 2 * size),
+                         Eigen::VectorXd::Zero(2 * size)};
+    for (Eigen::Index i = 0; i < 3; ++i) {
+      Eigen::VectorXd row(2 * size);
+      row << row_of(from, tie.from_mm, own.vectors.col(i)),
+          -row_of(to, tie.to_mm, own.vectors.col(i));
+      part.hessian += weight / own.values[i] * row * row.transpose();
+      part.gradient += weight / own.values[i] * away[i] * row;
+    }
+    of_views.add(all, part, tie.from, {tie.to});
+  }
+  return all;
+}
+
 }  // namespace frangia

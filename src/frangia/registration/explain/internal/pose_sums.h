@@ -43,6 +43,12 @@ struct PosedViews {
 struct NormalEquations {
   Eigen::MatrixXd hessian;
   Eigen::VectorXd gradient;
+
+  /// Adds a multiple of others.
+  void add(const NormalEquations& other, double share = 1.0) {
+    hessian += share * other.hessian;
+    gradient += share * other.gradient;
+  }
 };
 
 /// All point-to-plane distances between views, in free poses.
@@ -72,5 +78,10 @@ struct PoseSums {
 [[nodiscard]] PoseSums sum_poses(const Bundle& bundle,
                                  const SurfelLists& surfels,
                                  const PosedViews& views);
+
+/// Compares the points of the ties of the bundle, in the unknowns of `PoseSums`. Unlike pairs of
+/// surfels, of which many share an error, they are independent: their weights are those of their
+/// covariances, less where they disagree by more than four standard deviations.
+[[nodiscard]] NormalEquations sum_pose_ties(const Bundle& bundle, const PosedViews& views);
 
 }  // namespace frangia

@@ -134,6 +134,7 @@ void weigh(PoseRound& round) {
   round.noise.left_share = std::max(0.0, 1.0 - determined / std::max(1.0, round.noise.regions));
   data.hessian *= round.noise.scale;
   data.gradient *= round.noise.scale;
+  if (const auto ties = round.ties()) data.add(*ties);
   round.exact.emplace(data, padded(round.chart.with_exact_table().table, unknowns));
   round.evidence.emplace(std::move(data), table);
 }
@@ -271,11 +272,13 @@ bool predicts(const PoseRound& round, const CauseHypothesis& hypothesis) {
   const Eigen::VectorXd at = round.at();
   const Eigen::Index unknowns = at.size();
   const Eigen::MatrixXd own = motions_of(hypothesis, round.chart.setting, unknowns);
+  const std::optional<NormalEquations> ties = round.ties();
   for (std::size_t half = 0; half < 2; ++half) {
     const auto evidence = [&](std::size_t which) {
       NormalEquations data = from_stated(round.sums.halves.at(which), at);
       data.hessian *= round.noise.scale;
       data.gradient *= round.noise.scale;
+      if (ties) data.add(*ties, 0.5);
       const PoseChart chart = hypothesis.exact_table ? round.chart.with_exact_table() : round.chart;
       return PoseEvidence(std::move(data), padded(chart.table, unknowns));
     };

@@ -39,13 +39,18 @@ struct PoseRound {
     all.tail(rig_at.size()) = rig_at;
     return all;
   }
+  /// The equations of the ties, in motions from what is stated; none without ties.
+  [[nodiscard]] std::optional<NormalEquations> ties() const {
+    if (bundle.ties.empty()) return {};
+    return from_stated(sum_pose_ties(bundle, {poses, rig ? &*rig : nullptr}), at());
+  }
   [[nodiscard]] PosePosterior posterior(const CauseHypothesis& of) const {
     const PoseEvidence& by = of.exact_table ? *exact : *evidence;
     return by.posterior(motions_of(of, chart.setting, by.data().gradient.size()));
   }
   /// Root mean square over the pairs of what a difference of motions changes.
   [[nodiscard]] double effect_mm(const Eigen::VectorXd& difference) const {
-    const double squares = difference.dot(evidence->data().hessian * difference) / noise.scale;
+    const double squares = difference.dot(sums.all().hessian * difference);
     return std::sqrt(std::max(0.0, squares / sums.weight));
   }
   /// Root mean square over the surfaces of the views of what a difference of motions changes, but

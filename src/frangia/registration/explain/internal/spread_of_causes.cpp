@@ -103,10 +103,8 @@ constexpr double kLeastProbable = 1e-3;
 
 /// What two views have in common that the winner does not explain.
 double left_mm(const PoseRound& scored, const Eigen::VectorXd& motion) {
-  NormalEquations plain = scored.evidence->data();
-  plain.hessian /= scored.noise.scale;
-  plain.gradient /= scored.noise.scale;
-  const PoseEvidence unscaled(std::move(plain), Eigen::MatrixXd(motion.size(), 0));
+  const PoseEvidence unscaled(from_stated(scored.sums.all(), scored.at()),
+                              Eigen::MatrixXd(motion.size(), 0));
   const PairNoise noise = noise_after(scored.bundle, scored.sums, unscaled, scored.at(), motion);
   const double least_mm = scored.bundle.systematic_mm;
   return std::sqrt(std::max(0.0, noise.shared_mm * noise.shared_mm - least_mm * least_mm));
