@@ -14,6 +14,7 @@
 #include "frangia/core/parallel.h"
 #include "frangia/core/statistics.h"
 #include "frangia/geometry/ray_scene.h"
+#include "frangia/reconstruct/internal/splat_points.h"
 
 namespace frangia {
 namespace {
@@ -69,43 +70,52 @@ PixelColor color_at(const Mesh& mesh, const RayHit& hit) {
   return color;
 }
 
-/// Fills depths with the first hits of the camera's rays on the triangles.
+/// How far a ray goes on from its hit on a triangle to the curved surface of which the corners are
+/// points, in units of the ray: to where the mean of its distances to the triangle and to the
+/// tangent planes of the corners is 0. A curved surface lies between both, equally far from each:
+/// the triangle alone would lie inside of a round part, the more so the farther apart its points
+/// are, as where a scanner looks at it at grazing incidence.
+double beyond_chord(const Mesh& mesh,
+                    const std::vector<Eigen::Vector3f>& normals,
+                    const RayHit& hit,
+                    const Eigen::Vector3d& ray) {
+  constexpr double kFlattest = 0.955;  // cosine of 0.3 rad, as the creases of `LocalPlanesOptions`
+  const Mesh::Triangle& corners = mesh.triangles[hit.triangle];
+  Eigen::Vector3d point = Eigen::Vector3d::Zero();
+  for (Eigen::Index i = 0; i < 3; ++i)
+    point += hit.barycentric[i] *
+             mesh.vertices_mm[corners.at(static_cast<std::size_t>(i))].cast<double>();
+  double in_front_mm = 0.0;
+  double towards = hit.normal.dot(ray);
+  for (Eigen::Index i = 0; i < 3; ++i) {
+    const std::uint32_t corner = corners.at(static_cast<std::size_t>(i));
+    const Eigen::Vector3d normal = normals[corner].cast<double>();
+    if (!(normal.dot(hit.normal) > kFlattest)) return 0.0;  // at an edge
+    in_front_mm += hit.barycentric[i] * normal.dot(point - mesh.vertices_mm[corner].cast<double>());
+    towards += hit.barycentric[i] * normal.dot(ray);
+  }
+  constexpr double kGrazing = 0.1;  // sum of two cosines of incidence
+  return -towards > kGrazing * ray.norm() ? -in_front_mm / towards : 0.0;
+}
+
+/// Fills depths with the first hits of the camera's rays on the surface of the triangles.
 void cast_rays(const RayScene& scene,
                const VirtualCamera& camera,
                const Image<Eigen::Vector2f>& rays,
                Image<float>& depth,
                Image<PixelColor>& color) {
   const Eigen::Isometry3d scan_from_rig = camera.rig_from_scan.inverse();
+  const std::vector<Eigen::Vector3f> normals = vertex_normals(scene.mesh());
   parallel_rows(depth.height(), [&](int y) {
     for (int x = 0; x < depth.width(); ++x) {
-      const Eigen::Vector3d ray = rays(x, y).homogeneous().cast<double>();
-      const auto hit = scene.first_hit(scan_from_rig.translation(), scan_from_rig.linear() * ray);
-      if (!hit || !(hit->normal.dot(scan_from_rig.linear() * ray) < 0.0)) continue;
-      depth(x, y) = static_cast<float>(hit->distance);
+      const Eigen::Vector3d ray = scan_from_rig.linear() * rays(x, y).homogeneous().cast<double>();
+      const auto hit = scene.first_hit(scan_from_rig.translation(), ray);
+      if (!hit || !(hit->normal.dot(ray) < 0.0)) continue;
+      depth(x, y) =
+          static_cast<float>(hit->distance + beyond_chord(scene.mesh(), normals, *hit, ray));
       if (!color.empty()) color(x, y) = color_at(scene.mesh(), *hit);
     }
   });
-}
-
-/// Fills depths with the nearest of the unorganized points in each pixel.
-void splat(const Mesh& mesh,
-           const VirtualCamera& camera,
-           const CameraModel& model,
-           Image<float>& depth,
-           Image<PixelColor>& color) {
-  for (std::size_t i = 0; i < mesh.vertices_mm.size(); ++i) {
-    const Eigen::Vector3d seen = camera.rig_from_scan * mesh.vertices_mm[i].cast<double>();
-    const Eigen::Vector2d pixel = model.project(seen);
-    const bool inside = pixel.x() > -0.5 && pixel.y() > -0.5 && pixel.x() < depth.width() - 0.5 &&
-                        pixel.y() < depth.height() - 0.5;
-    if (!inside) continue;
-    const auto x = static_cast<int>(std::lround(pixel.x()));
-    const auto y = static_cast<int>(std::lround(pixel.y()));
-    const auto z = static_cast<float>(seen.z());
-    if (depth(x, y) <= z) continue;
-    depth(x, y) = z;
-    if (!color.empty()) color(x, y) = mesh.colors[i];
-  }
 }
 
 /// Standard deviation from the median absolute second difference, which is zero on a plane.
@@ -123,7 +133,7 @@ double noise_of(const Image<float>& depth) {
 }
 
 /// Counts the points that no pixel stands for. A point behind the depth of its pixel by more than a
-/// few pixels is hidden. Of the points in one pixel, one counts as kept.
+/// few pixels is hidden. Of the points in one pixel, whose mean it is, one counts as kept.
 DroppedPoints count_dropped(const Mesh& mesh,
                             const VirtualCamera& camera,
                             const CameraModel& model,
@@ -238,7 +248,7 @@ ResampledScan resample_scan(const RangeScan& scan,
   if (!scan.mesh.colors.empty())
     view.color = Image<PixelColor>(model.width_px, model.height_px, kUnknownColor);
   if (scan.mesh.triangles.empty()) {
-    splat(scan.mesh, camera, model, view.range.depth_mm, view.color);
+    splat_points(scan.mesh, camera, model, view.range.depth_mm, view.color);
   } else {
     cast_rays(RayScene(scan.mesh), camera, rays, view.range.depth_mm, view.color);
   }
