@@ -1,5 +1,6 @@
 #include "frangia/registration/register_poses.h"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -65,6 +66,31 @@ TEST(RegisterPoses, FindsDisplacedPosesOfManyViews) {
   EXPECT_LT(displaced.farthest_mm(), 0.03);
   EXPECT_LT(report.rms_after_mm, 0.035);
   EXPECT_GT(report.overlap, 0.5);
+}
+
+/// How far the corners of a cube of 60 mm are moved by the change of a pose.
+double moved_mm(const Eigen::Isometry3d& before, const Eigen::Isometry3d& after) {
+  double farthest = 0.0;
+  for (int i = 0; i < 8; ++i) {
+    const Eigen::Vector3d corner(i % 2 * 60 - 30, i / 2 % 2 * 60 - 30, i / 4 * 60 - 30);
+    farthest = std::max(farthest, (before.inverse() * (after * corner) - corner).norm());
+  }
+  return farthest;
+}
+
+TEST(RegisterPoses, RestsOnGivenPosesWhereTheSurfacesSlide) {
+  // Views of one flat face: they slide on each other both ways, and turn.
+  const CameraModel camera = small_camera_model(120, 600.0);
+  std::vector<Eigen::Isometry3d> truth;
+  for (int i = 0; i < 4; ++i)
+    truth.push_back(testing::look_from(1.5 * i, 1.1, 650.0));
+  constexpr double kNoise_mm = 0.05;
+  ViewStore views = testing::snapshots(
+      testing::floor_at(0.0), camera, truth, {.noise_mm = kNoise_mm, .sigma_mm = kNoise_mm});
+  const auto maps = make_surfel_maps(views, camera, 40000);
+  EXPECT_GT(register_poses(views, maps, camera).iterations, 0);
+  for (std::size_t i = 1; i < truth.size(); ++i)
+    EXPECT_LT(moved_mm(truth[i], views.rig_from_object(i)), 0.02) << i;
 }
 
 TEST(RegisterPoses, ReportsTheResidualAfterTheLastStep) {

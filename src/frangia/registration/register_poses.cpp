@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "frangia/core/error.h"
+#include "frangia/core/linear_algebra.h"
 #include "frangia/core/statistics.h"
 #include "frangia/geometry/robust_gauss_newton.h"
 #include "frangia/registration/internal/free_pose_bundle.h"
@@ -84,15 +85,21 @@ PosesReport register_poses(ViewStore& views,
         "the shape instead, or allow a larger `max_distance`");
     return report;
   }
+  const double prior_mm = options.prior_mm > 0.0 ? options.prior_mm : reach_mm;
+  const std::vector<Eigen::Isometry3d> given = bundle.rig_from_world;
+  RestedEquations rested;
   const auto linearize = [&](double gate_mm) {
     sums = sum_free_poses(bundle, gate_mm);
-    return Linearization{std::move(sums.hessian),
-                         std::move(sums.gradient),
+    rested = rest_on_given(bundle, sums, given, prior_mm);
+    return Linearization{std::move(rested.hessian),
+                         std::move(rested.gradient),
                          median(sums.distances_mm),
                          1.0,
                          matched_share(sums) >= options.min_overlap};
   };
-  const auto update = [&](const Eigen::VectorXd& step) { apply_update(bundle, step); };
+  const auto update = [&](const Eigen::VectorXd& step) {
+    apply_update(bundle, product(rested.to, step));
+  };
   const GaussNewtonResult result = minimize_robustly(
       {linearize, update},
       {.gate = reach_mm, .max_iterations = options.max_iterations, .tolerance = options.tolerance},
@@ -107,8 +114,7 @@ PosesReport register_poses(ViewStore& views,
   report.iterations = result.iterations;
   for (std::size_t i = 0; i < views.size(); ++i)
     views.set_rig_from_object(i, bundle.rig_from_world[i]);
-  report.motions =
-      motions_of_free_poses(bundle, sums, options.prior_mm > 0.0 ? options.prior_mm : reach_mm);
+  report.motions = motions_of_free_poses(bundle, sums, prior_mm);
   return report;
 }
 

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include <Eigen/Cholesky>
+
 #include "frangia/core/linear_algebra.h"
 #include "frangia/core/parallel.h"
 #include "frangia/core/statistics.h"
@@ -15,10 +17,18 @@
 namespace frangia {
 namespace {
 
+Eigen::Matrix3d cross_matrix(const Eigen::Vector3d& by) {
+  Eigen::Matrix3d cross;
+  cross << 0.0, -by.z(), by.y(), by.z(), 0.0, -by.x(), -by.y(), by.x(), 0.0;
+  return cross;
+}
+
 /// Sums with `blocks` poses as unknowns.
 FreePoseSums empty_sums(std::size_t blocks) {
   const auto unknowns = static_cast<Eigen::Index>(6 * blocks);
-  return {Eigen::MatrixXd::Zero(unknowns, unknowns), Eigen::VectorXd::Zero(unknowns), {}, {}, 0, 0};
+  return {.hessian = Eigen::MatrixXd::Zero(unknowns, unknowns),
+          .gradient = Eigen::VectorXd::Zero(unknowns),
+          .ways = Eigen::MatrixXd::Zero(unknowns, unknowns)};
 }
 
 /// Adds an equation in the poses of two views, given by their blocks of unknowns.
@@ -47,11 +57,12 @@ class FreePoseComparison {
       : bundle_(bundle),
         from_(from),
         gate_mm_(gate_mm),
-        world_from_(bundle.rig_from_world[from].inverse()) {}
+        world_from_(bundle.rig_from_world[from].inverse()),
+        moments_(bundle.pairs[from].size(), Eigen::Matrix4d::Zero()) {}
 
   /// Adds the pair of a surfel and paired view `index`, if the surfel lies on a surface that this
   /// view measured.
-  bool add_pair(FreePoseSums& sums, const SurfelMap::Surfel& surfel, std::size_t index) const {
+  bool add_pair(FreePoseSums& sums, const SurfelMap::Surfel& surfel, std::size_t index) {
     const std::size_t to = bundle_.pairs[from_][index];
     const Eigen::Isometry3d& rig_from_world = bundle_.rig_from_world[to];
     const Eigen::Vector3d point = world_from_ * surfel.point_mm.cast<double>();
@@ -67,21 +78,46 @@ class FreePoseComparison {
                             std::pow(static_cast<double>(target->sigma_mm), 2);
     const double weight = tukey_weight(distance, gate_mm_) / variance;
     const Eigen::Vector3d normal = rig_from_world.linear().transpose() * pair.normal;
-    const Eigen::Matrix<double, 6, 1> own =
-        point_to_plane_jacobian(normal, rig_from_world.inverse() * pair.middle);
+    const Eigen::Vector3d middle = rig_from_world.inverse() * pair.middle;
+    const Eigen::Matrix<double, 6, 1> own = point_to_plane_jacobian(normal, middle);
     Eigen::Matrix<double, 12, 1> row;
     row << own, -own;
     add_equation(sums, {0, index + 1}, row, weight, distance);
+    moments_[index] += weight * middle.homogeneous() * middle.homogeneous().transpose();
     sums.distances_mm.push_back(std::abs(distance));
     sums.over_sigma.push_back(static_cast<float>(std::abs(distance) / std::sqrt(variance)));
     return true;
   }
 
+  /// Adds the whole ways of the pairs so far.
+  void add_ways(FreePoseSums& sums) const {
+    for (std::size_t i = 0; i < moments_.size(); ++i) {
+      const Eigen::Matrix<double, 6, 6> way = squared_way(moments_[i]);
+      const auto to = static_cast<Eigen::Index>(6 * (i + 1));
+      sums.ways.block<6, 6>(0, 0) += way;
+      sums.ways.block<6, 6>(to, to) += way;
+      sums.ways.block<6, 6>(0, to) -= way;
+      sums.ways.block<6, 6>(to, 0) -= way;
+    }
+  }
+
  private:
+  /// Sum of w |way|^2 of points by a shift and a rotation about the origin, from the sum of w p p^T
+  /// of the points p in homogeneous coordinates.
+  static Eigen::Matrix<double, 6, 6> squared_way(const Eigen::Matrix4d& moments) {
+    const Eigen::Matrix3d cross = cross_matrix(moments.topRightCorner<3, 1>());
+    const Eigen::Matrix3d squares = moments.topLeftCorner<3, 3>();
+    Eigen::Matrix<double, 6, 6> way;
+    way << moments(3, 3) * Eigen::Matrix3d::Identity(), -cross, cross,
+        squares.trace() * Eigen::Matrix3d::Identity() - squares;
+    return way;
+  }
+
   const FreePoseBundle& bundle_;
   std::size_t from_;
   double gate_mm_;
   Eigen::Isometry3d world_from_;
+  std::vector<Eigen::Matrix4d> moments_;  ///< sum of w p p^T of the pairs, by paired view
 };
 
 /// Adds a view's normal equations to those of all views. The pose of view 0 is held.
@@ -97,8 +133,10 @@ void add_blocks(FreePoseSums& all,
     all.gradient.segment<6>(at) += part.gradient.segment<6>(own);
     for (std::size_t b = 0; b <= others.size(); ++b) {
       if (view_of(b) == 0) continue;
-      all.hessian.block<6, 6>(at, static_cast<Eigen::Index>(6 * (view_of(b) - 1))) +=
-          part.hessian.block<6, 6>(own, static_cast<Eigen::Index>(6 * b));
+      const auto to = static_cast<Eigen::Index>(6 * (view_of(b) - 1));
+      const auto other = static_cast<Eigen::Index>(6 * b);
+      all.hessian.block<6, 6>(at, to) += part.hessian.block<6, 6>(own, other);
+      all.ways.block<6, 6>(at, to) += part.ways.block<6, 6>(own, other);
     }
   }
 }
@@ -118,7 +156,7 @@ FreePoseSums sum_free_poses(const FreePoseBundle& bundle, double gate_mm) {
   parallel_chunks(views, 1, [&](std::size_t from, std::size_t /*end*/) {
     const std::size_t others = bundle.pairs[from].size();
     FreePoseSums& part = parts[from] = empty_sums(others + 1);
-    const FreePoseComparison comparison(bundle, from, gate_mm);
+    FreePoseComparison comparison(bundle, from, gate_mm);
     for (const SurfelMap::Surfel& surfel : bundle.surfels[from]) {
       bool matched = false;
       for (std::size_t i = 0; i < others; ++i)
@@ -126,6 +164,7 @@ FreePoseSums sum_free_poses(const FreePoseBundle& bundle, double gate_mm) {
       part.matched += matched ? 1U : 0U;
       ++part.surfels;
     }
+    comparison.add_ways(part);
   });
   FreePoseSums all = empty_sums(views - 1);
   for (std::size_t from = 0; from < views; ++from) {
@@ -179,65 +218,112 @@ Place place_of(const std::vector<SurfelMap::Surfel>& surfels, const Eigen::Isome
 /// Shift and rotation about the origin by a shift of the centre and a rotation about it, as the way
 /// (mm) at the arm.
 Eigen::Matrix<double, 6, 6> about_center(const Place& place) {
-  Eigen::Matrix3d cross;
-  const Eigen::Vector3d& c = place.center_mm;
-  cross << 0.0, -c.z(), c.y(), c.z(), 0.0, -c.x(), -c.y(), c.x(), 0.0;
   Eigen::Matrix<double, 6, 6> to = Eigen::Matrix<double, 6, 6>::Zero();
   to.topLeftCorner<3, 3>().setIdentity();
-  to.topRightCorner<3, 3>() = cross / place.arm_mm;
+  to.topRightCorner<3, 3>() = cross_matrix(place.center_mm) / place.arm_mm;
   to.bottomRightCorner<3, 3>() = Eigen::Matrix3d::Identity() / place.arm_mm;
   return to;
 }
 
-/// Takes from the information what noise of normals pretends of motions that leave the surface of a
-/// view where it is.
-void remove_open(Eigen::MatrixXd& information) {
-  const Eigen::MatrixXd all = information;
-  for (Eigen::Index at = 0; at < all.rows(); at += 6) {
-    const Eigen::Matrix<double, 6, 6> own = all.block<6, 6>(at, at);
-    const double weight = own.topLeftCorner<3, 3>().trace();  // normals are unit
-    if (!(weight > 0.0)) continue;
-    const auto eigen = symmetric_eigen(Eigen::MatrixXd(own / weight));
-    for (Eigen::Index i = 0; i < 6 && eigen.values[i] < kOpenMotion * kOpenMotion; ++i) {
-      Eigen::VectorXd open = Eigen::VectorXd::Zero(all.rows());
-      open.segment<6>(at) = eigen.vectors.col(i);
-      const Eigen::VectorXd along = product(information, open);
-      const double within = open.dot(along);
-      const Eigen::MatrixXd across = product_transposed(along, open);
-      information += within * product_transposed(open, open) - across - across.transpose();
-    }
-  }
+/// The places of the views 1, 2, ..., in `poses`.
+std::vector<Place> places_of(const FreePoseBundle& bundle,
+                             std::span<const Eigen::Isometry3d> poses) {
+  std::vector<Place> places;
+  for (std::size_t view = 1; view < poses.size(); ++view)
+    places.push_back(place_of(bundle.surfels[view], poses[view].inverse()));
+  return places;
 }
 
-}  // namespace
+Eigen::MatrixXd about_centers(const std::vector<Place>& places) {
+  const auto unknowns = static_cast<Eigen::Index>(6 * places.size());
+  Eigen::MatrixXd to = Eigen::MatrixXd::Zero(unknowns, unknowns);
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const auto at = static_cast<Eigen::Index>(6 * i);
+    to.block<6, 6>(at, at) = about_center(places[i]);
+  }
+  return to;
+}
 
-ViewMotions motions_of_free_poses(const FreePoseBundle& bundle,
-                                  const FreePoseSums& sums,
-                                  double prior_mm) {
-  // Neighbouring points of a scan have errors in common: the pairs of two views are at most as many
-  // independent ones as a view has patches of a twentieth of its side.
+/// Equations of the pairs about the centres of the views, without the motions that leave the
+/// surfaces where they are: of one view, or of several together. What moves surfaces along their
+/// normals by less than `kOpenMotion` of the way is noise of normals.
+RestedEquations without_open(const FreePoseSums& sums, Eigen::MatrixXd to) {
+  constexpr double kNothing = 1e-9;  // of the largest: a view without pairs moves freely
+  RestedEquations out;
+  out.hessian = congruence(to, sums.hessian);
+  out.hessian = 0.5 * (out.hessian + out.hessian.transpose()).eval();
+  out.gradient = transposed_product(to, sums.gradient);
+  out.to = std::move(to);
+  Eigen::MatrixXd ways = congruence(out.to, sums.ways);
+  const double most = ways.diagonal().maxCoeff();
+  if (!(most > 0.0)) return out;
+  ways.diagonal().array() += kNothing * most;
+  // In units in which each motion has a way of 1, the eigenvalues are the squared shares.
+  const Eigen::LLT<Eigen::MatrixXd> root(ways);
+  Eigen::MatrixXd shares = root.matrixL().solve(out.hessian);
+  shares = root.matrixL().solve(shares.transpose().eval());
+  const auto eigen = symmetric_eigen(Eigen::MatrixXd(0.5 * (shares + shares.transpose())));
+  Eigen::Index open = 0;
+  while (open < eigen.values.size() && eigen.values[open] < kOpenMotion * kOpenMotion)
+    ++open;
+  const Eigen::MatrixXd lower = root.matrixL();
+  const Eigen::MatrixXd motions = eigen.vectors.leftCols(open);
+  const Eigen::MatrixXd rows = product(lower, motions);
+  const Eigen::VectorXd steps = root.matrixL().solve(out.gradient);
+  out.gradient -= product(rows, transposed_product(motions, steps));
+  out.hessian -= product_transposed(
+      product(rows, Eigen::MatrixXd(eigen.values.head(open).asDiagonal())), rows);
+  return out;
+}
+
+/// The share of the pairs' information that counts: neighbouring points have errors in common, and
+/// distances may be larger than noise explains.
+double counted_share(const FreePoseBundle& bundle, const FreePoseSums& sums) {
+  // The pairs of two views are at most as many independent ones as a view has patches of a
+  // twentieth of its side.
   constexpr double kIndependent = 400.0;
-  const Eigen::Index unknowns = sums.gradient.size();
-  if (sums.over_sigma.empty() || !(prior_mm > 0.0)) return {};
   const double excess =
       std::max(1.0, static_cast<double>(median(sums.over_sigma)) / kMedianOfNormal);
   const double counted = std::min(1.0,
                                   kIndependent * static_cast<double>(count_pairs(bundle.pairs)) /
                                       static_cast<double>(sums.over_sigma.size()));
-  Eigen::MatrixXd to = Eigen::MatrixXd::Zero(unknowns, unknowns);
-  for (Eigen::Index at = 0; at < unknowns; at += 6) {
-    const auto view = static_cast<std::size_t>(at / 6 + 1);
-    to.block<6, 6>(at, at) =
-        about_center(place_of(bundle.surfels[view], bundle.rig_from_world[view].inverse()));
+  return counted / (excess * excess);
+}
+
+}  // namespace
+
+RestedEquations rest_on_given(const FreePoseBundle& bundle,
+                              const FreePoseSums& sums,
+                              std::span<const Eigen::Isometry3d> given,
+                              double prior_mm) {
+  const std::vector<Place> places = places_of(bundle, bundle.rig_from_world);
+  RestedEquations out = without_open(sums, about_centers(places));
+  if (sums.over_sigma.empty() || !(prior_mm > 0.0)) return out;
+  const double information = 1.0 / (prior_mm * prior_mm * counted_share(bundle, sums));
+  out.hessian.diagonal().array() += information;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const Eigen::Vector3d& center = places[i].center_mm;
+    const Eigen::Isometry3d moved = bundle.rig_from_world[i + 1].inverse() * given[i + 1];
+    const Eigen::AngleAxisd turn(moved.rotation());
+    Eigen::Matrix<double, 6, 1> off;
+    off << center - moved.inverse() * center, places[i].arm_mm * turn.angle() * turn.axis();
+    out.gradient.segment<6>(static_cast<Eigen::Index>(6 * i)) += information * off;
   }
-  Eigen::MatrixXd information = congruence(to, sums.hessian);
-  information = 0.5 * (information + information.transpose()).eval();
-  remove_open(information);
-  information *= counted / (excess * excess);
+  return out;
+}
+
+ViewMotions motions_of_free_poses(const FreePoseBundle& bundle,
+                                  const FreePoseSums& sums,
+                                  double prior_mm) {
+  const Eigen::Index unknowns = sums.gradient.size();
+  if (sums.over_sigma.empty() || !(prior_mm > 0.0)) return {};
+  const RestedEquations rested =
+      without_open(sums, about_centers(places_of(bundle, bundle.rig_from_world)));
+  Eigen::MatrixXd information = counted_share(bundle, sums) * rested.hessian;
   information.diagonal().array() += 1.0 / (prior_mm * prior_mm);
   const auto eigen = symmetric_eigen(information);
   const Eigen::MatrixXd factor =
-      product(to, eigen.vectors) *
+      product(rested.to, eigen.vectors) *
       eigen.values.array().max(1e-12 * eigen.values[unknowns - 1]).rsqrt().matrix().asDiagonal();
   ViewMotions motions(1, Eigen::Matrix<double, 6, Eigen::Dynamic>::Zero(6, unknowns));
   for (Eigen::Index at = 0; at < unknowns; at += 6) {

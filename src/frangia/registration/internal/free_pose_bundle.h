@@ -29,6 +29,9 @@ struct FreePoseBundle {
 struct FreePoseSums {
   Eigen::MatrixXd hessian;
   Eigen::VectorXd gradient;
+  /// As `hessian`, of the whole way by which a motion moves the points of the pairs against each
+  /// other, not only of that along the normals.
+  Eigen::MatrixXd ways;
   std::vector<double> distances_mm;  ///< absolute, of all pairs within the gate
   std::vector<float> over_sigma;     ///< the same over the standard deviations of the pairs
   std::size_t matched = 0;           ///< surfels that lie on a surface of another view
@@ -44,6 +47,25 @@ struct FreePoseSums {
 
 /// Moves the views 1, 2, ... in the world by a step in the unknowns.
 void apply_update(FreePoseBundle& bundle, const Eigen::VectorXd& step);
+
+/// The equations of all pairs and of the given poses, about the centres of the views.
+///
+/// @shape    unknowns: for each of views 1, 2, ... the shift of its centre and its rotation about
+///          it, as the way (mm) at its arm
+struct RestedEquations {
+  Eigen::MatrixXd to;  ///< unknowns of the bundle by those of this
+  Eigen::MatrixXd hessian;
+  Eigen::VectorXd gradient;
+};
+
+/// Takes from the equations the motions that leave the surfaces where they are, along which noise
+/// of normals would move the views, and adds the given poses, on which these motions then rest.
+///
+/// @units    `prior_mm`: standard deviation of the given poses, as the way of a view's points
+[[nodiscard]] RestedEquations rest_on_given(const FreePoseBundle& bundle,
+                                            const FreePoseSums& sums,
+                                            std::span<const Eigen::Isometry3d> given,
+                                            double prior_mm);
 
 /// How the poses of free views may be wrong by what their pairs leave open, in independent changes
 /// of one standard deviation.
