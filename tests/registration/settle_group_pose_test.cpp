@@ -81,6 +81,11 @@ TEST(SettleGroupPose, TurnsARoundPartUntilItsSlotFits) {
   }
 }
 
+TEST(SettleGroupPose, KeepsAPoseThatIsStatedFarBetterThanTheSlotIsAway) {
+  const SettledPose found = Sides(slotted).settled(-160.0, 0.5);
+  EXPECT_LT(found.moved_mm, 5.0);
+}
+
 TEST(SettleGroupPose, KeepsAPoseThatFits) {
   const SettledPose found = Sides(slotted).settled(0.0, 1e9);
   EXPECT_EQ(found.moved_mm, 0.0);

@@ -241,19 +241,28 @@ class PoseSettler {
     return moved;
   }
 
-  /// Moves to the pose on the way that contradicts least, if it does so decidedly less.
+  /// Natural logarithm of the odds of a pose over the present one, by what they contradict and by
+  /// how far they are from the start.
+  [[nodiscard]] double log_odds(const PoseOnWay& pose) const {
+    const auto prior = [&](const Eigen::Isometry3d& at) {
+      return -0.5 * std::pow(way_.way(at, start_) / options_.prior_mm, 2);
+    };
+    return log_odds_of(pose.count, count_) + prior(pose.pose) - prior(settled_.to_from);
+  }
+
+  /// Moves to the pose on the way that is the most probable one, if it is decidedly so.
   bool take_better(std::vector<PoseOnWay>& poses, const Vector6& motion) {
     constexpr std::size_t kTried = 3;
     std::vector<const PoseOnWay*> least;
     for (const PoseOnWay& pose : poses)
       least.push_back(&pose);
-    std::stable_sort(least.begin(), least.end(), [](const PoseOnWay* a, const PoseOnWay* b) {
-      return a->count.contradicting < b->count.contradicting;
+    std::stable_sort(least.begin(), least.end(), [&](const PoseOnWay* a, const PoseOnWay* b) {
+      return log_odds(*a) > log_odds(*b);
     });
     std::optional<PoseOnWay> best;
     const auto consider = [&](const Eigen::Isometry3d& pose, const PoseOnWay& near) {
       PoseOnWay one{pose, near.way_mm, near.share_mm, contradictions_.count(pose)};
-      if (!best || one.count.contradicting < best->count.contradicting) best = one;
+      if (!best || log_odds(one) > log_odds(*best)) best = one;
     };
     for (std::size_t i = 0; i < std::min(kTried, least.size()); ++i) {
       consider(least[i]->pose, *least[i]);
@@ -266,7 +275,7 @@ class PoseSettler {
         consider(way_.refined(at.motion(step) * least[i]->pose), *least[i]);
       }
     }
-    if (!best || log_odds_of(best->count, count_) < kDecided) return false;
+    if (!best || log_odds(*best) < kDecided) return false;
     const double shift_mm = best->way_mm;
     poses.push_back({settled_.to_from, 0.0, kStep * options_.spacing_mm, count_});
     for (PoseOnWay& pose : poses)

@@ -45,7 +45,8 @@ struct SettleOptions {
 /// Settles what the fit of two groups leaves open: along each motion that hardly changes their
 /// distances, such as the turn of a shaft about its axis, the group is moved all the way while the
 /// rest is fitted again, and the contradictions are counted. A pose elsewhere that contradicts
-/// less, at odds of 100 : 1, is taken; poses that contradict as little are `open`.
+/// less, at odds of 100 : 1 by that and by the prior, is taken; poses that are about as probable
+/// are `open`.
 ///
 /// @errors   Error(Input) without a spacing; Error(Cancelled)
 [[nodiscard]] SettledPose settle_group_pose(const ViewGroup& to,
