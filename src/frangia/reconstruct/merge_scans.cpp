@@ -1,6 +1,7 @@
 #include "frangia/reconstruct/merge_scans.h"
 
 #include <algorithm>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -26,10 +27,10 @@ struct ScanViews {
   ViewStore views;
 };
 
-/// Whether poses must be found by shape.
-bool poses_unknown(const ScanViews& all,
-                   const std::vector<SurfelMap>& maps,
-                   const MergeScansOptions& options) {
+/// Whether poses may be such that they must be found by shape.
+bool poses_in_doubt(const ScanViews& all,
+                    const std::vector<SurfelMap>& maps,
+                    const MergeScansOptions& options) {
   if (options.poses != ScanPoses::Auto) return options.poses == ScanPoses::Shape;
   const bool posed = std::any_of(
       all.scans.begin(), all.scans.end(), [](const RangeScan& scan) { return scan.posed; });
@@ -180,6 +181,66 @@ void name_unverified(MergedScans& out, const MergeFit& fit, const ScanViews& all
   }
 }
 
+std::vector<std::optional<Eigen::Isometry3d>> poses_of(const ViewStore& views) {
+  std::vector<std::optional<Eigen::Isometry3d>> poses;
+  for (std::size_t i = 0; i < views.size(); ++i)
+    poses.emplace_back(views.rig_from_object(i));
+  return poses;
+}
+
+/// What the surfaces say of the given poses, once these have been refined; the views keep them as
+/// they are given.
+PoseSupport support_of_given(ViewStore& views,
+                             const std::vector<SurfelMap>& maps,
+                             const CameraModel& camera,
+                             const RegisterPosesOptions& options) {
+  const auto given = poses_of(views);
+  static_cast<void>(register_poses(views, maps, camera, options));
+  const PoseSupport support = support_of_poses(poses_of(views), maps, camera);
+  for (std::size_t i = 0; i < views.size(); ++i)
+    views.set_rig_from_object(i, *given[i]);
+  return support;
+}
+
+/// Finds poses by shape. Given ones that are only in doubt stay unless the surfaces say far more
+/// for those that were found: a search has the choice among many, of which the best one of a part
+/// that nearly repeats itself fits well, too. A scan does not say where its sensor was, so points
+/// of right poses may seem to lie in front of its surface.
+std::optional<FoundPoses> find_poses(ScanViews& all,
+                                     std::vector<SurfelMap>& maps,
+                                     const MergeScansOptions& options,
+                                     const Run& run) {
+  if (options.poses == ScanPoses::Shape) {
+    FoundPoses found = find_view_poses(all.views, maps, all.model, all.names, run);
+    run.note(found.text());
+    return found;
+  }
+  constexpr double kFarMore = 2.0;
+  const PoseSupport given = support_of_given(all.views, maps, all.model, options.registration);
+  std::optional<ProposedPoses> proposed;
+  try {
+    proposed = propose_view_poses(all.views, maps, all.model, all.names, run);
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::Input || !(given.score() > 0.0)) throw;
+  }
+  const double score =
+      proposed ? support_of_poses(proposed->rig_from_object, maps, all.model).score() : 0.0;
+  if (!(score > kFarMore * std::max(0.0, given.score()))) {
+    run.note(fmt::format(
+        "{:.0f} % of the compared points lie in front of another scan where the given poses put "
+        "them, but no poses that are found by shape fit far better: the given ones are kept",
+        100.0 * given.contradiction()));
+    return std::nullopt;
+  }
+  run.note(fmt::format(
+      "{:.0f} % of the compared points lie in front of another scan where the given poses put "
+      "them: these are not used; {}",
+      100.0 * given.contradiction(),
+      proposed->found.text()));
+  take_view_poses(all.views, maps, *proposed, all.names, run);
+  return std::move(proposed->found);
+}
+
 /// Finds and refines poses as the options ask, and assesses them. Returns what they leave open.
 ViewMotions register_scans(MergedScans& out,
                            ScanViews& all,
@@ -193,11 +254,10 @@ ViewMotions register_scans(MergedScans& out,
   constexpr double kUnknown = 100.0;  // times the accuracy of a pose that was found: any pose
   auto maps = make_surfel_maps(all.views, all.model, kSurfelsPerView, run);
   RegisterPosesOptions registration = options.registration;
-  const bool find_poses = options.register_poses ? poses_unknown(all, maps, options)
-                                                 : options.poses == ScanPoses::Shape;
-  if (find_poses) {
-    out.found_poses = find_view_poses(all.views, maps, all.model, all.names, run);
-    run.note(out.found_poses->text());
+  const bool in_doubt = options.register_poses ? poses_in_doubt(all, maps, options)
+                                               : options.poses == ScanPoses::Shape;
+  if (in_doubt) out.found_poses = find_poses(all, maps, options, run);
+  if (out.found_poses) {
     registration.reach_mm = out.found_poses->accuracy_mm;
     registration.prior_mm = kUnknown * out.found_poses->accuracy_mm;
     for (const std::size_t scan : out.found_poses->left_out)

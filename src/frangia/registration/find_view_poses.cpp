@@ -1,6 +1,7 @@
 #include "frangia/registration/find_view_poses.h"
 
 #include <algorithm>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -54,11 +55,11 @@ std::string FoundPoses::text() const {
       100.0 * least_overlap);
 }
 
-FoundPoses find_view_poses(ViewStore& views,
-                           std::vector<SurfelMap>& maps,
-                           const CameraModel& camera,
-                           std::span<const std::string> names,
-                           const Run& run) {
+ProposedPoses propose_view_poses(const ViewStore& views,
+                                 std::span<const SurfelMap> maps,
+                                 const CameraModel& camera,
+                                 std::span<const std::string> names,
+                                 const Run& run) {
   require(maps.size() == views.size() && names.size() == views.size(),
           "find_view_poses: each view needs its map and its name");
   Members members;
@@ -74,24 +75,83 @@ FoundPoses find_view_poses(ViewStore& views,
                 "no two scans fit together in exactly one pose: they overlap too little, or look "
                 "alike from several sides; add scans between them, or give poses in a .conf");
   }
-  FoundPoses out;
-  out.reference = joined.reference;
-  out.accuracy_mm = spacing_mm;
-  out.least_overlap = 1.0;
+  ProposedPoses out;
+  out.found.reference = joined.reference;
+  out.found.accuracy_mm = spacing_mm;
+  out.found.least_overlap = 1.0;
   for (const GroupJoin& group_join : joined.joins)
-    out.least_overlap = std::min(out.least_overlap, group_join.fit.overlap);
-  const Eigen::Isometry3d held = views.rig_from_object(out.reference);
+    out.found.least_overlap = std::min(out.found.least_overlap, group_join.fit.overlap);
+  const Eigen::Isometry3d held = views.rig_from_object(joined.reference);
+  out.rig_from_object.resize(views.size());
+  out.reasons.resize(views.size());
   for (std::size_t i = 0; i < views.size(); ++i) {
     if (const auto& pose = joined.reference_from_group[i]) {
-      views.set_rig_from_object(i, pose->inverse() * held);
-      ++out.found;
+      out.rig_from_object[i] = pose->inverse() * held;
+      ++out.found.found;
     } else {
-      run.warn(fmt::format("{}: {}; it is left out", names[i], reason(joined, i, names)));
-      leave_out(i, views, maps);
-      out.left_out.push_back(i);
+      out.reasons[i] = reason(joined, i, names);
+      out.found.left_out.push_back(i);
     }
   }
   return out;
+}
+
+void take_view_poses(ViewStore& views,
+                     std::vector<SurfelMap>& maps,
+                     const ProposedPoses& proposed,
+                     std::span<const std::string> names,
+                     const Run& run) {
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    if (const auto& pose = proposed.rig_from_object[i]) {
+      views.set_rig_from_object(i, *pose);
+    } else {
+      run.warn(fmt::format("{}: {}; it is left out", names[i], proposed.reasons[i]));
+      leave_out(i, views, maps);
+    }
+  }
+}
+
+FoundPoses find_view_poses(ViewStore& views,
+                           std::vector<SurfelMap>& maps,
+                           const CameraModel& camera,
+                           std::span<const std::string> names,
+                           const Run& run) {
+  ProposedPoses proposed = propose_view_poses(views, maps, camera, names, run);
+  take_view_poses(views, maps, proposed, names, run);
+  return std::move(proposed.found);
+}
+
+double PoseSupport::score() const {
+  constexpr double kViolationWeight = 3.0;  // as in the search
+  return static_cast<double>(agree) - kViolationWeight * static_cast<double>(violations);
+}
+
+double PoseSupport::contradiction() const {
+  return static_cast<double>(violations) /
+         static_cast<double>(std::max<std::size_t>(1, agree + violations));
+}
+
+PoseSupport support_of_poses(std::span<const std::optional<Eigen::Isometry3d>> rig_from_object,
+                             std::span<const SurfelMap> maps,
+                             const CameraModel& camera) {
+  constexpr double kGate = 0.3;  // spacings, as in the search
+  Members members;
+  for (std::size_t i = 0; i < maps.size(); ++i)
+    members.push_back({{i, rig_from_object[i].value_or(Eigen::Isometry3d::Identity())}});
+  const double spacing_mm = spacing_for(members, maps);
+  const auto groups = groups_of(members, maps, spacing_mm);
+  const FastCameraModel model(camera);
+  PoseSupport support;
+  for (std::size_t a = 0; a < groups.size(); ++a) {
+    for (std::size_t b = a + 1; b < groups.size(); ++b) {
+      if (!rig_from_object[a] || !rig_from_object[b]) continue;
+      const GroupFit fit = compare_groups(
+          groups[a], groups[b], Eigen::Isometry3d::Identity(), {maps, model}, kGate * spacing_mm);
+      support.agree += fit.agree;
+      support.violations += fit.violations;
+    }
+  }
+  return support;
 }
 
 bool are_poses_plausible(const ViewStore& views,
