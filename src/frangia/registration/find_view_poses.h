@@ -29,7 +29,7 @@ struct FoundPoses {
 
 /// Poses of views that were found from their shape, which the views do not have yet.
 struct ProposedPoses {
-  FoundPoses found;
+  FoundPoses found;  ///< how many, and how sure
   /// By view, in the frame of the reference's present pose.
   /// @missing  none for a view that is left out
   std::vector<std::optional<Eigen::Isometry3d>> rig_from_object;
