@@ -66,18 +66,15 @@ TEST(ConfusedCauses, FlickerThatTheRoomDoesNotShareIsNoFault) {
       1.009, 0.974, 0.992, 0.976, 1.066, 0.994, 0.967, 1.021, 0.985, 1.03, 1.012, 0.973};
   for (const int steps : {5, 6, 8, 12}) {
     for (const double gamma : {1.0, 1.6, 2.2}) {
-      for (const double ambient : {4.0, 10.0, 40.0}) {
-        for (const unsigned seed : {1U, 2U}) {
-          const RenderedScene scene{.ambient = 0.0, .light = 150.0, .gamma = gamma, .seed = seed};
-          RenderedFrames frames(scene, steps);
-          for (std::size_t k = 0; k < frames.frames.size(); ++k)
-            for (double& light : frames.frames[k])
-              light = ambient + kGains.at(k) * light;
-          const FrameExplanation found = explain_frames(frames.stack(), frames.noise());
-          EXPECT_FALSE(found.has_fault())
-              << steps << " steps, gamma " << gamma << ", " << ambient << " counts, seed " << seed
-              << ": " << describe(found.explanation);
-        }
+      for (const double ambient : {10.0, 40.0}) {
+        const RenderedScene scene{.ambient = 0.0, .light = 150.0, .gamma = gamma};
+        RenderedFrames frames(scene, steps);
+        for (std::size_t k = 0; k < frames.frames.size(); ++k)
+          for (double& light : frames.frames[k])
+            light = ambient + kGains.at(k) * light;
+        const FrameExplanation found = explain_frames(frames.stack(), frames.noise());
+        EXPECT_FALSE(found.has_fault()) << steps << " steps, gamma " << gamma << ", " << ambient
+                                        << " counts: " << describe(found.explanation);
       }
     }
   }
