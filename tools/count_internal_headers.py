@@ -7,7 +7,7 @@ import pathlib
 import re
 import sys
 
-MOST = 47
+MOST = 46
 
 
 def main(root, *options):

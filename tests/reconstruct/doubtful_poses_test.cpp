@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <random>
 #include <string>
@@ -8,9 +9,11 @@
 
 #include <gtest/gtest.h>
 
+#include "frangia/core/angles.h"
 #include "frangia/geometry/ray_scene.h"
 #include "frangia/reconstruct/merge_scans.h"
 
+#include "support/grid_of_points.h"
 #include "support/test_meshes.h"
 
 namespace frangia {
@@ -63,25 +66,11 @@ RangeScan scan_of(const RayScene& part, double turn_rad, unsigned seed) {
     far[pixel] = hit->distance;
     scan.mesh.vertices_mm.emplace_back((at + noise(random) * away).cast<float>());
   }
-  const auto add = [&](int i, int j, int k) {
-    const std::array<std::size_t, 3> pixels{
-        static_cast<std::size_t>(i), static_cast<std::size_t>(j), static_cast<std::size_t>(k)};
-    double nearest = 1e9;
-    double farthest = 0.0;
-    Mesh::Triangle corners{};
-    for (std::size_t c = 0; c < 3; ++c) {
-      if (number[pixels.at(c)] < 0) return;
-      corners.at(c) = static_cast<std::uint32_t>(number[pixels.at(c)]);
-      nearest = std::min(nearest, far[pixels.at(c)]);
-      farthest = std::max(farthest, far[pixels.at(c)]);
-    }
-    if (farthest - nearest < 6.0 * kStep_mm) scan.mesh.triangles.push_back(corners);
+  const auto fits = [&](const std::array<std::size_t, 3>& places) {
+    const auto [near, away_most] = std::minmax({far[places[0]], far[places[1]], far[places[2]]});
+    return away_most - near < 6.0 * kStep_mm;
   };
-  for (int i = 0; i + kSide + 1 < kSide * kSide; ++i) {
-    if (i % kSide + 1 == kSide) continue;
-    add(i, i + 1, i + kSide + 1);
-    add(i, i + kSide + 1, i + kSide);
-  }
+  testing::join_grid(number, kSide, fits, scan.mesh);
   return scan;
 }
 
@@ -89,7 +78,7 @@ TEST(DoubtfulPoses, AreKeptUnlessOthersFitFarBetter) {
   const RayScene part(balls());
   std::vector<RangeScan> scans;
   for (unsigned i = 0; i < 8; ++i)
-    scans.push_back(scan_of(part, i * M_PI / 4.0, i + 1));
+    scans.push_back(scan_of(part, i * kPi / 4.0, i + 1));
   std::string notes;
   frangia::Run run;
   run.on_note = [&](const std::string& sentence) { notes += sentence + "\n"; };

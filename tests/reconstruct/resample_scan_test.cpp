@@ -3,11 +3,17 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <random>
 #include <vector>
 
 #include <gtest/gtest.h>
+
+#include "frangia/core/missing.h"
+#include "frangia/reconstruct/internal/splat_points.h"
+
+#include "support/grid_of_points.h"
 
 namespace frangia {
 namespace {
@@ -57,20 +63,8 @@ RangeScan ball_scan(double radius_mm, double step_mm) {
             Eigen::Vector3d(at.x(), at.y(), std::sqrt(height)).cast<float>());
     }
   }
-  const auto add = [&](int a, int b, int c) {
-    std::array<std::int64_t, 3> corners{number[static_cast<std::size_t>(a)],
-                                        number[static_cast<std::size_t>(b)],
-                                        number[static_cast<std::size_t>(c)]};
-    if (std::min({corners[0], corners[1], corners[2]}) < 0) return;
-    scan.mesh.triangles.push_back({static_cast<std::uint32_t>(corners[0]),
-                                   static_cast<std::uint32_t>(corners[1]),
-                                   static_cast<std::uint32_t>(corners[2])});
-  };
-  for (int i = 0; i + side + 1 < side * side; ++i) {
-    if (i % side + 1 == side) continue;
-    add(i, i + 1, i + side + 1);
-    add(i, i + side + 1, i + side);
-  }
+  const auto fits = [](const std::array<std::size_t, 3>&) { return true; };
+  testing::join_grid(number, side, fits, scan.mesh);
   return scan;
 }
 
@@ -119,6 +113,25 @@ TEST(ResampleScan, PutsPointsWithoutTrianglesWhereTheirMeanIs) {
   const auto count = static_cast<double>(points.size());
   EXPECT_NEAR(sum / count, 0.0, 0.01);  // the nearest in each pixel: 0.16
   EXPECT_LT(std::sqrt(squares / count), kNoise_mm);
+}
+
+TEST(SplatPoints, LeavesOutWhatLiesBehindTheFrontSurface) {
+  constexpr double kBehind_mm = 30.0;
+  RangeScan scan;
+  for (const double z : {0.0, -kBehind_mm})
+    for (int i = 0; i < 60 * 60; ++i)
+      scan.mesh.vertices_mm.emplace_back(
+          Eigen::Vector3d(0.4 * (i % 60), 0.4 * (i / 60), z).cast<float>());
+  const OneScan one(scan);
+  const VirtualCamera& camera = one.cameras.front();
+  Image<float> depth_mm(one.model.width_px, one.model.height_px, kMissing);
+  Image<PixelColor> no_colors;
+  splat_points(scan.mesh, camera, one.model, depth_mm, no_colors);
+  const double front_mm = (camera.rig_from_scan * Eigen::Vector3d(12.0, 12.0, 0.0)).z();
+  const auto near = std::count_if(depth_mm.pixels().begin(), depth_mm.pixels().end(), [&](float z) {
+    return std::abs(static_cast<double>(z) - front_mm) < 0.1;
+  });
+  EXPECT_GT(near, 300);
 }
 
 }  // namespace

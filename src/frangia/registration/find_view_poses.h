@@ -80,7 +80,7 @@ struct PoseSupport {
 
 /// Compares all views in poses that have been refined.
 ///
-/// @shape    `poses`, `maps`: one a view
+/// @shape    `rig_from_object`, `maps`: one a view
 /// @missing  a view without a pose is not compared
 [[nodiscard]] PoseSupport support_of_poses(
     std::span<const std::optional<Eigen::Isometry3d>> rig_from_object,

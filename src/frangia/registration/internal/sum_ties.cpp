@@ -33,8 +33,19 @@ double TieSums::excess() const {
   return freedom > 0.0 ? std::max(1.0, std::sqrt(chi_squared / freedom)) : 1.0;
 }
 
+TieResidual tie_residual(const Eigen::Vector3d& away_mm,
+                         const Eigen::Matrix3d& covariance_mm2,
+                         double share) {
+  const SymmetricEigen<3> own = symmetric_eigen(covariance_mm2);
+  TieResidual out{own.vectors, own.vectors.transpose() * away_mm, {}};
+  out.chi = std::sqrt(out.away_mm.cwiseAbs2().cwiseQuotient(own.values).sum());
+  const double weight = share * TieResidual::kSigmas / std::max(out.chi, TieResidual::kSigmas);
+  out.information = weight * own.values.cwiseInverse();
+  return out;
+}
+
 TieSums sum_ties(std::span<const PointTie> ties, const TableState& state) {
-  constexpr double kSigmas = 4.0;
+  constexpr double kSigmas = TieResidual::kSigmas;
   TieSums sums{Eigen::MatrixXd::Zero(state.unknowns(), state.unknowns()),
                Eigen::VectorXd::Zero(state.unknowns())};
   for (const PointTie& tie : ties) {
@@ -42,19 +53,16 @@ TieSums sum_ties(std::span<const PointTie> ties, const TableState& state) {
     const Eigen::Matrix3d covariance =
         transfer.rotation() * tie.from_covariance_mm2 * transfer.rotation().transpose() +
         tie.to_covariance_mm2;
-    const SymmetricEigen<3> own = symmetric_eigen(covariance);
-    const Eigen::Vector3d away =
-        own.vectors.transpose() * (transfer.apply(tie.from_mm) - tie.to_mm);
-    const double chi = std::sqrt(away.cwiseAbs2().cwiseQuotient(own.values).sum());
-    const double weight = chi > kSigmas ? kSigmas / chi : 1.0;
+    const TieResidual tied =
+        tie_residual(transfer.apply(tie.from_mm) - tie.to_mm, covariance, tie.share);
+    const double chi = tied.chi;
     sums.chi_squared += tie.share * (chi > kSigmas ? kSigmas * (2.0 * chi - kSigmas) : chi * chi);
     sums.freedom += 3.0 * tie.share;
     for (Eigen::Index i = 0; i < 3; ++i) {
       const Eigen::VectorXd row =
-          row_of(transfer.jacobian(own.vectors.col(i), tie.from_mm), state, tie.from, tie.to);
-      const double information = tie.share * weight / own.values[i];
-      sums.gradient += information * away[i] * row;
-      sums.hessian += information * row * row.transpose();
+          row_of(transfer.jacobian(tied.axes.col(i), tie.from_mm), state, tie.from, tie.to);
+      sums.gradient += tied.information[i] * tied.away_mm[i] * row;
+      sums.hessian += tied.information[i] * row * row.transpose();
     }
   }
   return sums;

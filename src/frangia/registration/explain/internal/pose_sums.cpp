@@ -6,6 +6,7 @@
 
 #include "frangia/core/parallel.h"
 #include "frangia/geometry/robust_gauss_newton.h"
+#include "frangia/registration/internal/sum_ties.h"
 #include "frangia/registration/internal/surfel_pair.h"
 
 namespace frangia {
@@ -307,7 +308,6 @@ PoseSums sum_poses(const Bundle& bundle, const SurfelLists& surfels, const Posed
 }
 
 NormalEquations sum_pose_ties(const Bundle& bundle, const PosedViews& views) {
-  constexpr double kSigmas = 4.0;
   const EquationsOfViews of_views(bundle.maps.size(), views.rig);
   const Eigen::Index unknowns = of_views.unknowns();
   NormalEquations all{Eigen::MatrixXd::Zero(unknowns, unknowns), Eigen::VectorXd::Zero(unknowns)};
@@ -329,18 +329,15 @@ NormalEquations sum_pose_ties(const Bundle& bundle, const PosedViews& views) {
     const Eigen::Matrix3d covariance =
         from.linear() * tie.from_covariance_mm2 * from.linear().transpose() +
         to.linear() * tie.to_covariance_mm2 * to.linear().transpose();
-    const SymmetricEigen<3> own = symmetric_eigen(covariance);
-    const Eigen::Vector3d away = own.vectors.transpose() * (from * tie.from_mm - to * tie.to_mm);
-    const double chi = std::sqrt(away.cwiseAbs2().cwiseQuotient(own.values).sum());
-    const double weight = tie.share * std::min(1.0, kSigmas / std::max(chi, kSigmas));
+    const TieResidual tied =
+        tie_residual(from * tie.from_mm - to * tie.to_mm, covariance, tie.share);
     NormalEquations part{Eigen::MatrixXd::Zero(2 * size, 2 * size),
                          Eigen::VectorXd::Zero(2 * size)};
     for (Eigen::Index i = 0; i < 3; ++i) {
       Eigen::VectorXd row(2 * size);
-      row << row_of(from, tie.from_mm, own.vectors.col(i)),
-          -row_of(to, tie.to_mm, own.vectors.col(i));
-      part.hessian += weight / own.values[i] * row * row.transpose();
-      part.gradient += weight / own.values[i] * away[i] * row;
+      row << row_of(from, tie.from_mm, tied.axes.col(i)), -row_of(to, tie.to_mm, tied.axes.col(i));
+      part.hessian += tied.information[i] * row * row.transpose();
+      part.gradient += tied.information[i] * tied.away_mm[i] * row;
     }
     of_views.add(all, part, tie.from, {tie.to});
   }

@@ -80,8 +80,7 @@ struct PoseSums {
                                  const PosedViews& views);
 
 /// Compares the points of the ties of the bundle, in the unknowns of `PoseSums`. Unlike pairs of
-/// surfels, of which many share an error, they are independent: their weights are those of their
-/// covariances, less where they disagree by more than four standard deviations.
+/// surfels, of which many share an error, they are independent, and weighted as `sum_ties` does.
 [[nodiscard]] NormalEquations sum_pose_ties(const Bundle& bundle, const PosedViews& views);
 
 }  // namespace frangia

@@ -50,7 +50,9 @@ struct PoseRound {
   }
   /// Root mean square over the pairs of what a difference of motions changes.
   [[nodiscard]] double effect_mm(const Eigen::VectorXd& difference) const {
-    const double squares = difference.dot(sums.all().hessian * difference);
+    double squares = 0.0;
+    for (const NormalEquations& half : sums.halves)
+      squares += difference.dot(half.hessian * difference);
     return std::sqrt(std::max(0.0, squares / sums.weight));
   }
   /// Root mean square over the surfaces of the views of what a difference of motions changes, but
