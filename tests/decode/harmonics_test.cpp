@@ -1,5 +1,6 @@
 // The systematic part of the phase's uncertainty on its way through decode_view.
 #include <cmath>
+#include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -17,10 +18,11 @@ struct DecodedPlate {
   Image<Eigen::Vector2f> rays = rays_of(rig.reference().model);
   std::vector<FrameStack> stacks;
 
-  DecodedPlate(const PatternPlan& plan, double gamma) {
+  DecodedPlate(const PatternPlan& plan, double gamma, double flicker = 0.0) {
     const SimulatedView view{0, 0.1};
     SimulateOptions options;
     options.display_gamma = gamma;
+    options.flicker = flicker;
     stacks = render_view(make_simulated_scene(make_part("plate"), rig, {&view, 1}, options),
                          default_patterns(rig, plan),
                          view);
@@ -73,6 +75,19 @@ TEST(DecodeView, HasNoSystematicPartForALinearProjectorOrAfterTheCorrection) {
   EXPECT_NE(describe_corrections(corrected.assessments).find("the response of the projector"),
             std::string::npos);
   EXPECT_EQ(describe_corrections(DecodedPlate(plan, 1.0).decode({}).assessments), "");
+}
+
+TEST(DecodeView, SaysThatFlickerOfMergedExposuresIsCounted) {
+  PatternPlan plan{.periods_px = {1280.0, 160.0, 20.0}, .shifts = 6};
+  const DecodedDirection one = DecodedPlate(plan, 1.0, 0.03).decode({});
+  plan.exposures_ms = {8.0, 4.0};
+  const DecodedDirection two = DecodedPlate(plan, 1.0, 0.03).decode({});
+  EXPECT_GT(one.assessments.back().flicker, 0.01) << "is compensated";
+  const FrameAssessment& merged = two.assessments.back();
+  EXPECT_EQ(merged.flicker, 0.0) << "the weights of the exposures compensate nothing";
+  EXPECT_GT(merged.flicker_error_rad, 0.005);
+  for (const std::string& finding : findings(merged))
+    EXPECT_EQ(finding.find("compensated"), std::string::npos) << finding;
 }
 
 }  // namespace

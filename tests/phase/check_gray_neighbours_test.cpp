@@ -66,6 +66,45 @@ TEST(CheckGrayNeighbours, BlamesNoSoundCode) {
   }
 }
 
+/// A code of 9 bits whose stripes of one column are narrower than the pixels, with its inverses.
+FrameStack narrow_stripes(double columns_per_px, bool exchanged = false) {
+  constexpr int kBits = 9;
+  FrameStack stack;
+  stack.pattern = {.name = "gray", .kind = PatternKind::Gray, .bits = kBits, .stripe_px = 1.0};
+  std::mt19937 generator(6);
+  std::normal_distribution<double> noise(0.0, 1.5);
+  for (int bit = 0; bit < kBits; ++bit) {
+    Image<std::uint8_t> image(200, 100);
+    for (int y = 0; y < image.height(); ++y) {
+      for (int x = 0; x < image.width(); ++x) {
+        double light = 0.0;
+        constexpr int kSamples = 20;
+        for (int i = 0; i < kSamples; ++i) {
+          const double place = x + (i + 0.5) / kSamples;
+          const auto number =
+              static_cast<unsigned>(20.0 + columns_per_px * place + 6.0 * std::sin(0.05 * y));
+          const unsigned code = number ^ (number / 2);
+          if ((code >> static_cast<unsigned>(kBits - 1 - bit)) % 2 == 1) light += 1.0 / kSamples;
+        }
+        image(x, y) =
+            static_cast<std::uint8_t>(std::lround(20.0 + 160.0 * light + noise(generator)));
+      }
+    }
+    stack.frames.emplace_back(std::move(image));
+  }
+  if (exchanged) std::swap(stack.frames[1], stack.frames[4]);
+  return stack;
+}
+
+TEST(CheckGrayNeighbours, BlamesNoCodeWhoseStripesAreAsNarrowAsPixels) {
+  for (const double columns_per_px : {0.7, 1.0, 1.3, 1.6, 2.2}) {
+    const SequenceCheck found = check_gray_neighbours(narrow_stripes(columns_per_px));
+    EXPECT_TRUE(found.consistent) << columns_per_px << ' ' << describe(found);
+    const SequenceCheck wrong = check_gray_neighbours(narrow_stripes(columns_per_px, true));
+    EXPECT_FALSE(wrong.consistent) << columns_per_px;
+  }
+}
+
 TEST(CheckGrayNeighbours, NamesTheOtherCode) {
   for (const bool with_inverses : {false, true}) {
     FrameStack stack = neighbour_frames(true, with_inverses);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -35,7 +36,10 @@ Pattern code_of(double stripe_px, InvertedFrames inverted = InvertedFrames::Afte
 using Columns = std::function<double(double across, double along)>;
 
 /// Frames of a camera whose pixels integrate over their width; `blur_px` widens them.
-FrameStack frames_of(const Pattern& code, const Columns& columns, double blur_px = 1.0) {
+FrameStack frames_of(const Pattern& code,
+                     const Columns& columns,
+                     double blur_px = 1.0,
+                     double noise_counts = kNoise) {
   constexpr int kSamples = 60;
   const bool rows = code.direction == FringeDirection::Horizontal;
   FrameStack stack{code, {}, 255};
@@ -51,7 +55,7 @@ FrameStack frames_of(const Pattern& code, const Columns& columns, double blur_px
         const auto stream = hash(
             hash(hash(11, static_cast<std::uint64_t>(frame)), static_cast<std::uint64_t>(along)),
             static_cast<std::uint64_t>(across));
-        const double counts = 20.0 + 160.0 * light + kNoise * normal_from(stream);
+        const double counts = 20.0 + 160.0 * light + noise_counts * normal_from(stream);
         image(rows ? along : across, rows ? across : along) =
             static_cast<std::uint8_t>(std::lround(counts));
       }
@@ -101,8 +105,11 @@ Columns surface(double columns_per_px) {
   };
 }
 
-Scatter decoded(const Pattern& code, const Columns& columns, double blur_px = 1.0) {
-  const FrameStack stack = frames_of(code, columns, blur_px);
+Scatter decoded(const Pattern& code,
+                const Columns& columns,
+                double blur_px = 1.0,
+                double noise_counts = kNoise) {
+  const FrameStack stack = frames_of(code, columns, blur_px, noise_counts);
   Image<float> threshold;
   if (code.inverted == InvertedFrames::None) threshold = gray_threshold(stack, nullptr, nullptr);
   return scatter_of(decode_gray_alone(std::span(&stack, 1), threshold, estimate_gray_noise(stack)),
@@ -185,8 +192,23 @@ TEST(DecodeGrayAlone, LeavesOutBitsThatTheCameraDoesNotResolve) {
   const Scatter scatter = decoded(code_of(1.0), surface(3.4));
   EXPECT_GT(scatter.share, 0.95);
   EXPECT_LT(scatter.rms_px, 2.0);
-  EXPECT_GT(scatter.over_sigma, 0.5);
+  EXPECT_GT(scatter.over_sigma, 0.25);  // as that of other pixels that integrate exactly
   EXPECT_LT(scatter.over_sigma, 1.5);
+}
+
+TEST(DecodeGrayAlone, LeavesOutBitsWhoseStripesAreAsNarrowAsPixels) {
+  for (const double columns_per_px : {0.7, 0.9, 1.1, 1.3, 1.6, 2.1}) {
+    // Pixels that see a point, and such that integrate.
+    for (const auto& [blur_px, noise] : {std::pair{0.0, 0.0}, {0.02, kNoise}, {1.0, kNoise}}) {
+      const Scatter scatter = decoded(code_of(1.0), surface(columns_per_px), blur_px, noise);
+      SCOPED_TRACE(::testing::Message() << columns_per_px << ' ' << blur_px << ' ' << noise << ": "
+                                        << scatter.rms_px << " px, " << scatter.over_sigma);
+      EXPECT_GT(scatter.share, 0.95);
+      EXPECT_LT(scatter.rms_px, (blur_px < 1.0 ? 0.3 : 0.05) * columns_per_px);
+      EXPECT_GT(scatter.over_sigma, 0.25);
+      EXPECT_LT(scatter.over_sigma, 1.5);
+    }
+  }
 }
 
 TEST(DecodeGrayAlone, EstimatesTheNoiseOfTheFrames) {

@@ -10,6 +10,7 @@
 #include "frangia/core/angles.h"
 #include "frangia/geometry/ray_scene.h"
 #include "frangia/inspect/surface_error.h"
+#include "frangia/reconstruct/internal/trust.h"
 #include "frangia/reconstruct/reconstruct.h"
 #include "frangia/rig/read_rig.h"
 #include "frangia/rig/rig.h"
@@ -44,6 +45,38 @@ TEST(Reconstruct, MarksAMeshOfViewsThatContradictEachOther) {
                           [](float sigma) { return std::isnan(sigma); }));
   for (const std::string& note : notes)
     EXPECT_EQ(note.find("views agree"), std::string::npos) << note;
+}
+
+TEST(Reconstruct, BlamesNoPartForViewsWhoseFringesNothingNumbers) {
+  const TemporaryFolder folder;
+  Scan plan;
+  plan.folder = folder.path();
+  plan.name = "bust";
+  plan.rig = testing::small_rig("digital", 3);
+  plan.patterns = {default_patterns(plan.rig).back()};  // the finest fringes alone
+  for (int i = 0; i < 6; ++i)
+    plan.views.push_back({kTwoPi * i / 6, "views/" + std::to_string(i)});
+  const Scan scan = simulate_scan(make_part("bust"), plan, {.samples_per_px = 1});
+  std::string warnings;
+  frangia::Run run;
+  run.on_warning = [&](const std::string& sentence) { warnings += sentence + "\n"; };
+  const Reconstruction result = reconstruct(scan, {}, run);
+  EXPECT_NE(result.untrusted_reason.find("do not tell which fringe is which"), std::string::npos)
+      << result.untrusted_reason;
+  EXPECT_EQ(warnings.find("elsewhere"), std::string::npos) << warnings;
+  EXPECT_EQ(warnings.find("moved"), std::string::npos) << warnings;
+  EXPECT_EQ(warnings.find("slid"), std::string::npos) << warnings;
+  ASSERT_TRUE(result.registration);
+  EXPECT_EQ(result.registration->explanation.best, PoseCause::AsStated);
+}
+
+TEST(UntrustedReason, OfDistancesThatAreRelativeComesBeforeThatOfThePoses) {
+  Reconstruction result;
+  EXPECT_EQ(untrusted_reason_of(result, false), "");
+  result.registration = RegistrationReport{};
+  result.registration->trustworthy = false;
+  EXPECT_NE(untrusted_reason_of(result, false).find("the part moved"), std::string::npos);
+  EXPECT_EQ(untrusted_reason_of(result, true).find("the part moved"), std::string::npos);
 }
 
 TEST(Reconstruct, NamesTwoViewsThatHoldTheSameFrames) {

@@ -1,7 +1,11 @@
 #include "frangia/decode/decode_view.h"
 
 #include <algorithm>
+#include <cstddef>
+#include <string>
+#include <variant>
 
+#include "frangia/core/held_messages.h"
 #include "frangia/decode/explain/explain_lag.h"
 #include "frangia/decode/internal/decode_direction.h"
 #include "frangia/decode/select_stacks.h"
@@ -99,6 +103,18 @@ DecodedView decode_out_of_step(std::span<const FrameStack> stacks,
   return out;
 }
 
+/// Whether a direction whose orders a Gray code gives is not as scan.toml says.
+bool contradicts_its_code(const DecodedView& view, const DecodePlan& plan) {
+  for (std::size_t i = 0; i < view.directions.size(); ++i) {
+    const DecodedDirection& direction = view.directions[i];
+    if (!std::holds_alternative<FromGrayCode>(plan.directions[i].orders)) continue;
+    const bool is_sound =
+        direction.check && direction.check->consistent && direction.check->finding.empty();
+    if (leaves_out_view(direction.frames) || !is_sound) return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 DecodedView decode_view(std::span<const FrameStack> stacks,
@@ -112,7 +128,15 @@ DecodedView decode_view(std::span<const FrameStack> stacks,
     if (const std::optional<FrameLag> lag = explain_lag(stacks))
       return decode_out_of_step(stacks, *lag, input, run);
   }
-  return decode_directions(stacks, input, run);
+  HeldMessages held;  // of frames that turn out to be late, they would be consequences
+  DecodedView out = held.during(
+      run, [&](const Run& attempt) { return decode_directions(stacks, input, attempt); });
+  if (!options.accept_inconsistent && contradicts_its_code(out, plan)) {
+    if (const std::optional<FrameLag> lag = explain_lag_by_code(stacks))
+      return decode_out_of_step(stacks, *lag, input, run);
+  }
+  held.pass_on(run);
+  return out;
 }
 
 DecodedView decode_view(std::span<const FrameStack> stacks,

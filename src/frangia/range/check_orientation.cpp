@@ -42,11 +42,11 @@ std::string what_fits(bool is_exchanged, FringeDirection direction) {
   }
   return vertical
              ? "the phase of the vertical fringes falls where the rig makes it rise: shifts in "
-               "the opposite direction fit in all their patterns, or a projector that is "
-               "mirrored left to right"
+               "the opposite direction fit in all their patterns, or a projector or camera whose "
+               "picture is mirrored left to right"
              : "the phase of the horizontal fringes falls where the rig makes it rise: shifts "
-               "in the opposite direction fit in all their patterns, or a projector that is "
-               "mirrored upside down";
+               "in the opposite direction fit in all their patterns, or a projector or camera "
+               "whose picture is mirrored upside down";
 }
 
 /// Changes of the phase between neighbouring pixels, measured and expected.

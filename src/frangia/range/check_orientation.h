@@ -14,8 +14,8 @@ namespace frangia {
 ///
 /// Along a surface that faces camera and projector, the projector's columns appear in their own
 /// order, whatever the shape of the surface. Shifts in the opposite direction in all patterns, a
-/// mirrored projector, and rows that are exchanged with columns break this rule, although the
-/// patterns agree with each other.
+/// mirrored projector or camera, and rows that are exchanged with columns break this rule, although
+/// the patterns agree with each other.
 struct OrientationCheck {
   bool decided = false;    ///< enough pixels agree on a direction
   bool consistent = true;  ///< the direction is that of the rig, or it is not decided

@@ -10,8 +10,6 @@
 #include <utility>
 #include <vector>
 
-#include <fmt/format.h>
-
 #include "frangia/core/held_messages.h"
 #include "frangia/core/missing.h"
 #include "frangia/core/pixel_buffer.h"
@@ -32,6 +30,7 @@
 #include "frangia/reconstruct/internal/scan_targets.h"
 #include "frangia/reconstruct/internal/split_setups.h"
 #include "frangia/reconstruct/internal/tie_cameras.h"
+#include "frangia/reconstruct/internal/trust.h"
 #include "frangia/reconstruct/internal/turntable_part.h"
 #include "frangia/reconstruct/refine_scan_rig.h"
 
@@ -47,58 +46,6 @@ std::vector<RigAgreement> agreements_of(const MeasuredViews& measured, const Rig
   if (auto found = agreement_of_cameras(measured.camera_agreements))
     out.push_back(std::move(*found));
   return out;
-}
-
-/// Whether the views say that the rig is not what it states, and nothing else.
-bool blames_rig(const std::optional<RegistrationReport>& registration) {
-  return registration && registration->explanation.best == PoseCause::Rig &&
-         registration->explanation.decided;
-}
-
-/// States that a view and an earlier one hold the same frames; empty otherwise.
-std::string copy_text(const ViewSummary& view) {
-  if (view.same_as.empty()) return {};
-  return fmt::format(
-      "{} and {} hold the same frames to the last count, so that one of them is a copy; capture "
-      "both again",
-      view.same_as,
-      view.name);
-}
-
-/// Names the copies among the views that are left out because they contradict the others.
-void warn_of_copies(std::span<const ViewSummary> views, const Run& run) {
-  const auto is_left_out = [&](const std::string& name) {
-    return std::any_of(views.begin(), views.end(), [&](const ViewSummary& view) {
-      return view.name == name && view.left_out;
-    });
-  };
-  for (const ViewSummary& view : views) {
-    if (!view.same_as.empty() && (view.left_out || is_left_out(view.same_as)))
-      run.warn(copy_text(view));
-  }
-}
-
-/// Why the surface must not be trusted; empty when it can be. What was measured twice and differs
-/// comes first: the rest follows from it.
-std::string untrusted_reason_of(const Reconstruction& result) {
-  for (const RigAgreement& agreement : result.agreements) {
-    if (agreement.contradicts()) return agreement.text();
-  }
-  std::string reason;
-  if (result.registration) reason = result.registration->untrusted_reason();
-  if (reason.empty() && result.silhouettes && result.silhouettes->contradicts())
-    reason = result.silhouettes->text();
-  if (reason.empty() && blames_rig(result.registration)) {
-    reason =
-        "the views show that the rig is not what rig.toml states, and do not determine how: "
-        "calibrate the rig again";
-  }
-  if (reason.empty()) return reason;
-  // Camera noise makes each capture another one. Without noise, views of a round part may be equal,
-  // but then they do not contradict each other.
-  for (const ViewSummary& view : result.view_summaries)
-    if (!view.same_as.empty()) return copy_text(view);
-  return reason;
 }
 
 /// Whether the views of a setup were triangulated again by a rig that drifts, so that their targets
@@ -328,7 +275,7 @@ Reconstruction reconstruct_by(ScanAngles angles,
       add_outliers(outliers, setup);
     }
   });
-  if (angles == ScanAngles::Stated) {
+  if (angles == ScanAngles::Stated && is_absolute(plan)) {
     std::optional<ScanWithAngles> found = with_found_angles(scan, setups);
     if (!found && may_hide_angles(setups))
       found = angles_without_other_views(lit, can, decode, options, targets, run);
@@ -340,7 +287,8 @@ Reconstruction reconstruct_by(ScanAngles angles,
       return out;
     }
   }
-  held.pass_on(run);
+  const bool is_relative = !is_absolute(plan) && take_back_poses_of_relative_distances(setups);
+  if (!is_relative) held.pass_on(run);  // otherwise consequences
   if (out.points == 0) {
     throw Error(unresolved > 0 ? ErrorKind::Input : ErrorKind::Numeric,
                 explain_no_surface(scan, rays, options.decode, {0, unresolved}, run));
@@ -357,9 +305,15 @@ Reconstruction reconstruct_by(ScanAngles angles,
   }
 
   // All setups in the frame of the first one, then one surface, then the finished mesh.
-  RegisteredViews registered{
-      register_together(std::move(setups), scan, options, targets, std::move(outliers), out, run),
-      indirect_light};
+  HeldMessages of_relative;  // they are given up
+  RegisteredViews registered{register_together(std::move(setups),
+                                               scan,
+                                               options,
+                                               targets,
+                                               std::move(outliers),
+                                               out,
+                                               is_relative ? of_relative.in_place_of(run) : run),
+                             indirect_light};
   std::vector<Target> stickers;
   if (targets) {
     stickers = registered_targets(*targets, registered.joined);
@@ -380,7 +334,7 @@ Reconstruction reconstruct_by(ScanAngles angles,
   }
   out.silhouettes = silhouettes_of(scan, registered.joined.measured, out.mesh, run);
   if (out.targets && out.targets->scale) apply_scale(out, out.targets->scale->factor);
-  out.untrusted_reason = untrusted_reason_of(out);
+  out.untrusted_reason = untrusted_reason_of(out, is_relative);
   if (!out.untrusted_reason.empty()) discard_sigma(out.mesh);
   out.sigma = median_sigma(out.mesh);
   return out;

@@ -134,6 +134,11 @@ export const FAULTS_BUILD = {
     'die Ansichten zeigen, dass der Aufbau nicht so ist wie kalibriert, aber nicht wie: neu kalibrieren',
     "le viste mostrano che l'apparato non è come calibrato, ma non come sia: calibrarlo di nuovo",
   ],
+  'fault.relativeViews': [
+    'the views do not fit together: the frames do not tell which fringe is which, so that each view may be off by whole fringes; capture coarser fringes or a Gray code, too, or the laser sheet',
+    'die Ansichten passen nicht zusammen: die Bilder sagen nicht, welcher Streifen welcher ist, so dass jede Ansicht um ganze Streifen falsch liegen kann; auch gröbere Streifen oder einen Gray-Code aufnehmen, oder die Laserebene',
+    'le viste non combaciano: i fotogrammi non dicono quale frangia sia quale, così ogni vista può essere spostata di frange intere; riprendere anche frange più larghe o un codice Gray, o il piano laser',
+  ],
   'fault.copiedView': [
     '{0} and {1} hold the same frames to the last count, so that one of them is a copy; capture both again',
     '{0} und {1} haben auf die letzte Stufe gleiche Bilder, eine ist also eine Kopie; beide neu aufnehmen',

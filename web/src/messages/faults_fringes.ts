@@ -93,13 +93,13 @@ export const FAULTS_FRINGES = {
     'le frange che scan.toml chiama orizzontali sono verticali: va bene direction = "vertical"',
   ],
   'fault.phaseVerticalFringes': [
-    'the phase of the vertical fringes falls where the rig makes it rise: shifts in the opposite direction fit in all their patterns, or a projector that is mirrored left to right',
-    'die Phase der senkrechten Streifen fällt, wo der Aufbau sie steigen lässt: Verschiebungen in Gegenrichtung passen in allen ihren Mustern, oder ein links-rechts gespiegelter Projektor',
-    "la fase delle frange verticali cala dove l'apparato la fa crescere: vanno bene sfasamenti nel verso opposto in tutti i loro pattern, o un proiettore specchiato in orizzontale",
+    'the phase of the vertical fringes falls where the rig makes it rise: shifts in the opposite direction fit in all their patterns, or a projector or camera whose picture is mirrored left to right',
+    'die Phase der senkrechten Streifen fällt, wo der Aufbau sie steigen lässt: Verschiebungen in Gegenrichtung passen in allen ihren Mustern, oder ein Projektor oder eine Kamera mit links-rechts gespiegeltem Bild',
+    "la fase delle frange verticali cala dove l'apparato la fa crescere: vanno bene sfasamenti nel verso opposto in tutti i loro pattern, o un proiettore o una camera con l'immagine specchiata in orizzontale",
   ],
   'fault.phaseHorizontalFringes': [
-    'the phase of the horizontal fringes falls where the rig makes it rise: shifts in the opposite direction fit in all their patterns, or a projector that is mirrored upside down',
-    'die Phase der waagerechten Streifen fällt, wo der Aufbau sie steigen lässt: Verschiebungen in Gegenrichtung passen in allen ihren Mustern, oder ein kopfstehender Projektor',
-    "la fase delle frange orizzontali cala dove l'apparato la fa crescere: vanno bene sfasamenti nel verso opposto in tutti i loro pattern, o un proiettore capovolto",
+    'the phase of the horizontal fringes falls where the rig makes it rise: shifts in the opposite direction fit in all their patterns, or a projector or camera whose picture is mirrored upside down',
+    'die Phase der waagerechten Streifen fällt, wo der Aufbau sie steigen lässt: Verschiebungen in Gegenrichtung passen in allen ihren Mustern, oder ein Projektor oder eine Kamera mit kopfstehendem Bild',
+    "la fase delle frange orizzontali cala dove l'apparato la fa crescere: vanno bene sfasamenti nel verso opposto in tutti i loro pattern, o un proiettore o una camera con l'immagine capovolta",
   ],
 } as const satisfies Rows;

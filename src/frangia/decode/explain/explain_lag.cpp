@@ -20,7 +20,6 @@
 namespace frangia {
 namespace {
 
-constexpr std::array kLags = {1, 2, 3, -1};
 constexpr std::size_t kFewestFrames = 3;  ///< that determine a pixel
 constexpr int kGrid = 80;                 ///< pixels along the longer side of the image
 constexpr std::size_t kFewestPixels = 200;
@@ -280,7 +279,7 @@ std::optional<FrameLag> explain_lag(std::span<const FrameStack> stacks) {
   };
   std::vector<FrameLag> lags{{}};
   std::vector<ScoredHypothesis> scored{{"the frames are as described", evidence(without_lag)}};
-  for (const int frames : kLags) {
+  for (const int frames : kFrameLags) {
     if (predict_alike(frames, 0, stacks)) continue;
     const std::optional<double> misfit =
         misfit_of(fit_all(counts, placed_at(stacks, frames_in_all, frames)));
@@ -289,7 +288,7 @@ std::optional<FrameLag> explain_lag(std::span<const FrameStack> stacks) {
     std::size_t alike = 1;
     while (!predict_alike(lags[alike].frames, frames, stacks))
       ++alike;
-    const double price = price_of_choice(kLags.size()) - std::log(kPriorFault);
+    const double price = price_of_choice(kFrameLags.size()) - std::log(kPriorFault);
     scored.push_back(
         {describe(lags.back()), evidence(*misfit) - price, std::sqrt(*misfit), {}, alike});
   }
@@ -305,8 +304,7 @@ std::optional<FrameLag> explain_lag(std::span<const FrameStack> stacks) {
   return best;
 }
 
-std::vector<FrameStack> in_step(std::span<const FrameStack> stacks, const FrameLag& lag) {
-  if (!leaves_phases(stacks, lag.frames)) return {};
+std::vector<FrameStack> moved_by(std::span<const FrameStack> stacks, int lag) {
   const std::vector<Shown> sequence = sequence_of(stacks);
   std::vector<FrameStack> out;
   std::ptrdiff_t begin = 0;
@@ -319,7 +317,7 @@ std::vector<FrameStack> in_step(std::span<const FrameStack> stacks, const FrameL
                      .color = {}};
     if (has_fringes(stack)) moved.pattern.shifts_rad.clear();
     for (std::size_t k = 0; k < stack.frames.size(); ++k) {
-      const std::ptrdiff_t place = begin + static_cast<std::ptrdiff_t>(k) + lag.frames;
+      const std::ptrdiff_t place = begin + static_cast<std::ptrdiff_t>(k) + lag;
       if (place < 0 || place >= std::ssize(sequence)) continue;
       moved.frames.push_back(*sequence[static_cast<std::size_t>(place)].frame);
       if (has_fringes(stack)) moved.pattern.shifts_rad.push_back(stack.pattern.shifts_rad[k]);
@@ -328,6 +326,11 @@ std::vector<FrameStack> in_step(std::span<const FrameStack> stacks, const FrameL
     out.push_back(std::move(moved));
   }
   return out;
+}
+
+std::vector<FrameStack> in_step(std::span<const FrameStack> stacks, const FrameLag& lag) {
+  return leaves_phases(stacks, lag.frames) ? moved_by(stacks, lag.frames)
+                                           : std::vector<FrameStack>{};
 }
 
 std::vector<FrameVerdict> judge_lag(std::span<const Pattern> patterns,

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <optional>
 #include <span>
 #include <string>
@@ -10,6 +11,9 @@
 #include "frangia/frames/frame_stack.h"
 
 namespace frangia {
+
+/// Places that frames of a display out of step are late; early by more is no camera's fault.
+inline constexpr std::array kFrameLags = {1, 2, 3, -1};
 
 /// All frames of a view show what frames before or behind them should: projector and camera are
 /// out of step from the first frame on.
@@ -29,8 +33,20 @@ struct FrameLag {
 ///           fewer than two fringe patterns, or several exposures
 [[nodiscard]] std::optional<FrameLag> explain_lag(std::span<const FrameStack> stacks);
 
-/// The stacks with the frames that show them. A pattern at the end of the sequence lacks some.
-/// Empty if what is left of it does not determine the phase.
+/// Finds the same for fringes beside a Gray code: moved by the lag, code and fringes agree, which
+/// they do not as described.
+///
+/// @shape    the stacks in the order in which their frames were captured
+/// @missing  nothing where code and fringes agree as described, or with no lag; for several
+///           exposures, and without a Gray code beside fringes
+[[nodiscard]] std::optional<FrameLag> explain_lag_by_code(std::span<const FrameStack> stacks);
+
+/// The stacks with the frames that show them if all are late by `lag`, as far as these were
+/// captured.
+[[nodiscard]] std::vector<FrameStack> moved_by(std::span<const FrameStack> stacks, int lag);
+
+/// The same, if they determine the phase. A pattern at the end of the sequence lacks some; empty if
+/// what is left of it does not suffice.
 [[nodiscard]] std::vector<FrameStack> in_step(std::span<const FrameStack> stacks,
                                               const FrameLag& lag);
 

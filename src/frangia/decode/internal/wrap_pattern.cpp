@@ -1,6 +1,5 @@
 #include "frangia/decode/internal/wrap_pattern.h"
 
-#include <cmath>
 #include <optional>
 #include <string>
 
@@ -37,15 +36,7 @@ FittedAlgorithm algorithm_of(const Pattern& pattern, const FittedAlgorithm& fitt
   if (pattern.exposure_count() == 1) return used;
   used.algorithm = least_squares(fitted.shifts_rad);
   used.algorithm.name = fitted.algorithm.name;
-  // Its weights compensate no gains: what these do to the phase is counted.
-  WaveformFit& waveform = used.waveform;
-  const auto frames = static_cast<double>(fitted.shifts_rad.size());
-  const double on_mean = (1.0 - waveform.steady_share) * waveform.mean_over_modulation;
-  waveform.flicker_error_rad =
-      std::hypot(waveform.flicker_error_rad,
-                 std::sqrt(2.0 / frames) * waveform.flicker() * std::hypot(on_mean, 1.0));
-  waveform.gains.clear();
-  waveform.steady_share = 0.0;
+  used.waveform.count_gains();  // its weights compensate none
   return used;
 }
 
@@ -66,6 +57,9 @@ void finish_wrapped(const FittedAlgorithm& of_frames,
   FrameAssessment& assessment = out.assessments.back();
   assessment.harmonics_corrected = table.has_value();
   assessment.harmonic_error_rad = harmonic_phase_error(fitted, applied);
+  assessment.flicker = fitted.waveform.flicker();
+  assessment.flicker_error_rad = fitted.waveform.flicker_error_rad;
+  assessment.is_flicker = fitted.waveform.is_flicker;
 }
 
 /// Adds to sigma, pixel by pixel, what the frames leave unexplained.

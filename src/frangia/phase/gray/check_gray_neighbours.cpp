@@ -132,11 +132,11 @@ std::vector<CodeBorder> borders_of(const FrameStack& gray) {
 }
 
 /// Whether the stripes on both sides of a border are neighbours, or may be if a frame without
-/// stripes is missing.
-bool are_neighbours(const GrayTrial& trial, const CodeBorder& border) {
+/// stripes is missing. Without its last `unused_bits`, a code is one of wider stripes.
+bool are_neighbours(const GrayTrial& trial, const CodeBorder& border, int unused_bits) {
   const auto differ_by_one = [&](std::uint64_t first, std::uint64_t second) {
-    const auto step = static_cast<std::int64_t>(shown_stripe(trial, first)) -
-                      static_cast<std::int64_t>(shown_stripe(trial, second));
+    const auto step = static_cast<std::int64_t>(shown_stripe(trial, first) >> unused_bits) -
+                      static_cast<std::int64_t>(shown_stripe(trial, second) >> unused_bits);
     return std::abs(step) <= 1;
   };
   if (!trial.missing) return differ_by_one(border.first, border.second);
@@ -153,13 +153,15 @@ struct NeighbourShares {
   double least = 1.0;  ///< of the borders of one frame
 };
 
-NeighbourShares shares_of(const GrayTrial& trial, const std::vector<CodeBorder>& borders) {
+NeighbourShares shares_of(const GrayTrial& trial,
+                          const std::vector<CodeBorder>& borders,
+                          int unused_bits = 0) {
   const std::size_t frames = trial.frame_of.size();
   std::vector<double> good(frames);
   std::vector<double> count(frames);
   NeighbourShares out;
   for (const CodeBorder& border : borders) {
-    const bool neighbours = are_neighbours(trial, border);
+    const bool neighbours = are_neighbours(trial, border, unused_bits);
     out.all += neighbours ? 1.0 : 0.0;
     for (std::size_t frame = 0; frame < frames; ++frame) {
       if (((border.first ^ border.second) >> frame & 1U) == 0) continue;
@@ -171,6 +173,15 @@ NeighbourShares shares_of(const GrayTrial& trial, const std::vector<CodeBorder>&
   for (std::size_t frame = 0; frame < frames; ++frame)
     if (count[frame] >= kMinOfFrame) out.least = std::min(out.least, good[frame] / count[frame]);
   return out;
+}
+
+/// Whether the code is as declared, but pixels are as wide as its narrowest stripes: from one to
+/// the next the number may change by two.
+bool has_too_fine_stripes(const Pattern& code, const std::vector<CodeBorder>& borders) {
+  constexpr int kMostUnused = 3;
+  for (int unused = 1; unused <= std::min(kMostUnused, code.bits - 1); ++unused)
+    if (shares_of(declared_trial(code), borders, unused).least >= kFittingShare) return true;
+  return false;
 }
 
 /// Frames that never change at a border: without stripes.
@@ -219,7 +230,8 @@ SequenceCheck check_gray_neighbours(const FrameStack& gray) {
   }
   for (std::size_t i = 0; i < trials.size(); ++i)
     if (shares[i] >= best - kEqualShares) out.fits.push_back(std::move(trials[i].fault));
-  out.consistent = out.fits.empty() && declared.all >= kLeastShareOfAll;
+  out.consistent =
+      out.fits.empty() && (declared.all >= kLeastShareOfAll || has_too_fine_stripes(code, borders));
   if (out.fits.empty() && !out.consistent) {
     out.finding = fmt::format(
         "pattern \"{}\": at {:.0f} % of the borders of its stripes the number changes by more than "

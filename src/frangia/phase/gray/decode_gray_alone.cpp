@@ -1,6 +1,7 @@
 #include "frangia/phase/gray/decode_gray_alone.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
 #include <utility>
@@ -52,6 +53,23 @@ int resolved_bits(GrayLineDecoder decoder, int bits, int lines, int count) {
     --resolved;
   }
   return resolved;
+}
+
+/// The number of bits whose stripes are wider than pixels. From one pixel to the next, the number
+/// of narrower ones changes by two here and there: such pixels have no border to be located by.
+int locatable_bits(GrayLineDecoder decoder, int bits, int lines, int count) {
+  constexpr int kLines = 32;
+  constexpr double kMostOfTwo = 0.03;  // of the steps: at the edges of a part there are fewer
+  while (bits > 1) {
+    decoder.use_bits(bits);
+    std::array<std::size_t, 2> steps{};
+    for (int line = 0; line < lines; line += std::max(1, lines / kLines))
+      decoder.add_steps(line, count, steps);
+    if (static_cast<double>(steps[1]) <= kMostOfTwo * static_cast<double>(steps[0] + steps[1]))
+      break;
+    --bits;
+  }
+  return bits;
 }
 
 /// The share of the pixels that do not integrate light over their width. Of pixels that do, a fifth
@@ -122,7 +140,8 @@ AbsolutePhase decode_gray_alone(std::span<const FrameStack> gray,
   const int lines = rows ? height : width;
   const int count = rows ? width : height;
   GrayLineDecoder decoder(gray, threshold_counts, noise, options);
-  decoder.use_bits(resolved_bits(decoder, code.bits, lines, count));
+  const int resolved = resolved_bits(decoder, code.bits, lines, count);
+  decoder.use_bits(locatable_bits(decoder, resolved, lines, count));
   decoder.set_point_like(point_like_share(decoder, lines, count));
   decoder.set_place_px(std::max(kPlace_px, scatter_px(decoder, lines, count)));
   parallel_rows(lines, [&](int line) { GrayLineDecoder(decoder).decode(line, out); });

@@ -242,15 +242,25 @@ std::optional<std::complex<double>> add_contrast_fit(const FringeBins& bins,
   return fit.third;
 }
 
+/// Rms error of the phase by independent errors of `frames` frames, relative to the modulation.
+double phase_error_of(double rms_of_frames, std::size_t frames) {
+  return std::sqrt(2.0 / static_cast<double>(frames)) * rms_of_frames;
+}
+
+/// Rms of the errors of all frames, where a residual shows some combinations of them.
+double rms_shown(const std::vector<double>& errors) {
+  double square = 0.0;
+  for (const double error : errors)
+    square += error * error / (static_cast<double>(errors.size()) - 3.0);
+  return std::sqrt(square);
+}
+
 /// The effect of flicker on frames whose contrast does not show it, as on a small part: their
 /// residual shows some combinations of the gains, and the others are as large.
 void add_flicker_by_residual(const ResidualFit& residuals, WaveformFit& out) {
   if (residuals.gain_chi2 < std::pow(kMinFlickerSigmas, 2)) return;
-  const auto frames = static_cast<double>(residuals.gains.size());
-  double square = 0.0;
-  for (const double gain : residuals.gains)
-    square += gain * gain / (frames - 3.0);
-  out.flicker_error_rad = std::sqrt(2.0 / frames * square) * out.mean_over_modulation;
+  out.flicker_error_rad =
+      phase_error_of(rms_shown(residuals.gains), residuals.gains.size()) * out.mean_over_modulation;
   out.is_flicker = residuals.gains_explain;
 }
 
@@ -258,11 +268,8 @@ void add_flicker_by_residual(const ResidualFit& residuals, WaveformFit& out) {
 /// shows some combinations of the errors, and the others are as large.
 void add_steps_by_residual(const ResidualFit& residuals, WaveformFit& out) {
   if (residuals.gain_chi2 < std::pow(kMinFlickerSigmas, 2)) return;
-  const auto frames = static_cast<double>(residuals.gains.size());
-  double square = 0.0;
-  for (const double error_rad : residuals.gains)  // which leave what gains of the modulation leave
-    square += error_rad * error_rad / (frames - 3.0);
-  out.flicker_error_rad = std::sqrt(2.0 / frames * square);
+  // Such errors, in rad, leave what gains of the modulation leave.
+  out.flicker_error_rad = phase_error_of(rms_shown(residuals.gains), residuals.gains.size());
   out.is_flicker = false;
 }
 
@@ -308,6 +315,16 @@ int WaveformFit::largest_harmonic() const {
 
 double WaveformFit::flicker() const {
   return gains.empty() ? 0.0 : rms(gains);
+}
+
+void WaveformFit::count_gains() {
+  if (gains.empty()) return;
+  const double on_mean = (1.0 - steady_share) * mean_over_modulation;
+  flicker_error_rad = std::hypot(
+      flicker_error_rad, phase_error_of(std::hypot(on_mean, 1.0) * flicker(), gains.size()));
+  is_flicker = false;  // more frames would not determine it
+  gains.clear();
+  steady_share = 0.0;
 }
 
 WaveformFit fit_waveform(const FrameStack& stack,

@@ -40,6 +40,8 @@ struct WaveformFit {
   [[nodiscard]] double gain_of_mean(double gain) const { return 1.0 + (1.0 - steady_share) * gain; }
   /// Returns the rms of the gains; 0 if there is no flicker.
   [[nodiscard]] double flicker() const;
+  /// Moves the effect of the gains to `flicker_error_rad`: for weights that do not compensate them.
+  void count_gains();
 };
 
 /// Sampling and significance of the fit of harmonics and gains.
