@@ -1,13 +1,16 @@
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include <gtest/gtest.h>
 
 #include "frangia/core/angles.h"
+#include "frangia/frames/png.h"
 #include "frangia/geometry/ray_scene.h"
 #include "frangia/inspect/surface_error.h"
 #include "frangia/reconstruct/internal/trust.h"
@@ -68,6 +71,24 @@ TEST(Reconstruct, BlamesNoPartForViewsWhoseFringesNothingNumbers) {
   EXPECT_EQ(warnings.find("slid"), std::string::npos) << warnings;
   ASSERT_TRUE(result.registration);
   EXPECT_EQ(result.registration->explanation.best, PoseCause::AsStated);
+}
+
+TEST(Reconstruct, CallsViewsThatMeasureNothingNoCopies) {
+  const TemporaryFolder folder;
+  const Scan scan = small_scan(folder.path(), "bracket", "digital", 6, {}, 3);
+  // Fringes at a hundredth of the light, which leave no pixel of these views with a phase.
+  for (const char* view : {"views/1", "views/4"}) {
+    for (const auto& file : std::filesystem::directory_iterator(folder.path() / view)) {
+      auto frame = read_png(file.path());
+      auto& counts = std::get<Image<std::uint8_t>>(frame);
+      for (std::uint8_t& pixel : counts.pixels())
+        pixel /= 100;
+      write_png(file.path(), frame);
+    }
+  }
+  const Reconstruction result = reconstruct(scan);
+  for (const ViewSummary& view : result.view_summaries)
+    EXPECT_EQ(view.same_as, "") << view.name;
 }
 
 TEST(UntrustedReason, OfDistancesThatAreRelativeComesBeforeThatOfThePoses) {

@@ -226,6 +226,11 @@ std::vector<ShownFringes> shown_fringes(const DecodedDirection& direction,
   return out;
 }
 
+bool is_any_measured(const AbsolutePhase& phase) {
+  const std::span<const float> pixels = phase.phase_rad.pixels();
+  return std::any_of(pixels.begin(), pixels.end(), [](float rad) { return !std::isnan(rad); });
+}
+
 /// A number that differs between images unless they are equal to the last bit.
 std::size_t fingerprint(const Image<float>& image) {
   const std::span<const float> pixels = image.pixels();
@@ -274,9 +279,11 @@ MeasuredViews measure_views(const Scan& scan,
     summary.reason = partial_finding(decoded.front());
     DecodedDirection& leading = decoded.front().decoded.directions[fit.leading()];
     all.coarsest = leading.coarsest;
-    const auto [earlier, is_new] =
-        names.try_emplace(fingerprint(leading.phase.phase_rad), summary.name);
-    if (!is_new) summary.same_as = earlier->second;
+    if (is_any_measured(leading.phase)) {  // views that show nothing are alike
+      const auto [earlier, is_new] =
+          names.try_emplace(fingerprint(leading.phase.phase_rad), summary.name);
+      if (!is_new) summary.same_as = earlier->second;
+    }
     MeasuredView measured =
         fuse_view_cameras(scan.rig, decoded, decode.directions, mixed_pixels, run);
     if (measured.directions.pixels > 0) {
