@@ -41,5 +41,16 @@ TEST_F(HeldMessagesTest, AreGivenOnceWhenTheirAttemptFails) {
   EXPECT_EQ(given, std::vector<std::string>{"a view is dark"});
 }
 
+TEST_F(HeldMessagesTest, AreForgottenWhereTheyWereSaidBefore) {
+  HeldMessages held;
+  held.during(run, [](const frangia::Run& attempt) {
+    attempt.warn("a view is dark; expose longer");
+    attempt.warn("a view is late");
+  });
+  held.forget("a view is dark");
+  held.pass_on(run);
+  EXPECT_EQ(given, std::vector<std::string>{"a view is late"});
+}
+
 }  // namespace
 }  // namespace frangia

@@ -176,5 +176,26 @@ TEST(Reconstruct, MeasuresTheBottomOfABracketThatWasLaidDown) {
   EXPECT_GT(below, 100);
 }
 
+TEST(Reconstruct, SaysOnceThatThePartSlidInOneOfTwoSetups) {
+  const TemporaryFolder folder;
+  const Mesh part = make_part("bust");
+  Scan plan;
+  plan.folder = folder.path();
+  plan.rig = testing::small_rig("digital", 3);
+  plan.patterns = default_patterns(plan.rig);
+  for (int i = 0; i < 12; ++i)
+    plan.views.push_back({kTwoPi * (i % 6) / 6, "views/" + std::to_string(i), i / 6});
+  plan.part_poses[1] = pose_on_table(part, rad_from_deg(180.0), 0.4);
+  std::vector<std::string> warnings;
+  frangia::Run run;
+  run.on_warning = [&](const std::string& sentence) { warnings.push_back(sentence); };
+  const SimulateOptions slid{.motion = {.slide_view = 3, .slide_mm = 0.8}};
+  static_cast<void>(reconstruct(simulate_scan(part, plan, slid), {}, run));
+  const auto said = std::count_if(warnings.begin(), warnings.end(), [](const std::string& one) {
+    return one.find("the part slid by 0.8") != std::string::npos;
+  });
+  EXPECT_EQ(said, 1);
+}
+
 }  // namespace
 }  // namespace frangia

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -36,6 +37,10 @@ class HeldMessages {
   void pass_on(const Run& run) const {
     for (const auto& [is_warning, text] : texts_)
       is_warning ? run.warn(text) : run.note(text);
+  }
+  /// Forgets those that begin with a text, which was said before.
+  void forget(std::string_view beginning) {
+    std::erase_if(texts_, [&](const auto& one) { return one.second.starts_with(beginning); });
   }
 
  private:

@@ -1,10 +1,13 @@
 #include "frangia/reconstruct/internal/register_setups.h"
 
+#include <algorithm>
+#include <set>
 #include <string>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include "frangia/core/held_messages.h"
 #include "frangia/local_fit/surfel_map.h"
 #include "frangia/registration/compare_groups.h"
 #include "frangia/registration/join_by_shape.h"
@@ -289,6 +292,23 @@ void set_poses(MeasuredSetup& joined,
   }
 }
 
+/// Whether setups by themselves have told what the joined views show: the same cause at the same
+/// views, of which the size may differ in its last digit.
+bool told_by_setups(const PoseExplanation& found,
+                    const MeasuredSetup& joined,
+                    const std::vector<MeasuredSetup>& setups) {
+  std::set<std::string> told;
+  for (const MeasuredSetup& setup : setups) {
+    if (!setup.registration || setup.registration->explanation.best != found.best) continue;
+    for (const std::size_t view : setup.registration->explanation.views)
+      told.insert(setup.measured.stations[view].name);
+  }
+  return !found.views.empty() &&
+         std::all_of(found.views.begin(), found.views.end(), [&](std::size_t view) {
+           return told.contains(joined.measured.stations[view].name);
+         });
+}
+
 }  // namespace
 
 MeasuredSetup register_setups(std::vector<MeasuredSetup> setups,
@@ -330,8 +350,13 @@ MeasuredSetup register_setups(std::vector<MeasuredSetup> setups,
     if (options.targets != nullptr) ties = target_ties(*options.targets, joined.measured);
     TurntableStations given{*rig.turntable, joined.measured.stations};
     given.ties = ties;
-    joined.registration =
-        register_views(joined.measured.reference(), camera, given, registration, run);
+    HeldMessages held;
+    joined.registration = held.during(run, [&](const Run& attempt) {
+      return register_views(joined.measured.reference(), camera, given, registration, attempt);
+    });
+    if (told_by_setups(joined.registration->explanation, joined, setups))
+      held.forget(joined.registration->explanation.text);
+    held.pass_on(run);
     // The views of one setup say what the rig is; they are explained without one here.
     if (reference.registration) joined.registration->rig_open = reference.registration->rig_open;
     add_open_motions(joined.registration->motions, joined.measured.stations, open);
