@@ -9,6 +9,7 @@
 #include "frangia/decode/explain/explain_lag.h"
 #include "frangia/decode/internal/decode_direction.h"
 #include "frangia/decode/select_stacks.h"
+#include "frangia/phase/waveform/light_bands.h"
 
 namespace frangia {
 
@@ -115,15 +116,31 @@ bool contradicts_its_code(const DecodedView& view, const DecodePlan& plan) {
   return false;
 }
 
+/// The frames at even light, where a rolling shutter shows bands; empty where none does.
+std::vector<FrameStack> at_even_light(std::span<const FrameStack> stacks, const Run& run) {
+  std::vector<FrameStack> out;
+  for (std::size_t i = 0; i < stacks.size(); ++i) {
+    if (stacks[i].pattern.fringes_per_degree > 0.0) continue;  // its steps are not exact
+    const std::optional<LightBands> bands = find_light_bands(stacks[i]);
+    if (!bands) continue;
+    if (out.empty()) out.assign(stacks.begin(), stacks.end());
+    out[i] = without_bands(stacks[i], *bands);
+    run.warn(describe(*bands, stacks[i].pattern.name));
+  }
+  return out;
+}
+
 }  // namespace
 
-DecodedView decode_view(std::span<const FrameStack> stacks,
+DecodedView decode_view(std::span<const FrameStack> captured,
                         const DecodePlan& plan,
                         const Rig& rig,
                         const Image<Eigen::Vector2f>& rays,
                         const DecodeOptions& options,
                         const Run& run) {
   const ViewInput input{plan, rig, rays, options};
+  const std::vector<FrameStack> evened = at_even_light(captured, run);
+  const std::span<const FrameStack> stacks = evened.empty() ? captured : evened;
   if (!options.accept_inconsistent) {
     if (const std::optional<FrameLag> lag = explain_lag(stacks))
       return decode_out_of_step(stacks, *lag, input, run);

@@ -253,6 +253,11 @@ export const FAULTS_PHASE = {
     'das Licht flackerte zwischen den Bildern um {0} % rms, was ausgeglichen ist',
     'la luce è variata del {0} % rms fra i fotogrammi, ed è compensata',
   ],
+  'fault.lightBands': [
+    'pattern "{0}": the light differs from row to row by {1} % rms, in bands that move from frame to frame, as a camera with a rolling shutter sees light that flickers; it is compensated; expose for whole periods of the projector or the lamp',
+    'Muster „{0}“: das Licht ist von Zeile zu Zeile um {1} % rms verschieden, in Bändern, die von Bild zu Bild wandern, wie eine Kamera mit Rolling Shutter flackerndes Licht sieht; es ist ausgeglichen; ganze Perioden des Projektors oder der Lampe belichten',
+    'pattern "{0}": la luce varia da riga a riga del {1} % rms, in bande che si spostano da un fotogramma all\'altro, come una camera con otturatore rolling vede una luce che sfarfalla; è compensata; esporre per periodi interi del proiettore o della lampada',
+  ],
   'fault.lightShiftsDiffered': [
     'light or shifts that differed between the frames shift the phase by {0} rad rms, which is counted in sigma',
     'Licht oder Verschiebungen, die sich zwischen den Bildern unterschieden, verschieben die Phase um {0} rad rms; Sigma zählt es mit',
