@@ -241,6 +241,10 @@ function faultsOfLayout() {
     if (element.children.length === 0 && element.scrollWidth > element.clientWidth + 2 && element.clientWidth > 0 && getComputedStyle(element).textOverflow !== 'ellipsis')
       faults.push(`${words(element)} is cut off`);
   }
+  for (const dialog of document.querySelectorAll('dialog[open]')) {
+    const { left, right, top, bottom } = dialog.getBoundingClientRect();
+    if (left < 0 || right > innerWidth || top < 0 || bottom > innerHeight || dialog.scrollWidth > dialog.clientWidth) faults.push(`the dialog ${dialog.id} is beyond the edge`);
+  }
   const ends = [...document.querySelectorAll('.brand > *')].filter(shown).map((one) => one.getBoundingClientRect());
   const steps = document.querySelector('.steps')?.getBoundingClientRect();
   for (const { right, top, bottom } of ends)

@@ -67,6 +67,16 @@ await tell(home, async () => {
   await idle(page);
   await look('axis');
 
+  // The preview begins without what the calibration saw.
+  const seen = await page.evaluate(() => {
+    const app = document.querySelector('frangia-app');
+    app.go('live');
+    return app.live.view.figures;
+  });
+  expect(seen === null, 'the preview begins with the picture of the board');
+  await page.waitForFunction(() => (document.querySelector('frangia-app').live.view.figures?.points ?? 0) > 1000);
+  await look('live');
+
   await page.keyboard.press('4');
   await page.waitForSelector('#scan:not([disabled])');
   await look('scan-before');

@@ -194,5 +194,8 @@ await tell(home, async () => {
   await page.setViewportSize({ width: 360, height: 740 });
   await page.locator('#measuring').scrollIntoViewIfNeeded();
   await look('narrow');
+  await page.keyboard.press('?');
+  await page.waitForSelector('#keys[open]');
+  await look('narrow-keys');
   check('state', await stateOf(page));
 }, 'measuring is told');

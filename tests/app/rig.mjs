@@ -64,6 +64,8 @@ await tell(home, async () => {
   await page.selectOption('select[data-table=camera]', { label: 'webcams through Video4Linux2' });
   await page.selectOption('select[data-setting=pixel_format]', 'mjpeg');
   await page.selectOption('#language', 'de');
+  const setting = await page.locator('label:has(select[data-setting=pixel_format])').innerText();
+  expect(setting.startsWith('Pixelformat'), `a setting in German: ${setting}`);
   await page.click('#set-devices');
   await page.waitForSelector('.notice');
   expect(/^camera \/dev\/video0|video0/.test(await notice(page)) && (await notice(page)).includes('kann nicht geöffnet werden'), `a failure in German: ${await notice(page)}`);

@@ -167,6 +167,18 @@ await tell(home, async () => {
   await page.keyboard.press('Tab');
   near((await scale()).low, usual.low, 1e-9, 'the lower end after one above the upper end, mm');
   await look('legend');
+  // The bar is as long as its words say, also where words are larger.
+  for (const viewport of [{ width: 2560, height: 1440 }, { width: 360, height: 740 }, { width: 1366, height: 768 }]) {
+    await page.setViewportSize(viewport);
+    await settled(page);
+    const bar = await page.evaluate(() => {
+      const { right, left } = document.querySelector('path.bar').getBoundingClientRect();
+      const tools = document.querySelector('.view-tools').getBoundingClientRect();
+      return { mm: parseFloat(document.querySelector('text.bar').textContent), px: right - left, free: tools.left - right };
+    });
+    near(bar.px * (await eye()).mm, bar.mm, 0.05 * bar.mm, `the length of the bar at ${viewport.width} px`);
+    expect(bar.free > 0, `the views cover the bar at ${viewport.width} px`);
+  }
   await page.click('#usual-ends');
   near((await scale()).high, usual.high, 1e-9, 'the usual upper end, mm');
   for (const [language, words] of [['de', 'Standardunsicherheit'], ['it', 'incertezza tipo'], ['en', 'standard uncertainty']]) {

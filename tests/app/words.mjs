@@ -69,6 +69,7 @@ wordedIn('de', 'views agree to 0.012 mm RMS (before: 0.3 mm), 81 % of the points
 wordedIn('it', 'view 3 of 8 at 90 degrees: overexposed, shorten or bracket the exposure', "vista 3 di 8 a 90 gradi: sovraesposto, accorciare l'esposizione o usarne più di una");
 wordedIn('de', 'no pixel has a phase: 41 % of the pixels are saturated; expose shorter, close the aperture, or correct white_level in rig.toml',
   'kein Pixel hat eine Phase: 41 % der Pixel sind gesättigt; kürzer belichten oder die Blende schließen');
+wordedIn('de', 'view 7 of 7 at 30 degrees: good: contrast 0.77, 0.0 % saturated, 75102 points', 'Ansicht 7 von 7 bei 30 Grad: gut: Kontrast 0,77, 0,0 % gesättigt, 75102 Punkte');
 wordedIn('de', 'an unheard-of sentence', 'an unheard-of sentence');
 wordedIn('en', 'the disk is full; free some space', 'the disk is full; free some space');
 // What a failure advises is a button, in every language.

@@ -19,6 +19,7 @@ TEST(TestDevices, ReportsEachDeviceThoughOneFails) {
   write_rig(file, rig);
   std::ofstream(file, std::ios::app)
       << "\n[devices.camera]\ndriver = \"simulated\"\npart = \"plate\"\nmistyped = 1\n"
+         "exposure_step_ms = 10.0\n"
          "[devices.fringes]\ndriver = \"simulated-display\"\n"
          "[devices.light]\ndriver = \"grbl\"\nport = \"/dev/no-such-port\"\n"
          "[devices.turntable]\ndriver = \"nothing\"\n";

@@ -1,5 +1,6 @@
 #include "frangia/rig/read_rig.h"
 
+#include <cmath>
 #include <fstream>
 #include <sstream>
 #include <string>
@@ -277,6 +278,26 @@ TEST(WithResponse, ReplacesTheResponseAndKeepsCommentsAndDevices) {
   EXPECT_EQ(read.waveforms[0].direction, FringeDirection::Horizontal);
   EXPECT_EQ(read.waveforms[0].harmonics, projector.waveforms[0].harmonics);
   EXPECT_EQ(with_response(after, projector), after);
+}
+
+TEST(WithTurntable, ChangesNothingElseToTheLastDigit) {
+  const std::string others = kRig.substr(0, kRig.find("[turntable]"));
+  const std::string before = "# measured on Monday\n" + kRig +
+                             "[devices.turntable]  # left shelf\ndriver = \"simulated\"\n";
+  Turntable table{{0.1, 40.0, 300.3}, {0.0, -0.6, 0.8}};
+  table.point_sigma_mm = 0.02;
+  const std::string after = with_turntable(before, table);
+  EXPECT_TRUE(after.starts_with("# measured on Monday\n" + others +
+                                "[devices.turntable]  # left shelf\ndriver = \"simulated\"\n"))
+      << after;
+  EXPECT_EQ(after.find("496"), std::string::npos);
+  const TemporaryFolder folder;
+  const Turntable read = read_rig(save(folder, after)).turntable.value();
+  EXPECT_EQ(read.point_mm, table.point_mm);
+  EXPECT_EQ(read.axis, table.axis);
+  EXPECT_EQ(read.point_sigma_mm, table.point_sigma_mm);
+  EXPECT_TRUE(std::isnan(read.axis_sigma_rad));
+  EXPECT_EQ(with_turntable(after, table), after);
 }
 
 const std::string kSecondCamera = R"(

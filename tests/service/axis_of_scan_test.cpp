@@ -1,11 +1,15 @@
 // The axis of the turntable from the scan of a project that lacks it.
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <filesystem>
+#include <fstream>
+#include <map>
 #include <string>
 
 #include <gtest/gtest.h>
 
+#include "frangia/core/read_file.h"
 #include "frangia/service/turntable_axis.h"
 
 #include "service/live_service.h"
@@ -16,6 +20,36 @@ namespace {
 using testing::error_of;
 using testing::Json;
 using testing::remove_turntable;
+
+/// Makes frames unreadable whose names, sizes and times stay, as long as it lives.
+class UnreadableFrames {
+ public:
+  explicit UnreadableFrames(const std::filesystem::path& views) {
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(views))
+      if (entry.path().extension() == ".png")
+        contents_[entry.path()] = read_text_file(entry, kMost);
+    EXPECT_FALSE(contents_.empty());
+    for (const auto& [file, content] : contents_)
+      put(file, std::string(content.size(), 'x'));
+  }
+  UnreadableFrames(const UnreadableFrames&) = delete;
+  UnreadableFrames& operator=(const UnreadableFrames&) = delete;
+  UnreadableFrames(UnreadableFrames&&) = delete;
+  UnreadableFrames& operator=(UnreadableFrames&&) = delete;
+  ~UnreadableFrames() {
+    for (const auto& [file, content] : contents_)
+      put(file, content);
+  }
+
+ private:
+  static constexpr std::uint64_t kMost = 64'000'000;
+  static void put(const std::filesystem::path& file, const std::string& content) {
+    const auto time = std::filesystem::last_write_time(file);
+    std::ofstream(file, std::ios::binary) << content;
+    std::filesystem::last_write_time(file, time);
+  }
+  std::map<std::filesystem::path, std::string> contents_;
+};
 
 class AxisOfScan : public testing::LiveServiceTest {
  protected:
@@ -67,9 +101,17 @@ TEST_F(AxisOfScan, IsFoundWithItsUncertaintyAndTheSurfaceIsBuilt) {
   EXPECT_EQ(read_rig(folder() / "scan" / "rig.toml").turntable.value().axis, found.axis);
   for (const Json& station : project().at("stations"))
     EXPECT_TRUE(station.at("has_cloud").get<bool>());
-  // The frames are those of the same scan: a station can be captured again.
+  // The views are those that were decoded during the scan: the surface needs no frame again.
+  {
+    const UnreadableFrames frames(folder() / "scan" / "views");
+    done("reconstruct", {{"voxel_mm", 2.0}});
+    EXPECT_EQ(project().at("surface").at("summary").at("views"), 6);
+  }
+  // The frames are those of the same scan: a station can be captured again, and only its views are
+  // decoded.
   done("rescan-station", {{"station", 2}});
   EXPECT_TRUE(project().at("scan_complete").get<bool>());
+  const UnreadableFrames frames(folder() / "scan" / "views");
   done("reconstruct", {{"voxel_mm", 2.0}});
   EXPECT_EQ(project().at("surface").at("summary").at("views"), 6);
 }

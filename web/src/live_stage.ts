@@ -91,8 +91,9 @@ export class LiveStage {
     this.wanted = false;
     if (!project.live) void app.command('start-live');
   }
-  /** The preview begins with the step. */
+  /** The preview begins with the step; what was seen before, such as a board, is no picture of it. */
   entered(): void {
+    if (!this.app.state.project?.live) this.view.clear();
     this.peak = 0;
     this.wanted = true;
   }

@@ -10,6 +10,7 @@ import { MEASURE } from './messages/measure';
 import { RIG } from './messages/rig';
 import { SCAN } from './messages/scan';
 import type { Rows } from './messages/rows';
+import { SETTINGS } from './messages/settings';
 import { SURFACE } from './messages/surface';
 import { TERMS } from './messages/terms';
 import { VERDICT } from './messages/verdict';
@@ -19,6 +20,7 @@ const CATALOGUE = {
   ...HOME,
   ...FRAME,
   ...RIG,
+  ...SETTINGS,
   ...LIVE,
   ...SCAN,
   ...CHECK,

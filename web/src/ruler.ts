@@ -1,6 +1,7 @@
 import * as THREE from 'three';
 
 import type { Point } from './strokes';
+import { grownOf } from './grown';
 import type { Triple } from './types';
 
 /** What the picture draws of a measurement. */
@@ -16,7 +17,8 @@ export interface Drawn {
 }
 
 const COLOR = 0xff8a4c;
-/** Size of a line of text, pixels. */
+/** Size of a line of text whose font has so many pixels, and what a letter takes of it. */
+const FONT = 14;
 const LINE = 18;
 const LETTER = 7.6;
 
@@ -25,7 +27,7 @@ interface Anchor {
   at: THREE.Vector3;
   /** Where that is in the picture, pixels. */
   seen: Point;
-  width: number;
+  letters: number;
   leader: SVGLineElement;
   text: SVGTextElement;
 }
@@ -41,8 +43,8 @@ const element = <T extends SVGElement>(name: string): T =>
 const within = (least: number, value: number, most: number): number => Math.max(least, Math.min(most, value));
 
 /** Whether two labels, each given by its middle, cover each other. */
-const covers = (a: Box, b: Box): boolean =>
-  Math.abs(a.x - b.x) < (a.width + b.width) / 2 + 6 && Math.abs(a.y - b.y) < LINE;
+const covers = (a: Box, b: Box, line: number): boolean =>
+  Math.abs(a.x - b.x) < (a.width + b.width) / 2 + 6 && Math.abs(a.y - b.y) < line;
 
 /**
  * Measurements in the scene, each with its label, and the points of the one that is being clicked. A label that is dragged
@@ -85,7 +87,7 @@ export class Ruler {
       text.dataset['label'] = key;
       this.labels.append(leader, text);
       const at = middle[0]?.clone() ?? a.clone().lerp(b, 0.5);
-      const anchor = { key, at, seen: [0, 0] as Point, width: LETTER * words.length, leader, text };
+      const anchor = { key, at, seen: [0, 0] as Point, letters: words.length, leader, text };
       this.drag(anchor);
       return anchor;
     });
@@ -116,11 +118,15 @@ export class Ruler {
   }
   /** Puts the labels beside their measurements in the picture, pixels; one that would cover another moves away. */
   place(camera: THREE.Camera, width: number, height: number): void {
+    // Words grow on large screens.
+    const grown = grownOf(this.labels);
+    const row = LINE * grown;
     // The scale bar, which stands at the lower left.
-    const placed: Box[] = [44, 26].map((up) => ({ x: 150, y: height - up, width: 300 }));
+    const placed: Box[] = [44, 26].map((up) => ({ x: 150 * grown, y: height - up * grown, width: 300 * grown }));
     // Those that were dragged first: the others move away from them.
     const inOrder = [...this.anchors].sort((a, b) => Number(this.dragged.has(b.key)) - Number(this.dragged.has(a.key)));
-    for (const { key, at, seen: onPicture, width: wide, leader, text } of inOrder) {
+    for (const { key, at, seen: onPicture, letters, leader, text } of inOrder) {
+      const wide = LETTER * grown * letters;
       const seen = at.clone().project(camera);
       const shown = Math.abs(seen.x) < 1 && Math.abs(seen.y) < 1 && seen.z < 1;
       for (const one of [leader, text]) one.style.display = shown ? '' : 'none';
@@ -131,11 +137,11 @@ export class Ruler {
       const own = this.dragged.get(key);
       const box = {
         x: within(wide / 2 + 6, x + (own?.[0] ?? 0), Math.max(wide / 2 + 6, width - wide / 2 - 6)),
-        y: within(LINE, y + (own?.[1] ?? -14), height - 6),
+        y: within(row, y + (own?.[1] ?? -FONT * grown), height - 6),
         width: wide,
       };
       const step = box.y > height / 2 ? -4 : 4;
-      while (!own && placed.some((one) => covers(one, box)) && box.y < height - LINE && box.y > LINE) box.y += step;
+      while (!own && placed.some((one) => covers(one, box, row)) && box.y < height - row && box.y > row) box.y += step;
       placed.push(box);
       text.setAttribute('x', box.x.toFixed(1));
       text.setAttribute('y', box.y.toFixed(1));

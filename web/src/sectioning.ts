@@ -5,7 +5,7 @@ import type { Store } from './store';
 import { icon } from './icons';
 import { number, t } from './messages';
 import type { Section, Triple } from './types';
-import { choice } from './ui';
+import { choice, repairButton } from './ui';
 import { roundLength } from './view_marks';
 import type { Hit, SectionAxis } from './viewer';
 
@@ -195,7 +195,12 @@ export class Sectioning {
         ${row(t('section.length'), found.length_mm, 'mm')}
         ${found.area_mm2 === null ? '' : row(t('section.area'), found.area_mm2, 'mm²')}
       </dl>
-      ${found.area_mm2 === null ? html`<p class="quiet">${t('section.open')}</p>` : ''}
+      ${
+        found.area_mm2 === null
+          ? html`<p class="quiet">${t('section.open')}</p>
+              ${app.step === 'edit' ? '' : repairButton(app)}`
+          : ''
+      }
       <div class="pair">
         ${(['dxf', 'svg'] as const).map(
           (format) =>

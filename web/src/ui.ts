@@ -38,6 +38,20 @@ export const nextStep = (app: Store, step: StepName, ready = true): TemplateResu
     </button>
   </section>`;
 
+/** What holes advise: the step that fills them, at their list. */
+export const repairButton = (app: Store): TemplateResult =>
+  html`<button
+    class="btn wide"
+    data-repair
+    @click=${async () => {
+      app.go('edit');
+      await app.updateComplete;
+      document.querySelector('#holes')?.scrollIntoView();
+    }}
+  >
+    ${t('edit.repair')}
+  </button>`;
+
 export const bytes = (count: number, format: (value: number, digits: number) => string): string =>
   count < 1000
     ? `${format(count, 0)} B`

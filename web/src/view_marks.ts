@@ -1,5 +1,6 @@
 import * as THREE from 'three';
 
+import { grownOf } from './grown';
 import { svgElement } from './svg_element';
 import type { Triple } from './types';
 import { HALF, ViewCube } from './view_cube';
@@ -15,6 +16,10 @@ const CENTER = 58;
 /** An axis that is seen shorter than this share of its length is not drawn. */
 const SHORTEST = 0.3;
 const WIDEST_BAR_PX = 150;
+/** In a picture up to this width, pixels, the views stand beside the bar, and take so much of it. */
+const NARROW_PX = 900;
+const VIEWS_PX = 356;
+const SHORTEST_BAR_PX = 48;
 /** Where the bar begins, right of the cube, and its height, pixels. */
 const BAR = [128, 92] as const;
 
@@ -48,7 +53,8 @@ export class ViewMarks {
     this.element.append(this.behind, this.cube.group, this.before, ...names, this.bar, this.label);
   }
 
-  update(camera: THREE.Camera, mmPerPixel: number): void {
+  /** `mmPerPixel` and `widthPx` are those of the picture. */
+  update(camera: THREE.Camera, mmPerPixel: number, widthPx: number): void {
     const turn = camera.quaternion.clone().invert();
     const seen = AXES.map(([, axis]) => axis.clone().applyQuaternion(turn));
     this.cube.update(turn);
@@ -67,8 +73,10 @@ export class ViewMarks {
       text.setAttribute('x', (CENTER + (ARM + 9) * x).toFixed(1));
       text.setAttribute('y', (CENTER - (ARM + 9) * y).toFixed(1));
     }
-    const mm = roundLength(mmPerPixel * WIDEST_BAR_PX);
-    const width = mm / mmPerPixel;
+    const mmPerUnit = mmPerPixel * grownOf(this.element);
+    const room = widthPx > NARROW_PX ? WIDEST_BAR_PX : Math.min(WIDEST_BAR_PX, widthPx - VIEWS_PX);
+    const mm = roundLength(mmPerUnit * Math.max(SHORTEST_BAR_PX, room));
+    const width = mm / mmPerUnit;
     this.bar.setAttribute('d', `M${BAR[0]} ${BAR[1]}v6h${width.toFixed(1)}v-6`);
     this.label.textContent = length(mm);
   }

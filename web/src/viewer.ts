@@ -393,7 +393,7 @@ export class Viewer {
     const { camera } = this.view;
     camera.updateMatrixWorld(); // before letters are placed by it
     this.lights.quaternion.copy(camera.quaternion);
-    this.marks.update(camera, this.view.mmPerPixel);
+    this.marks.update(camera, this.view.mmPerPixel, this.canvas.clientWidth);
     this.ruler.place(camera, this.canvas.clientWidth, this.canvas.clientHeight);
     this.smoothing.render(this.scene, camera, !(this.moving && this.smoothing.software));
   }

@@ -8,21 +8,17 @@
 #include <fmt/format.h>
 
 #include "frangia/core/durable_file.h"
-#include "frangia/core/error.h"
-#include "frangia/core/read_file.h"
 #include "frangia/dataset/write_scan.h"
 #include "frangia/rig/write_rig.h"
 
 namespace frangia {
 namespace {
 
-std::string rig_file_of(const Scan& scan) {
-  constexpr std::uint64_t kMostBytes = 64'000'000;
-  try {
-    return read_text_file(scan.folder / "rig.toml", kMostBytes);
-  } catch (const Error&) {
-    return {};
-  }
+/// Everything of a rig that views are decoded with.
+std::string decoding_rig(const Rig& rig) {
+  Rig untabled = rig;
+  untabled.turntable.reset();
+  return rig_text(untabled);
 }
 
 /// Names, sizes and times of the files in the folder of a view; empty where that cannot be read.
@@ -53,7 +49,7 @@ std::string patterns_text(const Scan& scan) {
 }
 
 std::string text_of(const Scan& plan) {
-  return rig_text(plan.rig) + scan_text(plan);
+  return decoding_rig(plan.rig) + scan_text(plan);
 }
 
 std::size_t pixels_of(const DecodedView& view) {
@@ -79,7 +75,7 @@ DecodedViews::DecodedViews(const Scan& plan,
   written.folder = scratch;
   write_scan(written);
   scan_ = read_scan(scratch);
-  if (scan_.rig.cameras.size() == 1) rig_ = rig_file_of(scan_);
+  if (scan_.rig.cameras.size() == 1) rig_ = decoding_rig(scan_.rig);
   scan_.folder = plan.folder;
   std::error_code ignored;
   std::filesystem::remove_all(scratch, ignored);
@@ -124,7 +120,7 @@ std::shared_ptr<const ToldView> DecodedViews::find(const Scan& scan,
                                                    const DecodeOptions& options,
                                                    std::size_t view) const {
   if (depends_on_others(options.survey)) return nullptr;
-  if (rig_.empty() || patterns_text(scan) != patterns_text(scan_) || rig_file_of(scan) != rig_)
+  if (rig_.empty() || patterns_text(scan) != patterns_text(scan_) || decoding_rig(scan.rig) != rig_)
     return nullptr;
   const std::string name = scan.views.at(view).folder.string();
   const std::lock_guard lock(mutex_);

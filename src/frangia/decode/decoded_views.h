@@ -15,7 +15,8 @@ namespace frangia {
 /// Views of a scan that were decoded from the frames of the camera while it was captured, so that a
 /// reconstruction need not read and decode them again. A view is given out only where the frames on
 /// the disk are those that were decoded, and patterns, rig and options are the same: the result has
-/// the same bytes as without. All functions may be called from any thread.
+/// the same bytes as without. The turntable of the rig may differ, which no view is decoded with:
+/// it may be found by the scan itself. All functions may be called from any thread.
 class DecodedViews {
  public:
   /// Pixels of all views that are kept, of up to 30 bytes each; later views are decoded again.
@@ -32,7 +33,7 @@ class DecodedViews {
   [[nodiscard]] const Scan& scan() const { return scan_; }
   /// What the views are decoded with.
   [[nodiscard]] const DecodeOptions& options() const { return options_; }
-  /// Whether another plan is the same, and so is the algorithm.
+  /// Whether another plan is the same but for its turntable, and so is the algorithm.
   [[nodiscard]] bool fits(const Scan& plan, const DecodeOptions& options) const;
 
   /// The frames of a view are captured, for the first time or again.
@@ -57,10 +58,10 @@ class DecodedViews {
     std::size_t pixels = 0;
   };
 
-  std::string plan_;  ///< its files
+  std::string plan_;  ///< its files, without turntable
   Scan scan_;
   DecodeOptions options_;
-  std::string rig_;  ///< rig.toml of the scan; empty where views are not kept
+  std::string rig_;  ///< of the scan, without turntable; empty where views are not kept
   mutable std::mutex mutex_;
   std::map<std::string, Kept> kept_;  ///< by the folder of the view
 };

@@ -44,6 +44,9 @@ std::vector<DeviceTest> test_devices(const std::filesystem::path& rig_file,
       opened.push_back(driver.open(settings, rig, Deadline::in(timeout_s, run.stop)));
       if (const auto how = opened.back()->safe_off(); how && guardian != nullptr)
         watches.push_back(guardian->watch(*how));
+      // Read where exposures are chosen, not by the driver.
+      if (driver.kind == DeviceKind::Camera)
+        static_cast<void>(settings.number_or("exposure_step_ms", 0.0));
       settings.warn_of_unused_keys(run);
       test.name = opened.back()->name();
       test.answer = opened.back()->test(Deadline::in(timeout_s, run.stop));

@@ -121,6 +121,18 @@ void put_projector(TomlWriter& writer, const Projector& projector) {
   put_response(writer, projector);
 }
 
+void put_turntable(TomlWriter& writer, const Turntable& table) {
+  writer.begin_table("turntable");
+  writer.put("point_mm", list_of(table.point_mm));
+  writer.put("axis", list_of(table.axis));
+  const auto put_sigma = [&](const char* key, double sigma) {
+    if (!std::isnan(sigma)) writer.put(key, sigma);
+  };
+  put_sigma("point_sigma_mm", table.point_sigma_mm);
+  put_sigma("axis_sigma_deg", deg_from_rad(table.axis_sigma_rad));
+  put_sigma("angle_sigma_deg", deg_from_rad(table.angle_sigma_rad));
+}
+
 TomlWriter composed_rig(const Rig& rig) {
   TomlWriter writer;
   writer.put("format", std::string("frangia-rig"));
@@ -140,17 +152,7 @@ TomlWriter composed_rig(const Rig& rig) {
     writer.put("normal", list_of(rig.laser_sheet->normal));
     writer.put("offset_mm", rig.laser_sheet->offset_mm);
   }
-  if (rig.turntable) {
-    writer.begin_table("turntable");
-    writer.put("point_mm", list_of(rig.turntable->point_mm));
-    writer.put("axis", list_of(rig.turntable->axis));
-    const auto put_sigma = [&](const char* key, double sigma) {
-      if (!std::isnan(sigma)) writer.put(key, sigma);
-    };
-    put_sigma("point_sigma_mm", rig.turntable->point_sigma_mm);
-    put_sigma("axis_sigma_deg", deg_from_rad(rig.turntable->axis_sigma_rad));
-    put_sigma("angle_sigma_deg", deg_from_rad(rig.turntable->angle_sigma_rad));
-  }
+  if (rig.turntable) put_turntable(writer, *rig.turntable);
   if (rig.calibration) put_calibration(writer, *rig.calibration);
   return writer;
 }
@@ -165,6 +167,26 @@ std::string devices_of(const std::filesystem::path& path) {
   return text.str();
 }
 
+/// The lines of a rig.toml but for one table and the tables within it.
+std::string without_table(const std::string& rig_toml, const std::string& table) {
+  std::string text;
+  std::istringstream lines(rig_toml);
+  bool left_out = false;
+  for (std::string line; std::getline(lines, line);) {
+    const std::size_t begin = line.find_first_not_of(" \t");
+    if (begin != std::string::npos && line[begin] == '[') {
+      std::string name = line.substr(begin, line.find(']', begin) - begin);
+      name.erase(0, name.find_first_not_of("[ \t"));
+      name.erase(name.find_last_not_of(" \t") + 1);
+      left_out = name == table || name.starts_with(table + ".");
+    }
+    if (!left_out) text += line + '\n';
+  }
+  while (text.ends_with("\n\n"))
+    text.pop_back();
+  return text;
+}
+
 }  // namespace
 
 std::string rig_text(const Rig& rig) {
@@ -172,23 +194,15 @@ std::string rig_text(const Rig& rig) {
 }
 
 std::string with_response(const std::string& rig_toml, const Projector& projector) {
-  std::string text;
-  std::istringstream lines(rig_toml);
-  bool replaced = false;
-  for (std::string line; std::getline(lines, line);) {
-    const std::size_t begin = line.find_first_not_of(" \t");
-    if (begin != std::string::npos && line[begin] == '[') {
-      std::string name = line.substr(begin, line.find(']', begin) - begin);
-      name.erase(0, name.find_first_not_of("[ \t"));
-      replaced = name == "projector.response" || name.starts_with("projector.response.");
-    }
-    if (!replaced) text += line + '\n';
-  }
   TomlWriter writer;
   put_response(writer, projector);
-  while (text.ends_with("\n\n"))
-    text.pop_back();
-  return text + writer.text();
+  return without_table(rig_toml, "projector.response") + writer.text();
+}
+
+std::string with_turntable(const std::string& rig_toml, const Turntable& table) {
+  TomlWriter writer;
+  put_turntable(writer, table);
+  return without_table(rig_toml, "turntable") + writer.text();
 }
 
 void write_rig(const std::filesystem::path& path,

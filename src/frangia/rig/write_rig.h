@@ -16,6 +16,10 @@ namespace frangia {
 /// its own. All other tables, keys and comments stay as they are.
 [[nodiscard]] std::string with_response(const std::string& rig_toml, const Projector& projector);
 
+/// Returns the text of a rig.toml with another turntable; everything else stays as it is, to the
+/// last digit.
+[[nodiscard]] std::string with_turntable(const std::string& rig_toml, const Turntable& table);
+
 /// Writes `rig_text` to a file, and the covariance of the parameters, where it is known, to the CSV
 /// file that the calibration names, in the same folder; a file without a name is
 /// NAME-covariance.csv for NAME.toml. The `[devices]` tables of the rig.toml

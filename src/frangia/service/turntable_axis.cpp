@@ -1,8 +1,12 @@
 #include "frangia/service/turntable_axis.h"
 
+#include <cstdint>
 #include <filesystem>
 
 #include "frangia/core/angles.h"
+#include "frangia/core/durable_file.h"
+#include "frangia/core/error.h"
+#include "frangia/core/read_file.h"
 #include "frangia/dataset/scan_folder.h"
 #include "frangia/rig/read_rig.h"
 #include "frangia/rig/write_rig.h"
@@ -12,12 +16,20 @@
 namespace frangia {
 namespace {
 
-/// Puts the axis into a rig.toml, which is complete at all times.
+/// Puts the axis into a rig.toml, which is complete at all times. Nothing else changes, so that
+/// views that were decoded with it stay those of this rig.
 void put_axis(const std::filesystem::path& file, const Turntable& table, const Run& run) {
-  Rig rig = read_rig(file, run);
-  rig.turntable = table;
+  constexpr std::uint64_t kMostBytes = 64'000'000;
   const std::filesystem::path fresh = file.parent_path() / "rig-with-axis.toml";
-  write_rig(fresh, rig, Durability::Synced, file);
+  write_text_file(
+      fresh, with_turntable(read_text_file(file, kMostBytes), table), Durability::Synced);
+  try {
+    static_cast<void>(read_rig(fresh));
+  } catch (const Error&) {  // a turntable that is no table of its own
+    Rig rig = read_rig(file, run);
+    rig.turntable = table;
+    write_rig(fresh, rig, Durability::Synced, file);
+  }
   std::filesystem::rename(fresh, file);
 }
 

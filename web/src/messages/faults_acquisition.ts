@@ -149,6 +149,7 @@ export const FAULTS_ACQUISITION = {
     '{0}; die Ansicht noch einmal aufnehmen',
     '{0}; riprendere di nuovo la vista',
   ],
+  'fault.goodView': ['good', 'gut', 'buona'],
   'fault.contrastSaturatedPoints': [
     '{0}: contrast {1}, {2} % saturated, {3} points',
     '{0}: Kontrast {1}, {2} % gesättigt, {3} Punkte',

@@ -39,6 +39,7 @@ export const RIG = {
   'rig.noDevice': ['None', 'Keins', 'Nessuno'],
   'rig.optional': ['optional', 'optional', 'facoltativo'],
   'rig.simulated': ['Simulated', 'Simuliert', 'Simulati'],
+  'rig.isSimulated': ['simulated', 'simuliert', 'simulato'],
   'rig.asText': ['Settings as text', 'Einstellungen als Text', 'Impostazioni come testo'],
   'rig.settings': ['Settings', 'Einstellungen', 'Impostazioni'],
   'rig.use': ['Use these', 'Diese benutzen', 'Usa questi'],

@@ -3,7 +3,7 @@ import { type Combine, type Likeness, LIKENESSES } from '../../editing';
 import type { App } from '../../parts';
 import { icon, type IconName } from '../../icons';
 import { type MessageKey, number, t } from '../../messages';
-import { choice, numberForm } from '../../ui';
+import { choice, nextStep, numberForm } from '../../ui';
 import { stepWords } from '../../step_words';
 import type { Tool } from '../../viewer';
 import { fitting, selectingByValue, shaping } from './more';
@@ -112,7 +112,7 @@ function repairing(app: App): TemplateResult {
       ? app.editing.preview(`fill-holes${flat}`, `${Math.ceil(2 * size)}mm`)
       : app.editing.preview(`fill-hole${flat}`, String(one));
   const tolerance = Math.max(0.001, Number((size / 5000).toPrecision(1)));
-  return html`<section class="group">
+  return html`<section class="group" id="holes">
       <h2>${t('edit.holes')}<small class="num">${surface.hole_count || ''}</small></h2>
       ${surface.hole_count === 0 ? html`<p class="quiet">${t('edit.noHoles')}</p>` : ''}
       ${surface.hole_count > 0 ? html`<p class="quiet">${t('edit.chooseHoles')}</p>` : ''}
@@ -233,5 +233,6 @@ export function editStep(app: App): TemplateResult {
             </li>`,
         )}
       </ol>
-    </section>`;
+    </section>
+    ${nextStep(app, 'inspect', !surface.preview)}`;
 }

@@ -244,7 +244,7 @@ function reference(app: App): TemplateResult {
   return html`<section class="group" id="reference-group">
     <h2>${t('inspect.reference')}</h2>
     ${known ? html`<div class="file"><b>${known.name}</b></div>` : html`<p class="quiet">${t('inspect.lead')}</p>`}
-    <label class="btn wide choose">
+    <label class="btn ${known || surface?.inspection ? '' : 'primary'} wide choose">
       ${icon('folder')}${inspecting.sent === null ? t(known ? 'inspect.other' : 'inspect.choose') : t('inspect.sending', { share: number(100 * inspecting.sent) })}
       <input
         id="reference"

@@ -22,10 +22,12 @@ async function rigOf(files: FileList): Promise<{ rig: string; covariance: string
   return texts;
 }
 
+/** A word of the catalogue, or what stands for one that it does not have. */
+const wordOr = (key: string, otherwise: string): string => (isMessage(key) ? t(key) : otherwise);
+
 /** What an example is: in the reader's language, or as its file says where the catalogue does not have it. */
 function exampleWords(example: { name: string; description: string } | undefined): string {
-  const key = `example.${example?.name}`;
-  return isMessage(key) ? t(key) : (example?.description ?? '');
+  return wordOr(`example.${example?.name}`, example?.description ?? '');
 }
 
 /** The kept rigs, of which one is chosen. */
@@ -58,7 +60,7 @@ function sourceFields(app: App): TemplateResult {
     return html`<label class="field"
       ><span>${t('home.part')}</span
       ><select name="part">
-        ${state.parts.map((part) => html`<option ?selected=${part === 'bust'}>${part}</option>`)}
+        ${state.parts.map((part) => html`<option value=${part} ?selected=${part === 'bust'}>${wordOr(`part.${part}`, part)}</option>`)}
       </select></label
     >`;
   if (app.projects.source === 'file')
@@ -83,7 +85,7 @@ function sourceFields(app: App): TemplateResult {
           name="example"
           @change=${(event: Event) => app.projects.setExample((event.target as HTMLSelectElement).value)}
         >
-          ${state.examples.map(({ name }) => html`<option value=${name} ?selected=${name === app.projects.example}>${name}</option>`)}
+          ${state.examples.map(({ name }) => html`<option value=${name} ?selected=${name === app.projects.example}>${wordOr(`rigName.${name}`, name)}</option>`)}
         </select></label
       >
       <p class="quiet note">${exampleWords(state.examples.find(({ name }) => name === app.projects.example))}</p>`;

@@ -1,6 +1,6 @@
 import { html, type TemplateResult } from 'lit';
 
-import { t } from '../../messages';
+import { isMessage, t } from '../../messages';
 
 type Value = string | number | boolean;
 /** A line of the settings of a device; with a key where it is "key = value" with a plain value. */
@@ -35,8 +35,10 @@ export function linesOf(settings: string): Line[] {
   });
 }
 
-/** "exposure_ms" as "exposure, ms". */
+/** What a setting is called; one without a name by its key: "true_size_mm" as "true size, mm". */
 export function labelOf(key: string): string {
+  const named = `setting.${key}`;
+  if (isMessage(named)) return t(named);
   const words = key.split('_');
   const unit = words.length > 1 ? UNITS[words.at(-1) as string] : undefined;
   return unit ? `${words.slice(0, -1).join(' ')}, ${unit}` : words.join(' ');

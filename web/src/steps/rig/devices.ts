@@ -6,6 +6,7 @@ import { icon } from '../../icons';
 import { type MessageKey, t } from '../../messages';
 import { type Table, TABLES } from '../../types';
 import { deviceForm } from './device_form';
+import { plain } from '../../ui';
 import type { RigStage } from './stages';
 
 const REQUIRED: ReadonlySet<Table> = new Set(['camera', 'fringes']);
@@ -114,7 +115,7 @@ function choosing(app: App, draft: DeviceDraft): TemplateResult {
       ${icon('again')}${t(search ? 'rig.searchAgain' : 'rig.search')}
     </button>
     ${search && search.connected.length === 0 ? html`<p><span class="dot poor"></span>${t('rig.nothingFound')}</p>` : ''}
-    ${search?.warnings.map((sentence) => html`<p><span class="dot poor"></span>${sentence}</p>`) ?? ''}
+    ${search?.warnings.map((sentence) => html`<p><span class="dot poor"></span>${plain(sentence)}</p>`) ?? ''}
     ${search ? TABLES.map((table) => chooser(app, draft, table)) : ''}
     <div class="pair">
       <button
@@ -150,8 +151,10 @@ export function devices(app: App): RigStage {
                   <span class="dot ${device.fault ? 'poor' : device.answer ? 'done' : ''}"></span>
                   <div>
                     <b>${t(`table.${device.table.split('-')[0]}` as MessageKey)}</b
-                    ><span class="quiet">${device.name || device.driver}</span>
-                    ${device.fault || device.answer ? html`<p class=${device.fault ? 'bad' : 'quiet'}>${device.fault || device.answer}</p>` : ''}
+                    ><span class="quiet"
+                      >${isSimulated(device) && !device.name ? t('rig.isSimulated') : device.name || device.driver}</span
+                    >
+                    ${device.fault || device.answer ? html`<p class=${device.fault ? 'bad' : 'quiet'}>${plain(device.fault || device.answer)}</p>` : ''}
                   </div>
                 </div>`,
             )}

@@ -2,7 +2,7 @@ import { html, type TemplateResult } from 'lit';
 import type { App } from '../../parts';
 import { dial } from '../../dial';
 import { icon } from '../../icons';
-import { number, t } from '../../messages';
+import { number, stageName, t } from '../../messages';
 import type { Station } from '../../types';
 import { numberForm, plain, span } from '../../ui';
 import { axisAfter, axisFirst, axisFound, lacksAxis, scanArguments } from './axis_of_scan';
@@ -26,7 +26,7 @@ function note(app: App): string {
   const job = app.job('scan');
   const progress = progressOf(app);
   if (job && progress > 0.02) return t('scan.left', { time: span((job.seconds * (1 - progress)) / progress) });
-  if (job) return job.stage;
+  if (job) return stageName(job.stage);
   return done(app) ? t('scan.complete') : t('scan.stationsNoun');
 }
 

@@ -4,7 +4,7 @@ import { joinedSetups } from '../../legend';
 import type { Coloring } from '../../mesh_colors';
 import { number, t } from '../../messages';
 import { term } from '../../terms';
-import { choice, nextStep, plain } from '../../ui';
+import { choice, nextStep, plain, repairButton } from '../../ui';
 import { findings } from './findings';
 import { joins } from '../scan/setups';
 import { versions } from './versions';
@@ -145,7 +145,7 @@ export function surfaceStep(app: App): TemplateResult {
         <dt>${t('surface.holes')}</dt>
         <dd class="num">${number(surface.hole_count)}</dd>
       </dl>
-      ${details(app, surface)}
+      ${surface.hole_count > 0 ? repairButton(app) : ''} ${details(app, surface)}
     </section>
     ${app.measuring.panel()} ${appearance(app)}
     <section class="group" id="section">
