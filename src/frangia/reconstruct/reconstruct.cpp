@@ -94,6 +94,14 @@ std::string untrusted_reason_of(const Reconstruction& result) {
         "calibrate the rig again";
   }
   if (reason.empty()) return reason;
+  constexpr double kAdvised = 0.1;  // of the points: fewer do not decide where a view is
+  if (result.background.undecided > kAdvised) {
+    return reason + fmt::format(
+                        ". {:.0f} % of the points stand still in all views, and too few views show "
+                        "whether they turn: if they are background, set `clip_radius` to the "
+                        "radius of the part",
+                        100.0 * result.background.undecided);
+  }
   // Camera noise makes each capture another one. Without noise, views of a round part may be equal,
   // but then they do not contradict each other.
   for (const ViewSummary& view : result.view_summaries)
@@ -265,8 +273,11 @@ std::optional<ScanWithAngles> angles_without_other_views(const LitScan& lit,
   HeldMessages unused;
   const Run quiet = unused.in_place_of(run);
   can.corrects_before_registration = false;
-  std::vector<MeasuredSetup> setups = split_setups(
-      measure_views(lit.scan, lit.rays, decode, options.mixed_pixels, quiet, options.decoded));
+  MeasuredViews measured =
+      measure_views(lit.scan, lit.rays, decode, options.mixed_pixels, quiet, options.decoded);
+  if (can.removes_background)
+    static_cast<void>(leave_out_background(measured, lit.scan.rig, quiet));
+  std::vector<MeasuredSetup> setups = split_setups(std::move(measured));
   for (MeasuredSetup& setup : setups) {
     double height_mm = kMissing;
     register_setup(setup, lit, can, options, targets, height_mm, quiet);
@@ -298,6 +309,7 @@ Reconstruction reconstruct_by(ScanAngles angles,
   MeasuredViews measured =
       measure_views(scan, rays, decode, options.mixed_pixels, run, options.decoded);
   release_cached_pixels();
+  if (can.removes_background) out.background = leave_out_background(measured, scan.rig, run);
   out.views = measured.stations.size();
   out.view_summaries = std::move(measured.summaries);
   out.agreements = agreements_of(measured, scan.rig);

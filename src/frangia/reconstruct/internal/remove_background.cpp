@@ -1,5 +1,6 @@
 #include "frangia/reconstruct/internal/remove_background.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <vector>
@@ -27,6 +28,27 @@ std::size_t clip_cameras(MeasuredViews& measured,
 }
 
 }  // namespace
+
+BackgroundReport leave_out_background(MeasuredViews& measured, const Rig& rig, const Run& run) {
+  BackgroundReport report;
+  for (std::size_t i = 0; i < measured.cameras.size(); ++i) {
+    const CameraModel& camera = rig.cameras[i].camera.model;
+    const Background found = find_background(measured.cameras[i], camera, measured.setups, run);
+    if (i == 0) report.undecided = found.undecided;
+    if (!found.found()) continue;
+    report.points += remove_background(measured.cameras[i], camera, found, run);
+    report.from_axis_mm = std::fmin(report.from_axis_mm, found.from_axis_mm);
+  }
+  if (report.points == 0) return report;
+  measured.points -= std::min(measured.points, report.points);
+  run.note(
+      fmt::format("what stands still in front of the camera while the part turns (background, "
+                  "{:.0f} mm from the axis and farther) is left out with {} points; set "
+                  "`keep_background` to keep it",
+                  report.from_axis_mm,
+                  report.points));
+  return report;
+}
 
 void clip_to_volume(MeasuredViews& measured,
                     const Rig& rig,
