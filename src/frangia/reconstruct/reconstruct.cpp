@@ -94,14 +94,6 @@ std::string untrusted_reason_of(const Reconstruction& result) {
         "calibrate the rig again";
   }
   if (reason.empty()) return reason;
-  constexpr double kAdvised = 0.1;  // of the points: fewer do not decide where a view is
-  if (result.background.undecided > kAdvised) {
-    return reason + fmt::format(
-                        ". {:.0f} % of the points stand still in all views, and too few views show "
-                        "whether they turn: if they are background, set `clip_radius` to the "
-                        "radius of the part",
-                        100.0 * result.background.undecided);
-  }
   // Camera noise makes each capture another one. Without noise, views of a round part may be equal,
   // but then they do not contradict each other.
   for (const ViewSummary& view : result.view_summaries)
@@ -393,6 +385,11 @@ Reconstruction reconstruct_by(ScanAngles angles,
   out.silhouettes = silhouettes_of(scan, registered.joined.measured, out.mesh, run);
   if (out.targets && out.targets->scale) apply_scale(out, out.targets->scale->factor);
   out.untrusted_reason = untrusted_reason_of(out);
+  const std::string undecided = out.background.undecided_text();
+  if (!undecided.empty() && !out.untrusted_reason.empty())
+    out.untrusted_reason += "; " + undecided;
+  else if (!undecided.empty())
+    run.warn(undecided);
   if (!out.untrusted_reason.empty()) discard_sigma(out.mesh);
   out.sigma = median_sigma(out.mesh);
   return out;

@@ -30,6 +30,7 @@ struct BackgroundLimits {
           ///< has one radius over 45 degrees at 60 mm of 400, and over less farther out
   double supported = 0.5;  ///< pairs of views that see something there, over points: what repeats
                            ///< itself is seen again in one of two directions at least
+  double repeated = 1.5;   ///< ... and in both directions, unless it is seen at grazing incidence
   double remains = 0.002;  ///< share of the points that must remain for the part
 };
 constexpr BackgroundLimits kBackgroundLimits;
@@ -43,8 +44,9 @@ struct Ring {
   std::uint32_t bins = 0;  ///< directions from the axis at which points stand still, by view 0
   int through = 0;
   int support = 0;
-  double still = 0.0;  ///< points
-  double moved = 0.0;  ///< points that others see through at their own pixel
+  double still = 0.0;    ///< points
+  double moved = 0.0;    ///< points that others see through at their own pixel
+  bool blocked = false;  ///< by background: whatever turned there would hit it
 };
 
 /// The longest run of occupied bins, around the axis.
@@ -79,15 +81,17 @@ class BackgroundSearch {
     run.check();
     fill_rings();
     decide_surfaces(out);
+    add_beside();
     extend();
     return finished(std::move(out));
   }
 
  private:
-  [[nodiscard]] bool continues(float a_mm, float b_mm, float sigma_mm) const {
-    const float pixel_mm = b_mm / static_cast<float>(seen_.camera.focal_px.x());
-    return std::abs(a_mm - b_mm) <
-           equal_within_mm(b_mm, sigma_mm) + kBackgroundLimits.steepest * pixel_mm;
+  /// Whether depths of neighbouring pixels are on one surface, no steeper than `slope`.
+  [[nodiscard]] bool continues(const StillPixel& from, float to_mm, float slope) const {
+    const float pixel_mm = from.depth_mm / static_cast<float>(seen_.camera.focal_px.x());
+    return std::abs(to_mm - from.depth_mm) <
+           equal_within_mm(from.depth_mm, from.sigma_mm) + slope * pixel_mm;
   }
 
   [[nodiscard]] RingCell cell_of(const Eigen::Vector3d& object, double cell_mm) const {
@@ -97,6 +101,16 @@ class BackgroundSearch {
   /// About the axis as view 0 sees it, so that what stands still has one direction.
   [[nodiscard]] Eigen::Vector3d about_axis(int x, int y, float depth_mm) const {
     return seen_.views.front().rig_from_object.inverse() * seen_.point(x, y, depth_mm);
+  }
+
+  [[nodiscard]] Ring& ring_of(const Eigen::Vector2i& p) {
+    return rings_[cell_of(about_axis(p.x(), p.y(), pixels_(p.x(), p.y()).depth_mm), cell_mm_)];
+  }
+  /// Whether something moves at the height and radius of a point.
+  [[nodiscard]] bool is_swept(const Eigen::Vector2i& p, const StillPixel& at) const {
+    const auto ring = rings_.find(cell_of(about_axis(p.x(), p.y(), at.depth_mm), cell_mm_));
+    return ring != rings_.end() &&
+           ring->second.moved > kBackgroundLimits.swept * ring->second.still;
   }
 
   /// Sorts all points by height and radius.
@@ -181,7 +195,8 @@ class BackgroundSearch {
           const Eigen::Vector2i from = surface[i];
           const StillPixel& at = pixels_(from.x(), from.y());
           each_neighbour(from, [&](const Eigen::Vector2i& to) {
-            if (continues(pixels_(to.x(), to.y()).depth_mm, at.depth_mm, at.sigma_mm)) take(to);
+            if (continues(at, pixels_(to.x(), to.y()).depth_mm, kBackgroundLimits.steepest))
+              take(to);
           });
         }
         if (!surface.empty()) undecided += decide(surface);
@@ -209,10 +224,9 @@ class BackgroundSearch {
     int support = 0;
     for (const Eigen::Vector2i& p : surface) {
       const StillPixel& at = pixels_(p.x(), p.y());
-      const Ring& ring = rings_[cell_of(about_axis(p.x(), p.y(), at.depth_mm), cell_mm_)];
       usual += at.usual ? 1.0 : 0.0;
       refuted += at.through > at.support ? 1.0 : 0.0;
-      swept += ring.moved > kBackgroundLimits.swept * ring.still ? 1.0 : 0.0;
+      swept += is_swept(p, at) ? 1.0 : 0.0;
       points += at.agree;
       support += at.support;
     }
@@ -225,31 +239,61 @@ class BackgroundSearch {
     return 0.0;
   }
 
-  /// Continues the background over pixels that a single view sees, others being hidden by the part
-  /// or in its shadow.
+  /// Adds what stands still at the height and radius of background, as a piece of wall that is lit
+  /// through a ring and on which no view of its place shows anything.
+  void add_beside() {
+    for (int y = 0; y < pixels_.height(); ++y) {
+      for (int x = 0; x < pixels_.width(); ++x) {
+        if (roles_(x, y) == PixelRole::Background) ring_of({x, y}).blocked = true;
+      }
+    }
+    for (int y = 0; y < pixels_.height(); ++y) {
+      for (int x = 0; x < pixels_.width(); ++x) {
+        const StillPixel& at = pixels_(x, y);
+        const bool repeats = at.support > kBackgroundLimits.repeated * at.agree;
+        if (roles_(x, y) != PixelRole::Open || !at.stands || repeats || is_swept({x, y}, at))
+          continue;
+        if (ring_of({x, y}).blocked) roles_(x, y) = PixelRole::Background;
+      }
+    }
+  }
+
+  /// The farthest point at a pixel, which one view may see alone.
+  [[nodiscard]] StillPixel farthest_at(const Eigen::Vector2i& p) const {
+    StillPixel out{.depth_mm = 0.0F};
+    for (std::size_t k = 0; k < seen_.views.size(); ++k) {
+      const RangeGrid& range = seen_.views[k].range;
+      const float depth_mm = range.depth_mm(p.x(), p.y());
+      if (depth_mm > out.depth_mm)
+        out = {.depth_mm = depth_mm, .sigma_mm = range.sigma_mm(p.x(), p.y()), .views = 1U << k};
+    }
+    if (out.views != 0) turn_into_views(seen_, p.x(), p.y(), out);
+    return out;
+  }
+
+  /// Continues the background over pixels beside it that nothing supports: a narrow face or an edge
+  /// of it, which stands still, too, and what a single view sees of its surface, because the part
+  /// or its shadow hides it from the others.
   void extend() {
     std::vector<Eigen::Vector2i> border;
-    for (int y = 0; y < pixels_.height(); ++y)
+    for (int y = 0; y < pixels_.height(); ++y) {
       for (int x = 0; x < pixels_.width(); ++x)
         if (roles_(x, y) == PixelRole::Background) border.emplace_back(x, y);
+    }
     for (std::size_t i = 0; i < border.size(); ++i) {
       const Eigen::Vector2i from = border[i];
       const StillPixel near = pixels_(from.x(), from.y());
       each_neighbour(from, [&](const Eigen::Vector2i& to) {
         if (!is(PixelRole::Open, to)) return;
-        StillPixel farthest{.depth_mm = 0.0F};
-        for (std::size_t k = 0; k < seen_.views.size(); ++k) {
-          const float depth_mm = seen_.views[k].range.depth_mm(to.x(), to.y());
-          if (depth_mm > farthest.depth_mm)
-            farthest = {.depth_mm = depth_mm,
-                        .sigma_mm = seen_.views[k].range.sigma_mm(to.x(), to.y()),
-                        .views = 1U << k};
+        StillPixel& at = pixels_(to.x(), to.y());
+        const bool stands_alone =
+            at.stands && at.support < kBackgroundLimits.supported * at.agree && !is_swept(to, at);
+        if (!stands_alone) {
+          const StillPixel farthest = farthest_at(to);
+          const float slope = farthest.support == 0 ? kBackgroundLimits.steepest : 1.0F;
+          if (farthest.views == 0 || !continues(near, farthest.depth_mm, slope)) return;
+          at = farthest;
         }
-        if (farthest.views == 0 || !continues(farthest.depth_mm, near.depth_mm, near.sigma_mm))
-          return;
-        turn_into_views(seen_, to.x(), to.y(), farthest);
-        if (farthest.support > 0) return;
-        pixels_(to.x(), to.y()) = farthest;
         roles_(to.x(), to.y()) = PixelRole::Background;
         border.push_back(to);
       });
@@ -270,7 +314,7 @@ class BackgroundSearch {
         const float limit_mm =
             is_background ? at.depth_mm - equal_within_mm(at.depth_mm, at.sigma_mm) : INFINITY;
         for (const ThinView& view : seen_.views)
-          remaining += view.range.depth_mm(x, y) < limit_mm ? 1 : 0;
+          remaining += view.range.depth_mm(x, y) < limit_mm ? 1U : 0U;
         if (!is_background) continue;
         depth_mm(x, y) = at.depth_mm;
         from_axis_mm.push_back(static_cast<float>(about_axis(x, y, at.depth_mm).head<2>().norm()));

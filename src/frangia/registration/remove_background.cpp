@@ -11,6 +11,8 @@ namespace {
 constexpr float kNoises = 5.0F;           // standard deviations: of a million points none is beyond
 constexpr float kRelativeMargin = 1e-3F;  // of the distance: twice what counts as equal
 
+constexpr float kRelativeStep = 0.02F;  // of the distance: more is a step between two surfaces
+
 /// The depths of the background about a pixel.
 struct BackgroundDepths {
   float nearest_mm = INFINITY;
@@ -39,7 +41,10 @@ BackgroundDepths depths_about(const Background& background, int x, int y) {
 
 bool is_background(const BackgroundDepths& at, float depth_mm, float sigma_mm) {
   if (at.farthest_mm == 0.0F) return false;
-  const float margin_mm = kNoises * sigma_mm + kRelativeMargin * depth_mm;
+  float margin_mm = kNoises * sigma_mm + kRelativeMargin * depth_mm;
+  // At the border a surface goes on as steep as it is; a step between two surfaces does not.
+  const float spread_mm = at.farthest_mm - at.nearest_mm;
+  if (!at.all_around && spread_mm < kRelativeStep * depth_mm) margin_mm += spread_mm;
   if (depth_mm < at.nearest_mm - margin_mm) return false;
   return at.all_around || depth_mm < at.farthest_mm + margin_mm;
 }

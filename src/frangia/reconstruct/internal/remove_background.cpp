@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <string>
 #include <vector>
 
 #include <Eigen/Geometry>
@@ -28,6 +29,15 @@ std::size_t clip_cameras(MeasuredViews& measured,
 }
 
 }  // namespace
+
+std::string BackgroundReport::undecided_text() const {
+  constexpr double kFew = 0.1;  // of the points: they do not decide where a view is
+  if (undecided < kFew) return {};
+  return fmt::format(
+      "{:.0f} % of the points stand still in all views, which do not show whether they turn with "
+      "the table: if they are background, set `clip_radius` to the radius of the part",
+      100.0 * undecided);
+}
 
 BackgroundReport leave_out_background(MeasuredViews& measured, const Rig& rig, const Run& run) {
   BackgroundReport report;

@@ -10,8 +10,8 @@
 
 namespace frangia {
 
-/// Removes from all cameras what stands still while the part turns: background. Before the views are
-/// split by setup, since it stands still in all of them.
+/// Removes from all cameras what stands still while the part turns: background. Before the views
+/// are split by setup, since it stands still in all of them.
 [[nodiscard]] BackgroundReport leave_out_background(MeasuredViews& measured,
                                                     const Rig& rig,
                                                     const Run& run = {});
