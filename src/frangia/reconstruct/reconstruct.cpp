@@ -384,12 +384,7 @@ Reconstruction reconstruct_by(ScanAngles angles,
   }
   out.silhouettes = silhouettes_of(scan, registered.joined.measured, out.mesh, run);
   if (out.targets && out.targets->scale) apply_scale(out, out.targets->scale->factor);
-  out.untrusted_reason = untrusted_reason_of(out);
-  const std::string undecided = out.background.undecided_text();
-  if (!undecided.empty() && !out.untrusted_reason.empty())
-    out.untrusted_reason += "; " + undecided;
-  else if (!undecided.empty())
-    run.warn(undecided);
+  out.untrusted_reason = with_undecided(untrusted_reason_of(out), out.background, run);
   if (!out.untrusted_reason.empty()) discard_sigma(out.mesh);
   out.sigma = median_sigma(out.mesh);
   return out;

@@ -68,10 +68,6 @@ struct BackgroundReport {
   std::size_t points = 0;          ///< that were removed from all views; 0: nothing was found
   double from_axis_mm = kMissing;  ///< distance of the nearest ones from the axis; NaN: none
   double undecided = 0.0;          ///< see `Background`
-
-  /// What to do about points of which nothing shows whether they are background, as one clause
-  /// without a full stop; empty where they are few.
-  [[nodiscard]] std::string undecided_text() const;
 };
 
 /// The reconstructed surface and what the stages report.

@@ -30,13 +30,18 @@ std::size_t clip_cameras(MeasuredViews& measured,
 
 }  // namespace
 
-std::string BackgroundReport::undecided_text() const {
+std::string with_undecided(std::string untrusted_reason,
+                           const BackgroundReport& background,
+                           const Run& run) {
   constexpr double kFew = 0.1;  // of the points: they do not decide where a view is
-  if (undecided < kFew) return {};
-  return fmt::format(
+  if (background.undecided < kFew) return untrusted_reason;
+  const std::string advice = fmt::format(
       "{:.0f} % of the points stand still in all views, which do not show whether they turn with "
       "the table: if they are background, set `clip_radius` to the radius of the part",
-      100.0 * undecided);
+      100.0 * background.undecided);
+  if (!untrusted_reason.empty()) return untrusted_reason + "; " + advice;
+  run.warn(advice);
+  return untrusted_reason;
 }
 
 BackgroundReport leave_out_background(MeasuredViews& measured, const Rig& rig, const Run& run) {

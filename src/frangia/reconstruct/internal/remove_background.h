@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string>
+
 #include "frangia/core/run.h"
 #include "frangia/reconstruct/internal/register_setups.h"
 #include "frangia/reconstruct/reconstruct.h"
@@ -15,6 +17,12 @@ namespace frangia {
 [[nodiscard]] BackgroundReport leave_out_background(MeasuredViews& measured,
                                                     const Rig& rig,
                                                     const Run& run = {});
+
+/// Adds to a reason not to trust the surface what to do about points of which nothing shows whether
+/// they are background, where these are many; warns of them where there is no such reason.
+[[nodiscard]] std::string with_undecided(std::string untrusted_reason,
+                                         const BackgroundReport& background,
+                                         const Run& run = {});
 
 /// Removes the points outside of the volume that `clip_below_mm` and `clip_radius_mm` describe.
 void clip_to_volume(MeasuredViews& measured,
