@@ -38,8 +38,9 @@ struct Background {
 ///
 /// About 12000 pixels of at most 24 views are compared, whatever the camera and the scan.
 ///
-/// @param setups  a number for each view: the part was clamped anew between setups, and only views
-///                of one setup are turned into each other. What stands still does so in all of them
+/// `setups` is a number for each view: the part was clamped anew between setups, and only views of
+/// one setup are turned into each other. What stands still does so in all of them.
+///
 /// @units    mm, rig frame
 /// @missing  not found where all views have one angle, and where nothing but it would be left
 /// @errors   Error(Input) when `setups` is not one for each view; Error(Cancelled)
