@@ -230,6 +230,10 @@ nlohmann::ordered_json json_of(const Reconstruction& result, const std::filesyst
   if (result.registration) json["registration"] = json_of(*result.registration);
   if (result.silhouettes) json["silhouettes"] = json_of(*result.silhouettes);
   if (result.targets) json["targets"] = json_of(*result.targets);
+  if (result.background.points > 0) {
+    json["background"] = {{"points", result.background.points},
+                          {"from_axis_mm", result.background.from_axis_mm}};
+  }
   if (!std::isnan(result.turntable_top_height_mm))
     json["turntable_top_height_mm"] = result.turntable_top_height_mm;
   return json;

@@ -94,6 +94,10 @@ void add_views_options(CLI::App& verb, ReconstructArguments& arguments) {
   verb.add_flag("--keep-turntable-top",
                 arguments.options.keep_turntable_top,
                 "keep the points of the turntable top, which are removed by default");
+  verb.add_flag("--keep-background",
+                arguments.options.keep_background,
+                "keep the points of what stands still while the part turns, such as a wall, which "
+                "are removed by default");
   verb.add_flag("--refine-rig",
                 arguments.options.refine_rig,
                 "refine the rig by the surfaces of the views first: a projector or camera that "

@@ -46,6 +46,7 @@ Capabilities capabilities_of(const Rig& rig,
   Capabilities out;
   out.registers_views = options.register_views && rig.turntable.has_value();
   out.removes_turntable_top = !options.keep_turntable_top && rig.turntable.has_value();
+  out.removes_background = !options.keep_background && rig.turntable.has_value();
   if (options.indirect_light) out.indirect_light = indirect_light_of(rig, plan, out.left_out);
   out.corrects_before_registration = out.registers_views && rig.cameras.size() == 1 &&
                                      out.indirect_light != IndirectLightUse::Ignored;

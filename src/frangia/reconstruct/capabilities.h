@@ -21,6 +21,7 @@ enum class IndirectLightUse {
 struct Capabilities {
   bool registers_views = false;        ///< refines the axis and the angles of the turntable
   bool removes_turntable_top = false;  ///< looks for the top of the turntable and removes it
+  bool removes_background = false;     ///< looks for what does not turn and removes it
   IndirectLightUse indirect_light = IndirectLightUse::Ignored;  ///< see above
   /// Indirect light is looked for before the registration, too. What is not found there is not
   /// looked for again.

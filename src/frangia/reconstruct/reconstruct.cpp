@@ -212,8 +212,11 @@ std::optional<ScanWithAngles> angles_without_other_views(const LitScan& lit,
   HeldMessages unused;
   const Run quiet = unused.in_place_of(run);
   can.corrects_before_registration = false;
-  std::vector<MeasuredSetup> setups = split_setups(
-      measure_views(lit.scan, lit.rays, decode, options.mixed_pixels, quiet, options.decoded));
+  MeasuredViews measured =
+      measure_views(lit.scan, lit.rays, decode, options.mixed_pixels, quiet, options.decoded);
+  if (can.removes_background)
+    static_cast<void>(leave_out_background(measured, lit.scan.rig, quiet));
+  std::vector<MeasuredSetup> setups = split_setups(std::move(measured));
   for (MeasuredSetup& setup : setups) {
     double height_mm = kMissing;
     register_setup(setup, lit, can, options, targets, height_mm, quiet);
@@ -245,6 +248,7 @@ Reconstruction reconstruct_by(ScanAngles angles,
   MeasuredViews measured =
       measure_views(scan, rays, decode, options.mixed_pixels, run, options.decoded);
   release_cached_pixels();
+  if (can.removes_background) out.background = leave_out_background(measured, scan.rig, run);
   out.views = measured.stations.size();
   out.view_summaries = std::move(measured.summaries);
   out.agreements = agreements_of(measured, scan.rig);
@@ -334,7 +338,7 @@ Reconstruction reconstruct_by(ScanAngles angles,
   }
   out.silhouettes = silhouettes_of(scan, registered.joined.measured, out.mesh, run);
   if (out.targets && out.targets->scale) apply_scale(out, out.targets->scale->factor);
-  out.untrusted_reason = untrusted_reason_of(out, is_relative);
+  out.untrusted_reason = with_undecided(untrusted_reason_of(out, is_relative), out.background, run);
   if (!out.untrusted_reason.empty()) discard_sigma(out.mesh);
   out.sigma = median_sigma(out.mesh);
   return out;

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "frangia/core/missing.h"
 #include "frangia/core/run.h"
 #include "frangia/dataset/scan_folder.h"
 #include "frangia/decode/decode_view.h"
@@ -44,6 +45,7 @@ struct ReconstructOptions {
   bool explain_rig = true;
   RefineRigOptions refinement;      ///< prior of the rig's drift
   bool keep_turntable_top = false;  ///< otherwise it is found and removed
+  bool keep_background = false;     ///< otherwise what stands still is found and removed
   double clip_below_mm =
       -std::numeric_limits<double>::infinity();  ///< removes points below this height, object frame
   double clip_radius_mm =
@@ -61,6 +63,13 @@ struct ReconstructOptions {
   std::shared_ptr<const DecodedViews> decoded;
 };
 
+/// What stands still in front of the cameras while the part turns, and was left out.
+struct BackgroundReport {
+  std::size_t points = 0;          ///< that were removed from all views; 0: nothing was found
+  double from_axis_mm = kMissing;  ///< distance of the nearest ones from the axis; NaN: none
+  double undecided = 0.0;          ///< see `Background`
+};
+
 /// The reconstructed surface and what the stages report.
 struct Reconstruction {
   Mesh mesh;                 ///< fused surface, object frame; sigma is NaN if it is not trusted
@@ -76,6 +85,7 @@ struct Reconstruction {
   std::optional<RigRefinement> refinement;  ///< empty when not done
   double turntable_top_height_mm =
       std::numeric_limits<double>::quiet_NaN();  ///< NaN: none was removed
+  BackgroundReport background{};                 ///< what stands still, and is left out
   /// How well points agree that were measured twice: by two directions of fringes, by two cameras.
   /// Empty for what no view measured. They check the rig.
   std::vector<RigAgreement> agreements{};

@@ -47,6 +47,8 @@ std::vector<MeasuredSurface> measure_direction(const Scan& scan,
                                                const Run& run) {
   std::vector<MeasuredSurface> surfaces;
   MeasuredViews measured = measure_views(scan, rays, options.decode, options.mixed_pixels, run);
+  if (scan.rig.turntable && !options.keep_background)
+    static_cast<void>(leave_out_background(measured, scan.rig, run));
   FringeOrderCorrectionOptions correction = options.fringe_order_correction;
   correction.mixed_pixels = options.mixed_pixels;
   for (MeasuredSetup& setup : split_setups(std::move(measured))) {

@@ -10,6 +10,7 @@
 #include "frangia/core/error.h"
 #include "frangia/decode/check_view.h"
 #include "frangia/decode/triangulate_view.h"
+#include "frangia/registration/find_background.h"
 #include "frangia/registration/find_turntable_top.h"
 #include "frangia/registration/register_views.h"
 #include "frangia/views/thin_view.h"
@@ -87,6 +88,7 @@ WatchedView ViewWatch::compare(std::size_t view,
   const CameraModel& camera = thinned_.reference().model;
   Run quiet;
   quiet.stop = run.stop;
+  clip_background(store, camera, quiet);
   clip_turntable_top(store, camera, quiet);
   TurntableStations given{*thinned_.turntable, stations};
   if (thinned_.cameras.size() == 1) {

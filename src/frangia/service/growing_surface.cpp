@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "frangia/fusion/fuse_views.h"
+#include "frangia/registration/find_background.h"
 #include "frangia/registration/find_turntable_top.h"
 #include "frangia/registration/register_views.h"
 #include "frangia/service/encode_arrays.h"
@@ -68,6 +69,7 @@ void GrowingSurface::serve(const std::stop_token& stop) {
         stations.push_back({.angle_rad = view.angle_rad, .name = {}});
       }
       if (rig_.turntable) {
+        clip_background(store, camera, run);
         clip_turntable_top(store, camera, run);
         static_cast<void>(register_views(store, camera, {*rig_.turntable, stations}, {}, run));
       }

@@ -138,6 +138,16 @@ export const FAULTS_RECONSTRUCT = {
     '{0} ist mit {1} durch {2} Messmarken verbunden, die auf {3} mm übereinstimmen',
     '{0} è unito a {1} da {2} marcatori, che concordano entro {3} mm',
   ],
+  'fault.backgroundLeftOut': [
+    'what stands still in front of the camera while the part turns (background, {0} mm from the axis and farther) is left out with {1} points; set `keep_background` to keep it',
+    'was vor der Kamera stillsteht, während das Teil sich dreht (Hintergrund, ab {0} mm von der Achse), bleibt mit {1} Punkten weg',
+    'ciò che sta fermo davanti alla camera mentre il pezzo gira (sfondo, da {0} mm dall’asse in poi) è escluso con {1} punti',
+  ],
+  'fault.standsStillUndecided': [
+    '{0} % of the points stand still in all views, which do not show whether they turn with the table: if they are background, set `clip_radius` to the radius of the part',
+    '{0} % der Punkte stehen in allen Ansichten still, und diese zeigen nicht, ob sie sich mit dem Tisch drehen: Hintergrund verdecken oder auf den Radius des Teils begrenzen',
+    'il {0} % dei punti sta fermo in tutte le viste, che non mostrano se gira con la tavola: coprire lo sfondo o limitare al raggio del pezzo',
+  ],
   'fault.heightMmRemoved': [
     '{0} at a height of {1} mm is removed with {2} points; set `keep_turntable_top` to keep it',
     '{0} in einer Höhe von {1} mm ist mit {2} Punkten entfernt',

@@ -1,7 +1,9 @@
 #include "frangia/reconstruct/internal/remove_background.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <string>
 #include <vector>
 
 #include <Eigen/Geometry>
@@ -27,6 +29,41 @@ std::size_t clip_cameras(MeasuredViews& measured,
 }
 
 }  // namespace
+
+std::string with_undecided(std::string untrusted_reason,
+                           const BackgroundReport& background,
+                           const Run& run) {
+  constexpr double kFew = 0.1;  // of the points: they do not decide where a view is
+  if (background.undecided < kFew) return untrusted_reason;
+  const std::string advice = fmt::format(
+      "{:.0f} % of the points stand still in all views, which do not show whether they turn with "
+      "the table: if they are background, set `clip_radius` to the radius of the part",
+      100.0 * background.undecided);
+  if (!untrusted_reason.empty()) return untrusted_reason + "; " + advice;
+  run.warn(advice);
+  return untrusted_reason;
+}
+
+BackgroundReport leave_out_background(MeasuredViews& measured, const Rig& rig, const Run& run) {
+  BackgroundReport report;
+  for (std::size_t i = 0; i < measured.cameras.size(); ++i) {
+    const CameraModel& camera = rig.cameras[i].camera.model;
+    const Background found = find_background(measured.cameras[i], camera, measured.setups, run);
+    if (i == 0) report.undecided = found.undecided;
+    if (!found.found()) continue;
+    report.points += remove_background(measured.cameras[i], camera, found, run);
+    report.from_axis_mm = std::fmin(report.from_axis_mm, found.from_axis_mm);
+  }
+  if (report.points == 0) return report;
+  measured.points -= std::min(measured.points, report.points);
+  run.note(
+      fmt::format("what stands still in front of the camera while the part turns (background, "
+                  "{:.0f} mm from the axis and farther) is left out with {} points; set "
+                  "`keep_background` to keep it",
+                  report.from_axis_mm,
+                  report.points));
+  return report;
+}
 
 void clip_to_volume(MeasuredViews& measured,
                     const Rig& rig,
