@@ -57,7 +57,7 @@ Scan scan_before_wall(const std::filesystem::path& folder, const std::string& pa
   return all;
 }
 
-float widest_mm(const Mesh& mesh) {
+float reach_of(const Mesh& mesh) {
   float widest = 0.0F;
   for (const Eigen::Vector3f& vertex : mesh.vertices_mm)
     widest = std::max(widest, vertex.head<2>().norm());
@@ -74,7 +74,7 @@ TEST(Reconstruct, LeavesOutAWallThatDoesNotTurn) {
   EXPECT_EQ(result.untrusted_reason, "");
   EXPECT_NEAR(result.background.from_axis_mm, 120.0, 2.0);
   EXPECT_GT(result.background.points, result.points);
-  EXPECT_LT(widest_mm(result.mesh), 60.0F);
+  EXPECT_LT(reach_of(result.mesh), 60.0F);
   EXPECT_TRUE(std::any_of(notes.begin(), notes.end(), [](const std::string& note) {
     return note.find("background, 120 mm from the axis") != std::string::npos;
   }));

@@ -6,8 +6,6 @@
 
 #include <gtest/gtest.h>
 
-#include "frangia/registration/internal/still_pixels.h"
-
 #include "support/analytic_views.h"
 
 namespace frangia {
@@ -22,25 +20,25 @@ CameraModel wide_camera() {
 }
 
 /// The half space behind a plane at a distance from the axis, opposite of the camera of view 0.
-Shape wall(double distance_mm) {
+Shape still_wall(double distance_mm) {
   return [=](const Eigen::Vector3d& p) { return p.x() + distance_mm; };
 }
 
 /// A vertical pole.
-Shape pole(double x_mm, double y_mm, double radius_mm) {
+Shape still_pole(double x_mm, double y_mm, double radius_mm) {
   return
       [=](const Eigen::Vector3d& p) { return std::hypot(p.x() - x_mm, p.y() - y_mm) - radius_mm; };
 }
 
 /// A shaft with a step.
-double shaft(const Eigen::Vector3d& p) {
+double stepped_shaft(const Eigen::Vector3d& p) {
   const double radius_mm = p.head<2>().norm();
   return std::min(std::max(radius_mm - 25.0, std::abs(p.z() + 12.0) - 14.0),
                   std::max(radius_mm - 15.0, std::abs(p.z() - 12.0) - 18.0));
 }
 
 /// A prism that looks the same after each sixth of a turn.
-double hexagon(const Eigen::Vector3d& p) {
+double six_sided(const Eigen::Vector3d& p) {
   double out = std::abs(p.z()) - 20.0;
   for (int i = 0; i < 3; ++i) {
     const double turn = kTwoPi * i / 6;
@@ -50,26 +48,26 @@ double hexagon(const Eigen::Vector3d& p) {
 }
 
 /// Nothing anywhere.
-double nothing(const Eigen::Vector3d& /*p*/) {
+double nothing_there(const Eigen::Vector3d& /*p*/) {
   return 1e3;
 }
 
-std::vector<Eigen::Isometry3d> turns(int count, double step_rad) {
+std::vector<Eigen::Isometry3d> table_turns(int count, double step_rad) {
   std::vector<Eigen::Isometry3d> poses;
   for (int i = 0; i < count; ++i)
     poses.push_back(testing::look_from(step_rad * i, 0.3, kDistance_mm));
   return poses;
 }
 
-struct Scene {
+struct StillScene {
   Shape part;
   Shape still;  ///< in the object frame of view 0
 };
 
 /// A part that turns by `truth`, in front of what stands still, stated to turn by `stated`.
-ViewStore views_of(const Scene& scene,
-                   const std::vector<Eigen::Isometry3d>& truth,
-                   const std::vector<Eigen::Isometry3d>& stated) {
+ViewStore views_before(const StillScene& scene,
+                       const std::vector<Eigen::Isometry3d>& truth,
+                       const std::vector<Eigen::Isometry3d>& stated) {
   ViewStore store;
   testing::Snapshot how{.far_mm = 900.0};
   for (std::size_t i = 0; i < truth.size(); ++i) {
@@ -85,28 +83,28 @@ ViewStore views_of(const Scene& scene,
   return store;
 }
 
-ViewStore views_of(const Scene& scene, const std::vector<Eigen::Isometry3d>& poses) {
-  return views_of(scene, poses, poses);
+ViewStore views_before(const StillScene& scene, const std::vector<Eigen::Isometry3d>& poses) {
+  return views_before(scene, poses, poses);
 }
 
 Background background_of(const ViewStore& views) {
   return find_background(views, wide_camera(), std::vector<int>(views.size(), 0));
 }
 
-struct Left {
+struct LeftPoints {
   std::size_t of_part = 0;
   std::size_t lost_of_part = 0;
   std::size_t of_background = 0;
 };
 
 /// What clipping the background leaves, by where the points are.
-Left clipped(ViewStore& views, const Shape& part) {
+LeftPoints left_by_clipping(ViewStore& views, const Shape& part) {
   std::vector<View> before;
   for (std::size_t i = 0; i < views.size(); ++i)
     before.push_back(views.load(i));
   clip_background(views, wide_camera());
   const auto rays = rays_of(wide_camera());
-  Left left;
+  LeftPoints left;
   for (std::size_t i = 0; i < views.size(); ++i) {
     const Image<float> after_mm = views.load_depth_mm(i);
     const Eigen::Isometry3d object_from_rig = before[i].rig_from_object.inverse();
@@ -128,27 +126,27 @@ Left clipped(ViewStore& views, const Shape& part) {
 }
 
 TEST(FindBackground, FindsAWallAndKeepsThePart) {
-  ViewStore views = views_of({testing::lumpy, wall(120.0)}, turns(8, kTwoPi / 8));
+  ViewStore views = views_before({testing::lumpy, still_wall(120.0)}, table_turns(8, kTwoPi / 8));
   const Background found = background_of(views);
   ASSERT_TRUE(found.found());
   EXPECT_NEAR(found.from_axis_mm, 120.0, 1.0);
-  const Left left = clipped(views, testing::lumpy);
+  const LeftPoints left = left_by_clipping(views, testing::lumpy);
   EXPECT_EQ(left.lost_of_part, 0U);
   EXPECT_GT(left.of_part, 5000U);
   EXPECT_LT(left.of_background, 60U);
 }
 
 TEST(FindBackground, FindsNoneAboutAPartAlone) {
-  for (const Shape& part : {Shape(testing::lumpy), Shape(shaft), Shape(hexagon)}) {
-    ViewStore views = views_of({part, nothing}, turns(6, kTwoPi / 6));
+  for (const Shape& part : {Shape(testing::lumpy), Shape(stepped_shaft), Shape(six_sided)}) {
+    ViewStore views = views_before({part, nothing_there}, table_turns(6, kTwoPi / 6));
     EXPECT_FALSE(background_of(views).found());
   }
 }
 
 TEST(FindBackground, KeepsAPartThatLooksTheSameInAllViews) {
-  for (const Shape& part : {Shape(shaft), Shape(hexagon)}) {
-    ViewStore views = views_of({part, wall(120.0)}, turns(6, kTwoPi / 6));
-    const Left left = clipped(views, part);
+  for (const Shape& part : {Shape(stepped_shaft), Shape(six_sided)}) {
+    ViewStore views = views_before({part, still_wall(120.0)}, table_turns(6, kTwoPi / 6));
+    const LeftPoints left = left_by_clipping(views, part);
     EXPECT_EQ(left.lost_of_part, 0U);
     EXPECT_GT(left.of_part, 3000U);
     EXPECT_LT(left.of_background, 60U);
@@ -156,13 +154,13 @@ TEST(FindBackground, KeepsAPartThatLooksTheSameInAllViews) {
 }
 
 TEST(FindBackground, KeepsAShaftWhoseAxisIsFourMillimetresOff) {
-  const auto truth = turns(8, kTwoPi / 8);
+  const auto truth = table_turns(8, kTwoPi / 8);
   auto stated = truth;
   for (Eigen::Isometry3d& pose : stated)
     pose.translation() += Eigen::Vector3d(4.0, 0.0, 0.0);
-  ViewStore views = views_of({shaft, wall(120.0)}, truth, stated);
-  const Shape stated_shaft = [&](const Eigen::Vector3d& p) { return p.head<2>().norm() - 32.0; };
-  const Left left = clipped(views, stated_shaft);
+  ViewStore views = views_before({stepped_shaft, still_wall(120.0)}, truth, stated);
+  const Shape around_shaft = [&](const Eigen::Vector3d& p) { return p.head<2>().norm() - 32.0; };
+  const LeftPoints left = left_by_clipping(views, around_shaft);
   EXPECT_EQ(left.lost_of_part, 0U);
   EXPECT_LT(left.of_background, 60U);
 }
@@ -172,18 +170,19 @@ TEST(FindBackground, FindsAPieceOfWallInTheShadowOfARing) {
   const Shape ring = [](const Eigen::Vector3d& p) {
     return std::hypot(p.head<2>().norm() - 40.0, p.z()) - 9.0;
   };
-  ViewStore views = views_of({ring, wall(120.0)}, turns(8, kTwoPi / 8));
-  const Left left = clipped(views, ring);
+  ViewStore views = views_before({ring, still_wall(120.0)}, table_turns(8, kTwoPi / 8));
+  const LeftPoints left = left_by_clipping(views, ring);
   EXPECT_EQ(left.lost_of_part, 0U);
   EXPECT_LT(left.of_background, 60U);
 }
 
 TEST(FindBackground, FindsAPoleBesideThePart) {
-  ViewStore views = views_of({testing::lumpy, pole(5.0, 60.0, 6.0)}, turns(8, kTwoPi / 8));
+  ViewStore views =
+      views_before({testing::lumpy, still_pole(5.0, 60.0, 6.0)}, table_turns(8, kTwoPi / 8));
   const Background found = background_of(views);
   ASSERT_TRUE(found.found());
   EXPECT_NEAR(found.from_axis_mm, 55.0, 2.0);
-  const Left left = clipped(views, testing::lumpy);
+  const LeftPoints left = left_by_clipping(views, testing::lumpy);
   EXPECT_EQ(left.lost_of_part, 0U);
 }
 
@@ -191,7 +190,7 @@ TEST(FindBackground, FindsAPoleBesideThePart) {
 /// stood otherwise than stated.
 std::size_t lost_of_moving_part(const std::vector<Eigen::Isometry3d>& truth,
                                 const std::vector<Eigen::Isometry3d>& stated) {
-  ViewStore views = views_of({testing::lumpy, wall(120.0)}, truth, stated);
+  ViewStore views = views_before({testing::lumpy, still_wall(120.0)}, truth, stated);
   clip_background(views, wide_camera());
   std::size_t lost = 0;
   for (std::size_t i = 0; i < views.size(); ++i) {
@@ -206,7 +205,7 @@ std::size_t lost_of_moving_part(const std::vector<Eigen::Isometry3d>& truth,
 }
 
 TEST(FindBackground, KeepsAPartWhoseTableStoodStillForHalfOfTheViews) {
-  const auto stated = turns(8, kTwoPi / 8);
+  const auto stated = table_turns(8, kTwoPi / 8);
   auto truth = stated;
   for (std::size_t i = 5; i < 8; ++i)
     truth[i] = truth[4];
@@ -214,32 +213,32 @@ TEST(FindBackground, KeepsAPartWhoseTableStoodStillForHalfOfTheViews) {
 }
 
 TEST(FindBackground, KeepsAPartThatNeverTurned) {
-  const auto stated = turns(6, kTwoPi / 6);
+  const auto stated = table_turns(6, kTwoPi / 6);
   const std::vector<Eigen::Isometry3d> truth(6, stated.front());
-  EXPECT_FALSE(background_of(views_of({testing::lumpy, nothing}, truth, stated)).found());
+  EXPECT_FALSE(background_of(views_before({testing::lumpy, nothing_there}, truth, stated)).found());
   EXPECT_EQ(lost_of_moving_part(truth, stated), 0U);
 }
 
 TEST(FindBackground, DecidesNothingOfOneAngle) {
-  const auto poses = turns(1, 0.0);
-  ViewStore views = views_of({testing::lumpy, wall(120.0)}, {poses[0], poses[0]});
+  const auto poses = table_turns(1, 0.0);
+  ViewStore views = views_before({testing::lumpy, still_wall(120.0)}, {poses[0], poses[0]});
   EXPECT_FALSE(background_of(views).found());
 }
 
 TEST(FindBackground, TellsWhatTwoViewsDoNotDecide) {
-  const Background found =
-      background_of(views_of({testing::lumpy, pole(75.0, 20.0, 4.0)}, turns(2, kTwoPi / 4)));
+  const Background found = background_of(
+      views_before({testing::lumpy, still_pole(75.0, 20.0, 4.0)}, table_turns(2, kTwoPi / 4)));
   EXPECT_FALSE(found.found());
   EXPECT_GT(found.undecided, 0.1);
 }
 
 TEST(FindBackground, FindsInOneSetupWhatStandsStillInAnother) {
-  const Shape still = wall(120.0);
-  ViewStore views = views_of({testing::lumpy, still}, turns(6, kTwoPi / 6));
+  const Shape still = still_wall(120.0);
+  ViewStore views = views_before({testing::lumpy, still}, table_turns(6, kTwoPi / 6));
   const Shape turned = [](const Eigen::Vector3d& p) {
     return testing::lumpy(Eigen::Vector3d(p.x(), -p.z(), p.y()));
   };
-  views.add(views_of({turned, still}, turns(1, 0.0)).load(0));
+  views.add(views_before({turned, still}, table_turns(1, 0.0)).load(0));
   const Background found =
       find_background(views, wide_camera(), std::vector<int>{0, 0, 0, 0, 0, 0, 1});
   const std::size_t removed = remove_background(views, wide_camera(), found);
@@ -255,25 +254,6 @@ TEST(FindBackground, FindsInOneSetupWhatStandsStillInAnother) {
       EXPECT_LT(point.head<2>().norm(), 60.0);
     }
   }
-}
-
-TEST(StillPixels, AgreeInTheViewsThatSeeTheWallAndNotWhereThePartHidesIt) {
-  const auto poses = turns(6, kTwoPi / 6);
-  const ViewStore views = views_of({shaft, wall(120.0)}, poses, poses);
-  const CameraModel camera = wide_camera();
-  const std::vector<int> setups(views.size(), 0);
-  const ThinViews seen = thin_views(views, camera, setups);
-  ASSERT_EQ(seen.views.size(), 6U);
-  const int middle = seen.camera.height_px / 2;
-  StillPixel beside = compare_views(seen, 4, middle);
-  EXPECT_EQ(beside.agree, 6);
-  EXPECT_TRUE(beside.stands);
-  turn_into_views(seen, 4, middle, beside);
-  EXPECT_GT(beside.through, beside.support / 10) << "the wall would be seen through if it turned";
-  StillPixel front = compare_views(seen, seen.camera.width_px / 2, middle);
-  EXPECT_LT(front.depth_mm, beside.depth_mm - 80.0F) << "the shaft";
-  turn_into_views(seen, seen.camera.width_px / 2, middle, front);
-  EXPECT_EQ(front.through, 0) << "it turns with the table, though it looks the same";
 }
 
 }  // namespace
