@@ -225,6 +225,22 @@ TEST(FindBackground, DecidesNothingOfOneAngle) {
   EXPECT_FALSE(background_of(views).found());
 }
 
+TEST(FindBackground, FindsAFarWallThatWouldTurnOutOfTheFieldOfView) {
+  for (const int count : {3, 5, 8, 12, 24}) {
+    ViewStore views =
+        views_before({testing::lumpy, still_wall(400.0)}, table_turns(count, kTwoPi / count));
+    const Background found = background_of(views);
+    ASSERT_TRUE(found.found()) << count;
+    EXPECT_GT(found.from_axis_mm, 380.0) << count;
+    remove_background(views, wide_camera(), found);
+    for (std::size_t i = 0; i < views.size(); ++i) {
+      const View view = views.load(i);
+      for (const float depth_mm : view.range.depth_mm.pixels())
+        EXPECT_FALSE(depth_mm > 600.0F) << count;
+    }
+  }
+}
+
 TEST(FindBackground, TellsWhatTwoViewsDoNotDecide) {
   const Background found = background_of(
       views_before({testing::lumpy, still_pole(75.0, 20.0, 4.0)}, table_turns(2, kTwoPi / 4)));

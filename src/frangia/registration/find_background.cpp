@@ -31,6 +31,10 @@ struct BackgroundLimits {
   double supported = 0.5;  ///< pairs of views that see something there, over points: what repeats
                            ///< itself is seen again in one of two directions at least
   double repeated = 1.5;   ///< ... and in both directions, unless it is seen at grazing incidence
+  /// Share of the pairs of views in which the place of a surface is out of view, and in which
+  /// something is there: a far wall meets itself where the table turns by little.
+  double outside = 0.75;
+  double met = 0.15;
   double remains = 0.002;  ///< share of the points that must remain for the part
 };
 constexpr BackgroundLimits kBackgroundLimits;
@@ -222,6 +226,8 @@ class BackgroundSearch {
     double swept = 0.0;
     double points = 0.0;
     int support = 0;
+    int outside = 0;
+    int turned = 0;
     for (const Eigen::Vector2i& p : surface) {
       const StillPixel& at = pixels_(p.x(), p.y());
       usual += at.usual ? 1.0 : 0.0;
@@ -229,10 +235,14 @@ class BackgroundSearch {
       swept += is_swept(p, at) ? 1.0 : 0.0;
       points += at.agree;
       support += at.support;
+      outside += at.outside;
+      turned += at.turned;
     }
     const auto pixels = static_cast<double>(surface.size());
     if (pixels < kFewest || usual < 0.5 * pixels || swept > 0.5 * pixels) return 0.0;
-    if (refuted < kBackgroundLimits.refuted * pixels)
+    const bool is_out =
+        outside > kBackgroundLimits.outside * turned && support < kBackgroundLimits.met * turned;
+    if (!is_out && refuted < kBackgroundLimits.refuted * pixels)
       return support < kBackgroundLimits.supported * points ? points : 0.0;
     for (const Eigen::Vector2i& p : surface)
       roles_(p.x(), p.y()) = PixelRole::Background;

@@ -29,7 +29,8 @@ struct Background {
 /// that looks the same in these views: one of revolution, or one that repeats itself. Such a point
 /// is turned with the table into the other views. Where these see through its place to something
 /// farther, it does not turn. Whether it does is decided for connected surfaces, by the pixels that
-/// are seen through. Two kinds of surfaces stay: those that show the same height and radius over 90
+/// are seen through, or by nearly all of them leaving the field of view, as those of a far wall do.
+/// Two kinds of surfaces stay: those that show the same height and radius over 90
 /// degrees about the axis and are not seen through, and those within the room that moving points
 /// sweep, because the table did not turn between such views.
 ///

@@ -32,17 +32,17 @@ double turned_within_mm(const Eigen::Vector3d& object, double depth_mm) {
 }
 
 /// What a view shows where the table turns a point to.
-enum class AtPlace : std::uint8_t { Unknown, Something, SeenThrough };
+enum class AtPlace : std::uint8_t { Unknown, Something, SeenThrough, OutOfView };
 
 AtPlace look_at(const Image<float>& depth_mm,
                 const CameraModel& camera,
                 const Eigen::Vector3d& place,
                 double within_mm) {
-  if (place.z() < 2.0 * within_mm) return AtPlace::Unknown;
+  if (place.z() < 2.0 * within_mm) return AtPlace::OutOfView;
   const Eigen::Vector2d pixel = camera.project(place);
   const bool inside = pixel.x() > -0.5 && pixel.y() > -0.5 && pixel.x() < camera.width_px - 0.5 &&
                       pixel.y() < camera.height_px - 0.5;
-  if (!inside) return AtPlace::Unknown;
+  if (!inside) return AtPlace::OutOfView;
   const int reach = static_cast<int>(std::ceil(within_mm * camera.focal_px.x() / place.z()));
   const int column = static_cast<int>(std::lround(pixel.x()));
   const int row = static_cast<int>(std::lround(pixel.y()));
@@ -107,6 +107,8 @@ void turn_into_views(const ThinViews& seen, int x, int y, StillPixel& at) {
           look_at(to.range.depth_mm, seen.camera, to.rig_from_object * object, within_mm);
       at.through += found == AtPlace::SeenThrough ? 1 : 0;
       at.support += found == AtPlace::Something ? 1 : 0;
+      at.outside += found == AtPlace::OutOfView ? 1 : 0;
+      ++at.turned;
     }
   }
 }

@@ -51,6 +51,8 @@ struct StillPixel {
   // Where the table turns it to, by pairs of views.
   int through = 0;  ///< that see through its place
   int support = 0;  ///< that see something there
+  int outside = 0;  ///< whose field of view does not reach it
+  int turned = 0;   ///< all of them
 };
 
 /// Within which two depths are one, with the standard deviation of their difference.
