@@ -99,7 +99,8 @@ TEST_F(AxisOfScan, IsFoundWithItsUncertaintyAndTheSurfaceIsBuilt) {
   const Eigen::Vector3d between = found.point_mm - truth.point_mm;
   EXPECT_LT((between - between.dot(truth.axis) * truth.axis).norm(), 0.2);
   EXPECT_EQ(read_rig(folder() / "scan" / "rig.toml").turntable.value().axis, found.axis);
-  for (const Json& station : project().at("stations"))
+  const Json scanned = project();  // a loop over a part of what a call returns does not keep it
+  for (const Json& station : scanned.at("stations"))
     EXPECT_TRUE(station.at("has_cloud").get<bool>());
   // The views are those that were decoded during the scan: the surface needs no frame again.
   {
