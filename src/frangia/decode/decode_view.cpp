@@ -116,9 +116,13 @@ bool contradicts_its_code(const DecodedView& view, const DecodePlan& plan) {
   return false;
 }
 
-/// The frames at even light, where a rolling shutter shows bands; empty where none does.
-std::vector<FrameStack> at_even_light(std::span<const FrameStack> stacks, const Run& run) {
+/// The frames at even light, where a rolling shutter shows bands; empty where none does. A function
+/// of the caller that wraps them gets the frames as they were captured.
+std::vector<FrameStack> at_even_light(std::span<const FrameStack> stacks,
+                                      const DecodeOptions& options,
+                                      const Run& run) {
   std::vector<FrameStack> out;
+  if (options.own.wrap) return out;
   for (std::size_t i = 0; i < stacks.size(); ++i) {
     if (stacks[i].pattern.fringes_per_degree > 0.0) continue;  // its steps are not exact
     const std::optional<LightBands> bands = find_light_bands(stacks[i]);
@@ -139,7 +143,7 @@ DecodedView decode_view(std::span<const FrameStack> captured,
                         const DecodeOptions& options,
                         const Run& run) {
   const ViewInput input{plan, rig, rays, options};
-  const std::vector<FrameStack> evened = at_even_light(captured, run);
+  const std::vector<FrameStack> evened = at_even_light(captured, options, run);
   const std::span<const FrameStack> stacks = evened.empty() ? captured : evened;
   if (!options.accept_inconsistent) {
     if (const std::optional<FrameLag> lag = explain_lag(stacks))

@@ -30,6 +30,12 @@ std::span<const FrameStack> exposures_of(const FrameStack* stack) {
   return {stack, static_cast<std::size_t>(stack->pattern.exposure_count())};
 }
 
+bool are_bracketed(std::span<const FrameStack> stacks) {
+  return std::any_of(stacks.begin(), stacks.end(), [](const FrameStack& one) {
+    return one.pattern.exposure_count() > 1;
+  });
+}
+
 std::span<const FrameStack> gray_of(std::span<const FrameStack> stacks, FringeDirection direction) {
   for (const FrameStack& stack : stacks) {
     if (stack.pattern.kind == PatternKind::Gray && stack.pattern.direction == direction)

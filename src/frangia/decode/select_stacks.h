@@ -18,6 +18,9 @@ namespace frangia {
 /// Returns the stacks of all exposures of a pattern; `stack` is the first.
 [[nodiscard]] std::span<const FrameStack> exposures_of(const FrameStack* stack);
 
+/// Whether a pattern was captured at several exposures.
+[[nodiscard]] bool are_bracketed(std::span<const FrameStack> stacks);
+
 /// Returns the Gray code in a direction, at all exposures; empty if the scan has none.
 [[nodiscard]] std::span<const FrameStack> gray_of(std::span<const FrameStack> stacks,
                                                   FringeDirection direction);

@@ -40,13 +40,17 @@ IndirectLightUse indirect_light_of(const Rig& rig,
 
 }  // namespace
 
+bool removes_background(const Rig& rig, const ReconstructOptions& options) {
+  return rig.turntable.has_value() && !options.keep_background;
+}
+
 Capabilities capabilities_of(const Rig& rig,
                              const DecodePlan& plan,
                              const ReconstructOptions& options) {
   Capabilities out;
   out.registers_views = options.register_views && rig.turntable.has_value();
   out.removes_turntable_top = !options.keep_turntable_top && rig.turntable.has_value();
-  out.removes_background = !options.keep_background && rig.turntable.has_value();
+  out.removes_background = removes_background(rig, options);
   if (options.indirect_light) out.indirect_light = indirect_light_of(rig, plan, out.left_out);
   out.corrects_before_registration = out.registers_views && rig.cameras.size() == 1 &&
                                      out.indirect_light != IndirectLightUse::Ignored;

@@ -31,6 +31,9 @@ struct Capabilities {
   std::vector<std::string> left_out;
 };
 
+/// Whether what does not turn with the table is looked for and removed.
+[[nodiscard]] bool removes_background(const Rig& rig, const ReconstructOptions& options);
+
 /// Decides from the rig, the plan and the options what is done for a scan.
 [[nodiscard]] Capabilities capabilities_of(const Rig& rig,
                                            const DecodePlan& plan,

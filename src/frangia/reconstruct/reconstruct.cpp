@@ -291,7 +291,7 @@ Reconstruction reconstruct_by(ScanAngles angles,
       return out;
     }
   }
-  const bool is_relative = !is_absolute(plan) && take_back_poses_of_relative_distances(setups);
+  const bool is_relative = !is_absolute(plan) && withdraw_explanations(setups);
   if (!is_relative) held.pass_on(run);  // otherwise consequences
   if (out.points == 0) {
     throw Error(unresolved > 0 ? ErrorKind::Input : ErrorKind::Numeric,

@@ -10,6 +10,7 @@
 #include "frangia/calibrate/check/check_kinds.h"
 #include "frangia/core/error.h"
 #include "frangia/core/pixel_buffer.h"
+#include "frangia/reconstruct/capabilities.h"
 #include "frangia/reconstruct/internal/measure_views.h"
 #include "frangia/reconstruct/internal/remove_background.h"
 #include "frangia/reconstruct/internal/resolve_fringe_orders.h"
@@ -47,7 +48,7 @@ std::vector<MeasuredSurface> measure_direction(const Scan& scan,
                                                const Run& run) {
   std::vector<MeasuredSurface> surfaces;
   MeasuredViews measured = measure_views(scan, rays, options.decode, options.mixed_pixels, run);
-  if (scan.rig.turntable && !options.keep_background)
+  if (removes_background(scan.rig, options))
     static_cast<void>(leave_out_background(measured, scan.rig, run));
   FringeOrderCorrectionOptions correction = options.fringe_order_correction;
   correction.mixed_pixels = options.mixed_pixels;

@@ -281,9 +281,9 @@ class BackgroundSearch {
     return out;
   }
 
-  /// Continues the background over pixels beside it that nothing supports: a narrow face or an edge
-  /// of it, which stands still, too, and what a single view sees of its surface, because the part
-  /// or its shadow hides it from the others.
+  /// Adds pixels next to the background: those that stand still and that no other view confirms as
+  /// turning (narrow faces and edges), and those of its surface that a single view measured because
+  /// the part or its shadow hides them in the others.
   void extend() {
     std::vector<Eigen::Vector2i> border;
     for (int y = 0; y < pixels_.height(); ++y) {

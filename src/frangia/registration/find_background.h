@@ -39,8 +39,9 @@ struct Background {
 ///
 /// About 12000 pixels of at most 24 views are compared, whatever the camera and the scan.
 ///
-/// `setups` is a number for each view: the part was clamped anew between setups, and only views of
-/// one setup are turned into each other. What stands still does so in all of them.
+/// `setups` holds the number of each view's setup. The part has another pose on the table in each
+/// setup, so points are turned into views of their own setup only. The background is the same in
+/// all setups.
 ///
 /// @units    mm, rig frame
 /// @missing  not found where all views have one angle, and where nothing but it would be left

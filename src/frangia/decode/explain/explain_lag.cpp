@@ -14,6 +14,7 @@
 #include "frangia/core/random.h"
 #include "frangia/core/statistics.h"
 #include "frangia/decode/explain/internal/frame_priors.h"
+#include "frangia/decode/select_stacks.h"
 #include "frangia/diagnose/score.h"
 #include "frangia/phase/algorithm/phase_algorithm.h"
 
@@ -260,11 +261,8 @@ bool predict_alike(int a, int b, std::span<const FrameStack> stacks) {
 
 std::optional<FrameLag> explain_lag(std::span<const FrameStack> stacks) {
   const auto fringes = std::count_if(stacks.begin(), stacks.end(), has_fringes);
-  const bool bracketed = std::any_of(stacks.begin(), stacks.end(), [](const FrameStack& one) {
-    return one.pattern.exposure_count() > 1;
-  });
   const std::vector<Shown> sequence = sequence_of(stacks);
-  if (fringes < 2 || bracketed || !are_alike(sequence)) return std::nullopt;
+  if (fringes < 2 || are_bracketed(stacks) || !are_alike(sequence)) return std::nullopt;
   const Eigen::ArrayXXd counts = lit_counts(sequence);
   if (counts.rows() < static_cast<Eigen::Index>(kFewestPixels)) return std::nullopt;
   const auto frames_in_all = counts.cols();

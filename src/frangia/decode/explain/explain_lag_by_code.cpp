@@ -84,10 +84,7 @@ std::optional<CodeAgreement> agreement_of(std::span<const FrameStack> stacks, in
 }  // namespace
 
 std::optional<FrameLag> explain_lag_by_code(std::span<const FrameStack> stacks) {
-  const bool bracketed = std::any_of(stacks.begin(), stacks.end(), [](const FrameStack& one) {
-    return one.pattern.exposure_count() > 1;
-  });
-  if (bracketed) return std::nullopt;
+  if (are_bracketed(stacks)) return std::nullopt;
   const std::optional<CodeAgreement> described = agreement_of(stacks, 0);
   if (!described || described->consistent) return std::nullopt;
   // Shares of pixels that are one smooth field each. What another order of the frames of one

@@ -57,6 +57,7 @@ void finish_wrapped(const FittedAlgorithm& of_frames,
   FrameAssessment& assessment = out.assessments.back();
   assessment.harmonics_corrected = table.has_value();
   assessment.harmonic_error_rad = harmonic_phase_error(fitted, applied);
+  // Of merged exposures it is counted, whatever their frames could compensate.
   assessment.flicker = fitted.waveform.flicker();
   assessment.flicker_error_rad = fitted.waveform.flicker_error_rad;
   assessment.is_flicker = fitted.waveform.is_flicker;

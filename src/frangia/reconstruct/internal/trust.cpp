@@ -36,7 +36,7 @@ void warn_of_copies(std::span<const ViewSummary> views, const Run& run) {
   }
 }
 
-bool take_back_poses_of_relative_distances(std::vector<MeasuredSetup>& setups) {
+bool withdraw_explanations(std::vector<MeasuredSetup>& setups) {
   bool any = false;
   for (MeasuredSetup& setup : setups) {
     if (!setup.registration) continue;

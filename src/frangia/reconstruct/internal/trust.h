@@ -18,13 +18,15 @@ namespace frangia {
 /// Names the copies among the views that are left out because they contradict the others.
 void warn_of_copies(std::span<const ViewSummary> views, const Run& run);
 
-/// Takes back what moved in views whose distances nothing makes absolute: each may be wrong by
-/// whole fringes, which looks like a part or a rig that moved. Returns whether any is said to have
-/// moved, or contradicts the others.
-[[nodiscard]] bool take_back_poses_of_relative_distances(std::vector<MeasuredSetup>& setups);
+/// Withdraws the explanations of setups whose distances are relative. Each view may be off by whole
+/// fringes, and the registration then reports that the part or the rig moved.
+///
+/// @return   whether an explanation was withdrawn, or views contradict each other
+[[nodiscard]] bool withdraw_explanations(std::vector<MeasuredSetup>& setups);
 
 /// Why the surface must not be trusted; empty when it can be. What was measured twice and differs
-/// comes first: the rest follows from it. `relative`: distances are, and contradict each other.
+/// comes first: the rest follows from it. `relative`: the distances of the views are relative, and
+/// the views contradict each other.
 [[nodiscard]] std::string untrusted_reason_of(const Reconstruction& result, bool relative);
 
 }  // namespace frangia
