@@ -87,7 +87,10 @@ ViewResult decode_one(const DecodeTask& task, std::size_t view, const Run& run) 
         triangulate_view(out.decoded, fit, scan.rig, task.rays, task.options.directions).range;
     // Maps and figures show the direction whose pixels have the points.
     std::swap(out.decoded.directions.front(), out.decoded.directions[fit.leading()]);
-    remove_mixed_pixels(out.range, task.rays, out.decoded.directions.front().phase.status);
+    remove_mixed_pixels(out.range,
+                        task.rays,
+                        out.decoded.directions.front().phase.status,
+                        {.blur_px = blur_px_of(out.decoded)});
   }
   if (fit.accepted) {
     run.warn(out.reason + "; triangulated because `accept_inconsistent` is set");

@@ -1,5 +1,6 @@
 #include "frangia/range/remove_mixed_pixels.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -48,6 +49,40 @@ TEST(RemoveMixedPixels, RemovesThePixelsBetweenTwoSurfaces) {
       EXPECT_EQ(scene.status(36, y), PixelStatus::Measured);
       EXPECT_EQ(scene.status(44, y), PixelStatus::Measured);
     }
+  }
+}
+
+TEST(RemoveMixedPixels, ReachesAsFarAsTheBlurOfTheImage) {
+  struct Case {
+    double blur_px;
+    int at_step_px;  // 1 % of the light of an edge lies 2.33 sigma beside it
+    int at_silhouette_px;
+  };
+  for (const Case& one : {Case{0.0, 2, 1}, Case{0.5, 2, 1}, Case{1.0, 2, 2}, Case{1.2, 3, 3}}) {
+    Scene scene;
+    scene.set_columns(40, 80, 530.0F);
+    scene.set_columns(60, 80, kMissing);
+    for (int y = 0; y < 60; ++y)
+      std::fill_n(&scene.status(60, y), 20, PixelStatus::Unmodulated);
+    remove_mixed_pixels(scene.range, scene.rays, scene.status, {.blur_px = one.blur_px});
+    for (int x = 30; x < 60; ++x) {
+      const int from_step = x < 40 ? 40 - x : x - 39;
+      const bool is_mixed = from_step <= one.at_step_px || 60 - x <= one.at_silhouette_px;
+      EXPECT_EQ(scene.status(x, 30) == PixelStatus::MixedPixel, is_mixed)
+          << one.blur_px << " px, column " << x;
+    }
+  }
+}
+
+TEST(RemoveMixedPixels, FindsAStepWhosePixelsOfABlurredImageHaveNoDepth) {
+  for (const double blur_px : {0.0, 1.0}) {
+    Scene scene;
+    scene.set_columns(40, 80, 530.0F);
+    scene.set_columns(39, 40, kMissing);  // the mixed light has too little modulation
+    remove_mixed_pixels(scene.range, scene.rays, scene.status, {.blur_px = blur_px});
+    EXPECT_EQ(scene.status(38, 30) == PixelStatus::MixedPixel, blur_px > 0.0);
+    EXPECT_EQ(scene.status(40, 30) == PixelStatus::MixedPixel, blur_px > 0.0);
+    EXPECT_EQ(scene.status(37, 30), PixelStatus::Measured);
   }
 }
 

@@ -35,6 +35,13 @@ std::vector<FrameAssessment> assessments_of_used(const DecodedView& view) {
   return used;
 }
 
+double blur_px_of(const DecodedView& view) {
+  double largest_px = 0.0;
+  for (const DecodedDirection& direction : view.directions)
+    if (direction.blur) largest_px = std::max(largest_px, direction.blur->sigma_px());
+  return largest_px;
+}
+
 std::vector<std::string> corrections_of(const DecodedView& view) {
   std::vector<std::string> all;
   const std::string response = describe_corrections(assessments_of(view));

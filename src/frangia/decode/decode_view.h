@@ -52,6 +52,10 @@ struct DecodedView {
   Image<Rgb> color;  ///< of each pixel; empty unless `colors` asks for it
 };
 
+/// The blur of the camera's image that a direction was corrected for, sigma in px; 0 where none
+/// was.
+[[nodiscard]] double blur_px_of(const DecodedView& view);
+
 /// The assessments of all directions, each coarse to fine, those of the first direction last.
 [[nodiscard]] std::vector<FrameAssessment> assessments_of(const DecodedView& view);
 

@@ -58,7 +58,8 @@ CommonPhases common_phases(const Rig& rig, std::span<const DecodedCamera> all) {
 /// Removes the mixed pixels of a camera and finds what they see of an edge.
 MeasuredCamera without_mixed_pixels(DecodedCamera& camera,
                                     RangeGrid range,
-                                    const MixedPixelOptions& options) {
+                                    MixedPixelOptions options) {
+  options.blur_px = std::max(options.blur_px, blur_px_of(camera.decoded));
   const auto removed = remove_mixed_pixels(range, camera.rays, camera.status(), options);
   auto edge_pixels = recover_edge_pixels(
       range, camera.rays, removed, {.max_incidence_deg = options.max_incidence_deg});

@@ -17,14 +17,16 @@ struct MixedPixelOptions {
   double min_step_px = 2.5;         ///< minimum depth step, in lateral pixel distances, plus noise
   double min_step_sigmas = 4.0;     ///< minimum depth step in sigmas of its noise
   int min_dark_neighbors = 3;       ///< of a silhouette's pixel, among 8; fewer are defects
+  double blur_px = 0.0;             ///< sigma of the blur of the image, see `ImageBlur`
 };
 
 /// Removes the points of pixels that receive light from two surfaces, or from a surface and the
 /// background.
 ///
-/// The pixels on both sides of a depth step may mix light of both surfaces. The outermost pixel of
-/// a silhouette receives light from only a part of its area, so its point does not lie on the ray
-/// through its centre. Patches too small to be a surface are removed last.
+/// The pixels on both sides of a depth step may mix light of both surfaces: those next to it, and
+/// with a blurred image all that receive more than 1 % of their light from beyond it. The outermost
+/// pixel of a silhouette receives light from only a part of its area, so its point does not lie on
+/// the ray through its centre. Patches too small to be a surface are removed last.
 ///
 /// @shape    w x h; the result holds the removed pixels row by row, with their former values: some
 ///          see a single surface, see `recover_edge_pixels`
