@@ -58,6 +58,11 @@ struct Emitter {
 
 }  // namespace
 
+bool is_same_pose(const Eigen::Isometry3d& one, const Eigen::Isometry3d& other) {
+  constexpr double kRounding = 1e-9;  // of the length of a pose
+  return one.isApprox(other, kRounding);
+}
+
 SurfaceLight::SurfaceLight(std::shared_ptr<const LitSurface> surface,
                            std::span<const Eigen::Isometry3d> poses)
     : surface_(std::move(surface)) {
@@ -210,7 +215,7 @@ void SurfaceLight::collect_at(std::size_t receiver,
 
 std::optional<std::size_t> SurfaceLight::pose_of(const Eigen::Isometry3d& rig_from_object) const {
   for (std::size_t i = 0; i < poses_.size(); ++i)
-    if (poses_[i].rig_from_object.matrix() == rig_from_object.matrix()) return i;
+    if (is_same_pose(poses_[i].rig_from_object, rig_from_object)) return i;
   return std::nullopt;
 }
 

@@ -14,6 +14,9 @@
 
 namespace frangia {
 
+/// Whether two poses are the same, but for rounding.
+[[nodiscard]] bool is_same_pose(const Eigen::Isometry3d& one, const Eigen::Isometry3d& other);
+
 /// The light that parts of a surface throw on each other, collected at its vertices for all poses
 /// in which it was measured.
 ///

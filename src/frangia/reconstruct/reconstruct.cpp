@@ -270,13 +270,17 @@ Reconstruction reconstruct_by(ScanAngles angles,
   held.during(run, [&](const Run& attempt) {
     for (MeasuredSetup& setup : setups) {
       unresolved += resolve_fringe_orders(setup.measured, scan.rig, rays, correction, attempt);
-      const EarlyIndirectLight early =
+      EarlyIndirectLight early =
           register_setup(setup, lit, can, options, targets, out.turntable_top_height_mm, attempt);
       indirect_light.found = indirect_light.found || early.found;
       indirect_light.corrected = indirect_light.corrected || early.corrected;
       indirect_light.corrects = indirect_light.corrects && early.corrects;
       out.points += setup.measured.points;
       add_outliers(outliers, setup);
+      // What all views together light is known where these are all.
+      if (setups.size() > 1 || !outliers.empty()) continue;
+      indirect_light.part = std::move(early.part);
+      indirect_light.poses = std::move(early.poses);
     }
   });
   if (angles == ScanAngles::Stated && is_absolute(plan)) {

@@ -17,6 +17,7 @@
 #include "frangia/core/statistics.h"
 #include "frangia/dataset/scan_folder.h"
 #include "frangia/indirect_light/extrapolate_faces.h"
+#include "frangia/indirect_light/surface_light.h"
 #include "frangia/reconstruct/internal/indirect_part.h"
 #include "frangia/rig/camera_model.h"
 
@@ -55,14 +56,14 @@ void continue_faces(View& view,
 ///
 /// @errors   as fuse_views
 Mesh continued_surface(const ThinnedViews& thinned,
-                       const IndirectPart& indirect,
+                       const IndirectCorrection& correction,
                        const FusionOptions& fusion,
                        const Run& run) {
   ViewStore continued;
   for (std::size_t i = 0; i < thinned.views.size(); ++i) {
     run.check();
     View view = thinned.views.load_points(i);
-    continue_faces(view, indirect.correction->largest_shifts_mm(view, thinned.rays), thinned.rays);
+    continue_faces(view, correction.largest_shifts_mm(view, thinned.rays), thinned.rays);
     continued.add(view);
   }
   return fuse_views(continued, thinned.camera, fusion, run);
@@ -125,12 +126,13 @@ Corrected correct_all(ViewStore& views,
                       const Image<Eigen::Vector2f>& rays,
                       const IndirectPart& indirect,
                       const Run& run) {
+  const IndirectCorrection correction = indirect.correction(ShiftedPoints::Moved);
   Corrected out;
   double points = 0.0;
   for (std::size_t i = 0; i < views.size(); ++i) {
     run.check();
     View view = views.load(i);
-    indirect.correction->correct(view, rays);
+    correction.correct(view, rays);
     views.replace(i, view);
     compare(before.load_points(i).range, view.range, out, points);
   }
@@ -184,45 +186,49 @@ std::optional<IndirectPart> predict(const ThinnedViews& copies,
   const FusionOptions fine = copies.coarse_fusion(kVoxel_px, fusion);
   const Mesh surface =
       surface_or_none([&] { return fuse_views(copies.views, copies.camera, coarse, run); });
-  auto first = indirect_part(views, surface, points, run);
+  auto first = indirect_part(views, surface, run);
   if (!first) return first;
-  const Mesh continued =
-      surface_or_none([&] { return continued_surface(copies, *first, fine, run); });
-  auto second = indirect_part(views, continued, points, run);
+  const Mesh continued = surface_or_none(
+      [&] { return continued_surface(copies, first->correction(points), fine, run); });
+  auto second = indirect_part(views, continued, run);
   // The frames decide which surface predicts what they show; alike, the one without gaps.
   constexpr double kAlike = 1.1;
   const bool better = second && second->unexplained < kAlike * first->unexplained;
   return better ? second : first;
 }
 
-/// Which surfaces predict the light of views.
-enum class Predictions {
-  OfMeasuredViews,   ///< first a smooth one, then that of the views that it corrects
-  OfCorrectedViews,  ///< that of views that were corrected before
-};
-
-/// The last prediction. Copies of the views are corrected for it, which stay as they are.
-std::optional<IndirectPart> predict_light(const MeasuredViews& measured,
-                                          const LitScan& lit,
-                                          const FusionOptions& fusion,
-                                          Predictions predictions,
-                                          ShiftedPoints points,
-                                          const Run& run) {
+/// The prediction for views that were not corrected: of a smooth surface, then of the surface of
+/// copies of the views that this corrects.
+std::optional<IndirectPart> predict_for_measured(const MeasuredViews& measured,
+                                                 const LitScan& lit,
+                                                 const FusionOptions& fusion,
+                                                 ShiftedPoints points,
+                                                 const Run& run) {
   constexpr double kFew = 0.001;  // share of the points that the first correction moves
-  Run quiet;
-  quiet.stop = run.stop;
-  if (predictions == Predictions::OfMeasuredViews &&
-      !shows_indirect_light(measured, lit, fusion, quiet))
-    return std::nullopt;
-  ThinnedViews copies(measured, 0, lit.scan.rig.reference().model, 1, quiet);
-  if (predictions == Predictions::OfCorrectedViews)
-    return predict(copies, lit, fusion, kVoxel_px, points, quiet);
-  auto first = predict(copies, lit, fusion, kFirstVoxel_px, points, quiet);
+  if (!shows_indirect_light(measured, lit, fusion, run)) return std::nullopt;
+  ThinnedViews copies(measured, 0, lit.scan.rig.reference().model, 1, run);
+  auto first = predict(copies, lit, fusion, kFirstVoxel_px, points, run);
   if (!first || points == ShiftedPoints::Kept) return first;
   const ViewStore before = copy_of(copies.views);
-  if (correct_all(copies.views, before, copies.rays, *first, quiet).moved < kFew) return first;
-  auto second = predict(copies, lit, fusion, kVoxel_px, points, quiet);
+  if (correct_all(copies.views, before, copies.rays, *first, run).moved < kFew) return first;
+  auto second = predict(copies, lit, fusion, kVoxel_px, points, run);
   return second ? second : first;
+}
+
+/// The prediction for views that were corrected before.
+std::optional<IndirectPart> predict_for_corrected(const MeasuredViews& measured,
+                                                  const LitScan& lit,
+                                                  const FusionOptions& fusion,
+                                                  const Run& run) {
+  const ThinnedViews copies(measured, 0, lit.scan.rig.reference().model, 1, run);
+  return predict(copies, lit, fusion, kVoxel_px, ShiftedPoints::Moved, run);
+}
+
+/// The same without progress and messages.
+Run quiet_run(const Run& run) {
+  Run quiet;
+  quiet.stop = run.stop;
+  return quiet;
 }
 
 /// Corrects all views by a prediction; false, and nothing is changed, where that makes them
@@ -246,12 +252,14 @@ EarlyIndirectLight correct_before_registration(MeasuredViews& measured,
                                                const Run& run) {
   if (measured.points == 0) return {.found = false};
   const ShiftedPoints points = shifted_points(lit.plan);
-  const auto indirect =
-      predict_light(measured, lit, fusion, Predictions::OfMeasuredViews, points, run);
-  if (!indirect) return {.found = false};
-  if (points == ShiftedPoints::Kept) return {};
-  const bool corrects = correct_views(measured, lit.rays, *indirect, run);
-  return {.found = true, .corrected = corrects, .corrects = corrects};
+  EarlyIndirectLight out;
+  out.part = predict_for_measured(measured, lit, fusion, points, quiet_run(run));
+  out.found = out.part.has_value();
+  out.poses = poses_of(measured.reference());
+  if (!out.found || points == ShiftedPoints::Kept) return out;
+  out.corrects = correct_views(measured, lit.rays, *out.part, run);
+  out.corrected = out.corrects;
+  return out;
 }
 
 std::optional<IndirectLightReport> correct_indirect_light(MeasuredViews& measured,
@@ -259,23 +267,26 @@ std::optional<IndirectLightReport> correct_indirect_light(MeasuredViews& measure
                                                           const EarlyIndirectLight& before,
                                                           FusionOptions& fusion,
                                                           const Run& run) {
-  const Predictions predictions =
-      before.corrected ? Predictions::OfCorrectedViews : Predictions::OfMeasuredViews;
+  const Run quiet = quiet_run(run);
   ShiftedPoints points = before.corrects ? shifted_points(lit.plan) : ShiftedPoints::Kept;
-  auto indirect = predict_light(measured, lit, fusion, predictions, points, run);
-  if (!indirect) return std::nullopt;
-  if (points == ShiftedPoints::Moved && !correct_views(measured, lit.rays, *indirect, run)) {
-    points = ShiftedPoints::Kept;
-    indirect = predict_light(measured, lit, fusion, predictions, points, run);
-    if (!indirect) return std::nullopt;
+  std::optional<IndirectPart> indirect;
+  if (before.corrected) {
+    indirect = predict_for_corrected(measured, lit, fusion, quiet);
+  } else if (before.part &&
+             std::ranges::equal(before.poses, poses_of(measured.reference()), is_same_pose)) {
+    indirect = before.part;
+  } else {
+    indirect = predict_for_measured(measured, lit, fusion, points, quiet);
   }
+  if (!indirect) return std::nullopt;
+  if (points == ShiftedPoints::Moved && !correct_views(measured, lit.rays, *indirect, run))
+    points = ShiftedPoints::Kept;
+  const auto correction = std::make_shared<const IndirectCorrection>(indirect->correction(points));
   fusion.terms.push_back({UncertaintyTerm::IndirectLight,
-                          [correction = indirect->correction, &rays = lit.rays](
-                              const View& view, std::size_t /*camera*/) {
+                          [correction, &rays = lit.rays](const View& view, std::size_t /*camera*/) {
                             return correction->systematic_mm(view, rays);
                           }});
-  IndirectLightReport report = indirect->report;
-  report.corrected = points == ShiftedPoints::Moved;
+  IndirectLightReport report = report_of(*indirect, points, measured.reference(), lit.rays);
   announce(report, run);
   return report;
 }
@@ -285,7 +296,7 @@ namespace {
 /// Indirect light in the views of one camera, and the rays of its pixels.
 struct CameraPart {
   Image<Eigen::Vector2f> rays;
-  std::optional<IndirectPart> part;
+  std::optional<IndirectCorrection> correction;  ///< none without indirect light
 };
 
 }  // namespace
@@ -295,8 +306,7 @@ std::optional<IndirectLightReport> count_indirect_light(const MeasuredViews& mea
                                                         FusionOptions& fusion,
                                                         const Run& run) {
   constexpr double kCoarse_px = 3.0;
-  Run quiet;
-  quiet.stop = run.stop;
+  const Run quiet = quiet_run(run);
   const auto& cameras = lit.scan.rig.cameras;
   std::vector<std::unique_ptr<const ThinnedViews>> thinned;
   std::vector<CameraViews> views;
@@ -312,17 +322,19 @@ std::optional<IndirectLightReport> count_indirect_light(const MeasuredViews& mea
     CameraPart& own = (*parts)[camera];
     const Scan scan = scan_of_camera(lit.scan, camera);
     own.rays = rays_of(scan.rig.reference().model);
-    own.part = indirect_part(
-        lit_views(*thinned[camera], lit, scan.rig.projector), surface, ShiftedPoints::Kept, run);
-    if (own.part && (!report || own.part->report.largest_mm > report->largest_mm))
-      report = own.part->report;
+    const auto part =
+        indirect_part(lit_views(*thinned[camera], lit, scan.rig.projector), surface, run);
+    if (!part) continue;
+    own.correction = part->correction(ShiftedPoints::Kept);
+    const IndirectLightReport found =
+        report_of(*part, ShiftedPoints::Kept, measured.cameras[camera], own.rays);
+    if (!report || found.largest_mm > report->largest_mm) report = found;
   }
   if (!report) return report;
-  report->corrected = false;
   fusion.terms.push_back(
       {UncertaintyTerm::IndirectLight, [parts](const View& view, std::size_t camera) {
          const CameraPart& own = parts->at(camera);
-         return own.part ? own.part->correction->systematic_mm(view, own.rays) : Image<float>();
+         return own.correction ? own.correction->systematic_mm(view, own.rays) : Image<float>();
        }});
   announce(*report, run);
   return report;

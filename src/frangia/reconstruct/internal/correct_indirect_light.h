@@ -1,6 +1,9 @@
 #pragma once
 
 #include <optional>
+#include <vector>
+
+#include <Eigen/Geometry>
 
 #include "frangia/core/run.h"
 #include "frangia/fusion/fuse_views.h"
@@ -17,6 +20,8 @@ struct EarlyIndirectLight {
   bool corrected = false;  ///< the views are corrected by it
   /// False: the correction made the views rougher, and they stay as they were measured.
   bool corrects = true;
+  std::optional<IndirectPart> part{};      ///< what was found
+  std::vector<Eigen::Isometry3d> poses{};  ///< of the views, in which `part` was found
 };
 
 /// Corrects views that are not registered yet by the indirect light that coarse surfaces of every
@@ -29,10 +34,11 @@ struct EarlyIndirectLight {
                                                              const FusionOptions& fusion,
                                                              const Run& run);
 
-/// Corrects registered views likewise. A correction that makes the views rougher is taken back, up
-/// to that before the registration, and all of the predicted error is counted. `fusion` gets the
-/// systematic part of the prediction; it refers to the rays of `lit`. Warns where indirect light
-/// matters; returns nothing where there is none.
+/// Corrects registered views likewise. What was found in views that stay as they were measured, and
+/// that the registration left in their poses, holds and is not looked for again. A correction that
+/// makes the views rougher is taken back, up to that before the registration, and all of the
+/// predicted error is counted. `fusion` gets the systematic part of the prediction; it refers to
+/// the rays of `lit`. Warns where indirect light matters; returns nothing where there is none.
 ///
 /// @errors   as indirect_part
 [[nodiscard]] std::optional<IndirectLightReport> correct_indirect_light(

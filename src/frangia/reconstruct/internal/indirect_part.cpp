@@ -143,32 +143,6 @@ PhaseSource source_of(const DirectionPlan& plan) {
   return std::holds_alternative<FromSlope>(plan.orders) ? PhaseSource::Slope : PhaseSource::Finest;
 }
 
-/// Summarizes what is added to the points of the view that sees most of it.
-IndirectLightReport report_of(const View& view,
-                              const IndirectCorrection& correction,
-                              double albedo,
-                              const Image<Eigen::Vector2f>& rays) {
-  constexpr std::size_t kSamples = 4000;
-  const ViewLight light = correction.light_of(view, rays);
-  std::vector<float> added;
-  std::vector<float> noise;
-  double affected = 0.0;
-  for (const Eigen::Vector2i& at : sampled_pixels(view.range.depth_mm, kSamples)) {
-    const RangePixel pixel = view.range.pixel(at.x(), at.y());
-    added.push_back(static_cast<float>(correction.sigma_mm(light, pixel)));
-    noise.push_back(pixel.sigma_mm);
-    affected += added.back() > 0.5F * pixel.sigma_mm ? 1.0 : 0.0;
-  }
-  IndirectLightReport out{.albedo = albedo};
-  if (added.empty()) return out;
-  out.affected = affected / static_cast<double>(added.size());
-  const auto high = added.begin() + static_cast<std::ptrdiff_t>(19 * added.size() / 20);
-  std::nth_element(added.begin(), high, added.end());
-  out.largest_mm = static_cast<double>(*high);
-  out.noise_mm = static_cast<double>(median(std::move(noise)));
-  return out;
-}
-
 std::size_t index_in_scan(const Scan& scan, const std::string& folder) {
   for (std::size_t i = 0; i < scan.views.size(); ++i) {
     if (scan.views[i].folder.string() == folder) return i;
@@ -189,13 +163,6 @@ AlbedoEstimate albedo_of(const LitViews& lit,
     add_samples(lit, exposure.view, surface, count, collected, samples);
   }
   return estimate_albedo(samples, surface.patterns());
-}
-
-std::vector<Eigen::Isometry3d> poses_of(const ViewStore& views) {
-  std::vector<Eigen::Isometry3d> out;
-  for (std::size_t i = 0; i < views.size(); ++i)
-    out.push_back(views.rig_from_object(i));
-  return out;
 }
 
 /// A surface under the projector; null where nothing predicts light.
@@ -231,6 +198,13 @@ std::vector<ViewExposure> exposures_of(const LitViews& lit,
 }
 
 }  // namespace
+
+std::vector<Eigen::Isometry3d> poses_of(const ViewStore& views) {
+  std::vector<Eigen::Isometry3d> out;
+  for (std::size_t i = 0; i < views.size(); ++i)
+    out.push_back(views.rig_from_object(i));
+  return out;
+}
 
 int thinning_px(const MeasuredViews& measured) {
   constexpr double kPoints = 15'000.0;  // of a view: with fewer, narrow grooves would be lost
@@ -295,7 +269,6 @@ bool may_light_itself(const LitViews& lit, const Mesh& surface, const Run& run) 
 
 std::optional<IndirectPart> indirect_part(const LitViews& lit,
                                           const Mesh& surface,
-                                          ShiftedPoints points,
                                           const Run& run) {
   constexpr std::size_t kMany = 2500;
   constexpr std::size_t kViews = 3;  // whose frames determine the reflectance
@@ -307,12 +280,37 @@ std::optional<IndirectPart> indirect_part(const LitViews& lit,
   const auto views = std::span(exposures).first(std::min(kViews, exposures.size()));
   const AlbedoEstimate found = albedo_of(lit, views, *source, kMany, collected.get(), run);
   if (!found.significant) return std::nullopt;
-  IndirectPart out;
-  out.correction = std::make_shared<const IndirectCorrection>(
-      collected, found.albedo, source_of(*lit.plan), points == ShiftedPoints::Moved);
-  out.report = report_of(
-      lit.views.load_points(exposures.front().view), *out.correction, found.albedo, lit.rays);
-  out.unexplained = found.unexplained;
+  return IndirectPart{.light = collected,
+                      .albedo = found.albedo,
+                      .source = source_of(*lit.plan),
+                      .unexplained = found.unexplained,
+                      .most_of_all = exposures.front().view};
+}
+
+IndirectLightReport report_of(const IndirectPart& part,
+                              ShiftedPoints points,
+                              const ViewStore& views,
+                              const Image<Eigen::Vector2f>& rays) {
+  constexpr std::size_t kSamples = 4000;
+  const View view = views.load_points(part.most_of_all);
+  const IndirectCorrection correction = part.correction(points);
+  const ViewLight light = correction.light_of(view, rays);
+  std::vector<float> added;
+  std::vector<float> noise;
+  double affected = 0.0;
+  for (const Eigen::Vector2i& at : sampled_pixels(view.range.depth_mm, kSamples)) {
+    const RangePixel pixel = view.range.pixel(at.x(), at.y());
+    added.push_back(static_cast<float>(correction.sigma_mm(light, pixel)));
+    noise.push_back(pixel.sigma_mm);
+    affected += added.back() > 0.5F * pixel.sigma_mm ? 1.0 : 0.0;
+  }
+  IndirectLightReport out{.albedo = part.albedo, .corrected = points == ShiftedPoints::Moved};
+  if (added.empty()) return out;
+  out.affected = affected / static_cast<double>(added.size());
+  const auto high = added.begin() + static_cast<std::ptrdiff_t>(19 * added.size() / 20);
+  std::nth_element(added.begin(), high, added.end());
+  out.largest_mm = static_cast<double>(*high);
+  out.noise_mm = static_cast<double>(median(std::move(noise)));
   return out;
 }
 

@@ -12,6 +12,8 @@
 #include "frangia/fusion/fuse_views.h"
 #include "frangia/geometry/mesh.h"
 #include "frangia/indirect_light/indirect_correction.h"
+#include "frangia/indirect_light/indirect_phase.h"
+#include "frangia/indirect_light/surface_light.h"
 #include "frangia/reconstruct/internal/measure_views.h"
 #include "frangia/rig/camera_model.h"
 
@@ -65,6 +67,9 @@ struct LitViews {
                                  const LitScan& lit,
                                  const Projector& projector);
 
+/// Where the rig stands in the frame of the object, for each view.
+[[nodiscard]] std::vector<Eigen::Isometry3d> poses_of(const ViewStore& views);
+
 /// What becomes of the points that indirect light shifts.
 enum class ShiftedPoints {
   Moved,  ///< to where they are without the predicted error; sigma counts what may remain
@@ -73,11 +78,23 @@ enum class ShiftedPoints {
 
 /// Indirect light that was found in the views of a camera.
 struct IndirectPart {
-  /// Of points; nothing moves where they are kept.
-  std::shared_ptr<const IndirectCorrection> correction;
-  double unexplained = 1.0;  ///< of the frames' indirect light; see AlbedoEstimate
-  IndirectLightReport report;
+  std::shared_ptr<const SurfaceLight> light;  ///< in the poses of the views
+  double albedo = 0.0;                        ///< reflectance of the surface, 0 to 1
+  PhaseSource source = PhaseSource::Finest;
+  double unexplained = 1.0;     ///< of the frames' indirect light; see AlbedoEstimate
+  std::size_t most_of_all = 0;  ///< the view that sees most of it
+
+  [[nodiscard]] IndirectCorrection correction(ShiftedPoints points) const {
+    return {light, albedo, source, points == ShiftedPoints::Moved};
+  }
 };
+
+/// Summarizes what a part adds to the points of the view that sees most of it. `rays` are those of
+/// the pixels of the views.
+[[nodiscard]] IndirectLightReport report_of(const IndirectPart& part,
+                                            ShiftedPoints points,
+                                            const ViewStore& views,
+                                            const Image<Eigen::Vector2f>& rays);
 
 /// Whether a surface may light itself, as a few pixels of the view that sees most of it show.
 ///
@@ -97,7 +114,6 @@ struct IndirectPart {
 /// @errors   Error(Cancelled)
 [[nodiscard]] std::optional<IndirectPart> indirect_part(const LitViews& lit,
                                                         const Mesh& surface,
-                                                        ShiftedPoints points,
                                                         const Run& run);
 
 }  // namespace frangia
