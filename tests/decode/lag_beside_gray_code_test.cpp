@@ -168,6 +168,28 @@ TEST(LagBesideAGrayCode, IsNotSeenInSoundFramesAndInOtherFaults) {
   }
 }
 
+TEST(LagBesideAGrayCode, IsNotSeenInOnePatternThatIsNotAsDescribed) {
+  for (const int steps : {4, 6}) {
+    for (const double period_px : {2.0 * kStripe_px, 4.0 * kStripe_px}) {
+      const CodedScan scan{.steps = steps, .code_first = false, .period_px = period_px};
+      const std::vector<FrameStack> sound = coded(scan);
+      std::vector<FrameStack> reversed = sound;
+      for (double& shift : reversed.front().pattern.shifts_rad)
+        shift = -shift;
+      EXPECT_FALSE(explain_lag_by_code(reversed)) << text_of(scan);
+      std::vector<FrameStack> other_period = sound;
+      other_period.front().pattern.period_px *= 0.9;
+      EXPECT_FALSE(explain_lag_by_code(other_period)) << text_of(scan);
+      for (std::size_t lost = 0; lost < sound.back().frames.size(); ++lost) {
+        std::vector<FrameStack> white = sound;
+        white.back().frames[lost] =
+            Image<std::uint8_t>(kCodedAcross_px, kCodedDown_px, std::uint8_t{240});
+        EXPECT_FALSE(explain_lag_by_code(white)) << text_of(scan) << ", frame " << lost;
+      }
+    }
+  }
+}
+
 TEST(LagBesideAGrayCode, IsDecodedAsWhatTheFramesShowIfThatIsAccepted) {
   const CodedScan scan{.steps = 6, .lag = 1};
   const DecodedView view = decode_view(coded(scan), rig_of_coded(), {}, {.accept_remedy = true});

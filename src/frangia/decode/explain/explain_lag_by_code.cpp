@@ -46,7 +46,22 @@ std::optional<FrameStack> with_frames_left(FrameStack gray, int lag) {
 struct CodeAgreement {
   double share = kAgreesByChance;
   bool consistent = false;
+  /// Of what may be wrong with one pattern instead, over that of a lag; none without such a fault.
+  std::optional<double> log_odds_of_fault{};
 };
+
+double evidence_of(double share) {
+  return kFieldWitnesses * std::log(std::max(share, kAgreesByChance));
+}
+
+/// Log of the prior probability of a fault of one pattern, over that of a lag. A period is one of
+/// many, and rarely far from the one that is declared.
+double log_prior_of(const SequenceFault& fault) {
+  constexpr double kPeriods = 100.0;
+  constexpr double kSpread = 0.2;  // of the logarithm of the period
+  if (fault.kind != SequenceFaultKind::Period) return 0.0;
+  return -std::log(kPeriods) - 0.5 * std::pow(std::log(fault.scale) / kSpread, 2);
+}
 
 /// The same of stacks that were moved by a lag. Nothing for a direction without a code beside
 /// fringes.
@@ -65,7 +80,12 @@ std::optional<CodeAgreement> agreement_of(std::span<const FrameStack> stacks,
                                         estimate_noise(std::span(&coarsest, 1)));
   const SequenceCheck check = check_gray_code(*code, phase);
   if (!check.decided) return CodeAgreement{};
-  return CodeAgreement{std::max(check.agreement, kAgreesByChance), check.consistent};
+  CodeAgreement out{std::max(check.agreement, kAgreesByChance), check.consistent};
+  for (const SequenceFault& fault : check.fits)
+    out.log_odds_of_fault =
+        std::max(out.log_odds_of_fault.value_or(log_prior_of(fault)), log_prior_of(fault));
+  if (out.log_odds_of_fault) *out.log_odds_of_fault += evidence_of(check.fitted_agreement);
+  return out;
 }
 
 /// The same of all directions, by the worst of them.
@@ -77,6 +97,9 @@ std::optional<CodeAgreement> agreement_of(std::span<const FrameStack> stacks, in
     if (!out) out = CodeAgreement{1.0, true};
     out->share = std::min(out->share, one->share);
     out->consistent = out->consistent && one->consistent;
+    if (one->log_odds_of_fault)
+      out->log_odds_of_fault =
+          std::min(out->log_odds_of_fault.value_or(0.0), *one->log_odds_of_fault);
   }
   return out;
 }
@@ -89,23 +112,28 @@ std::optional<FrameLag> explain_lag_by_code(std::span<const FrameStack> stacks) 
   if (!described || described->consistent) return std::nullopt;
   // Shares of pixels that are one smooth field each. What another order of the frames of one
   // pattern explains, a lag does not: it moves the code against the fringes.
-  const auto evidence = [](double share) { return kFieldWitnesses * std::log(share); };
+  const double price = price_of_choice(kFrameLags.size()) - std::log(kPriorFault);
   std::vector<FrameLag> lags{{}};
   std::vector<ScoredHypothesis> scored{
-      {"the frames are as described", evidence(described->share), 1.0 - described->share}};
+      {"the frames are as described", evidence_of(described->share), 1.0 - described->share}};
+  if (described->log_odds_of_fault) {
+    lags.push_back({});
+    scored.push_back({.text = "one pattern is not as described",
+                      .log_evidence = *described->log_odds_of_fault - price,
+                      .prediction = lags.size() - 1});
+  }
   for (const int frames : kFrameLags) {
     const std::optional<CodeAgreement> moved = agreement_of(moved_by(stacks, frames), frames);
     if (!moved || !moved->consistent) continue;
     lags.push_back({frames});
-    const double price = price_of_choice(kFrameLags.size()) - std::log(kPriorFault);
     scored.push_back({describe(lags.back()),
-                      evidence(moved->share) - price,
+                      evidence_of(moved->share) - price,
                       1.0 - moved->share,
                       {},
                       lags.size() - 1});
   }
   const Explanation found = choose(scored);
-  if (!found.is_decided() || found.likeliest == 0) return std::nullopt;
+  if (!found.is_decided() || lags[found.likeliest].frames == 0) return std::nullopt;
   FrameLag best = lags[found.likeliest];
   best.explanation = found;
   return best;

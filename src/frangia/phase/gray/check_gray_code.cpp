@@ -79,6 +79,7 @@ std::vector<GrayTrial> scale_trials(const GrayCodeSample& sample,
     trial.code.stripe_px *= factor;
     if (!passes(sample, trial, fringes)) continue;
     trial.fault.kind = SequenceFaultKind::Period;
+    trial.fault.scale = factor;
     trial.fault.what =
         fmt::format("stripes of {:g} px, not {:g} px", trial.code.stripe_px, code.stripe_px);
     trial.fault.keys = fmt::format("stripe_px = {:g}", trial.code.stripe_px);
@@ -93,6 +94,7 @@ std::vector<GrayTrial> scale_trials(const GrayCodeSample& sample,
     return out;
   other.fault.patterns = {fringes.name};
   other.fault.kind = SequenceFaultKind::Period;
+  other.fault.scale = other.period_px / fringes.period_px;
   other.fault.what =
       fmt::format("a period of {:.6g} px, not {:.6g} px", other.period_px, fringes.period_px);
   other.fault.keys = fmt::format("period_px = {:.6g}", other.period_px);
@@ -123,21 +125,21 @@ std::vector<GrayTrial> start_trials(const GrayCodeSample& sample,
   return {std::move(trial)};
 }
 
-/// The declarations that fit best, all of those that fit equally well.
-std::vector<SequenceFault> best_of(const GrayCodeSample& sample,
-                                   std::vector<GrayTrial> trials,
-                                   double least,
-                                   double tie) {
+/// Adds the declarations that fit best, all of those that fit equally well.
+void add_best(const GrayCodeSample& sample,
+              std::vector<GrayTrial> trials,
+              double least,
+              double tie,
+              SequenceCheck& out) {
   std::vector<double> scores;
   for (const GrayTrial& trial : trials)
     scores.push_back(sample.score(trial));
   double best = least;
   for (const double score : scores)
     best = std::max(best, score);
-  std::vector<SequenceFault> fits;
   for (std::size_t i = 0; i < trials.size(); ++i)
-    if (scores[i] >= best - tie) fits.push_back(std::move(trials[i].fault));
-  return fits;
+    if (scores[i] >= best - tie) out.fits.push_back(std::move(trials[i].fault));
+  if (!out.fits.empty()) out.fitted_agreement = best;
 }
 
 }  // namespace
@@ -172,7 +174,7 @@ SequenceCheck check_gray_code(const FrameStack& gray, const WrappedPhase& fringe
   out.consistent = false;
   const double gain = agrees ? 0.0 : kGrayCodeLimits.min_gain;
   const double least = std::max(kGrayCodeLimits.min_agreement, out.agreement + gain);
-  out.fits = best_of(sample, std::move(trials), least, kGrayCodeLimits.tie);
+  add_best(sample, std::move(trials), least, kGrayCodeLimits.tie, out);
   // A frame that is missing is no other fault of a code that agrees without it.
   if (agrees && misses && out.fits.empty()) out.consistent = true;
   return out;

@@ -48,6 +48,7 @@ struct SequenceFault {
   /// Two things differ, such as direction and start.
   bool is_compound = false;
   std::vector<double> shifts_rad{};  ///< of the pattern that fits, where they differ
+  double scale = 1.0;                ///< of a period or stripe beside a code, over that declared
 };
 
 /// How well the patterns of one direction agree with each other.
@@ -58,6 +59,7 @@ struct SequenceCheck {
   double chance_rad = 0.0;  ///< the same for phases that have nothing to do with each other
   double agreement = 0.0;   ///< of a Gray code: share of the pixels and borders that fit
   double fitted_rad = 0.0;  ///< the misfit with the best of `fits`
+  double fitted_agreement = 0.0;  ///< of a Gray code with the best of `fits`
   /// Share of the rows of pixels in which the two ends of the field meet on the object.
   double split_rows = 0.0;
   std::vector<std::string> patterns;  ///< names of the patterns that were compared
