@@ -102,8 +102,9 @@ void NoiseRowGatherer::gather(int y, NoiseBins& bins) const {
         [&](const auto& image) {
           for (int x = 0; x < width; ++x) {
             const auto i = static_cast<std::size_t>(x);
-            sum[i] += weights_[k] * image(x, y);
             mean[i] += image(x, y) / static_cast<double>(stack_->frames.size());
+            if (weights_[k] == 0.0) continue;
+            sum[i] += weights_[k] * image(x, y);
             brightest[i] = std::max(brightest[i], static_cast<int>(image(x, y)));
             darkest[i] = std::min(darkest[i], static_cast<int>(image(x, y)));
           }
@@ -123,7 +124,7 @@ void NoiseRowGatherer::gather(int y, NoiseBins& bins) const {
     const double share = mean[i] / stack_->white_level;
     const auto number = std::min<std::size_t>(
         NoiseSamples::kBins - 1, static_cast<std::size_t>(share * NoiseSamples::kBins));
-    NoiseSamples::Bin& bin = cut_off ? bins.cut_off : bins.lit[number];
+    NoiseSamples::Bin& bin = (cut_off ? bins.cut_off : bins.lit)[number];
     bin.differences_counts.push_back(static_cast<float>(std::abs(difference)));
     bin.sum_counts += mean[i];
   }
@@ -230,9 +231,10 @@ void append(const NoiseSamples::Bin& from, NoiseSamples::Bin& to) {
 }
 
 void append(const NoiseBins& from, NoiseBins& to) {
-  for (std::size_t bin = 0; bin < to.lit.size(); ++bin)
+  for (std::size_t bin = 0; bin < to.lit.size(); ++bin) {
     append(from.lit[bin], to.lit[bin]);
-  append(from.cut_off, to.cut_off);
+    append(from.cut_off[bin], to.cut_off[bin]);
+  }
 }
 
 /// The mean over the samples of the variances of their bins. A median over all of them would be
@@ -283,7 +285,9 @@ void NoiseSamples::add(const FrameStack& stack) {
       mean_frame.gather(y, mean);
     });
   }
-  append(mean_variance(mean) < kFineFringes * mean_variance(single) ? mean : single, bins_);
+  const double of_mean = mean_variance(mean);  // 0 where each pixel is cut off in some frame
+  const bool is_less = of_mean > 0.0 && of_mean < kFineFringes * mean_variance(single);
+  append(is_less ? mean : single, bins_);
 }
 
 void NoiseSamples::add(const NoiseSamples& other) {
@@ -292,9 +296,9 @@ void NoiseSamples::add(const NoiseSamples& other) {
 }
 
 bool NoiseSamples::empty() const {
-  return std::all_of(bins_.lit.begin(), bins_.lit.end(), [](const Bin& bin) {
-    return bin.differences_counts.size() < kMinBinSamples;
-  });
+  const auto is_few = [](const Bin& bin) { return bin.differences_counts.size() < kMinBinSamples; };
+  return std::all_of(bins_.lit.begin(), bins_.lit.end(), is_few) &&
+         std::all_of(bins_.cut_off.begin() + 1, bins_.cut_off.end(), is_few);
 }
 
 NoiseModel NoiseSamples::model() const {
@@ -307,7 +311,15 @@ NoiseModel NoiseSamples::model() const {
   std::vector<phase::VarianceAt> variances;
   for (const Bin& bin : bins_.lit)
     if (const auto one = variance_of(bin)) variances.push_back(*one);
-  return phase::fit_noise(variances, variance_of(bins_.cut_off), white_);
+  if (variances.empty()) {
+    for (std::size_t bin = 1; bin < bins_.cut_off.size(); ++bin)  // without the background
+      if (const auto one = variance_of(bins_.cut_off[bin])) variances.push_back(*one);
+    return phase::fit_noise(variances, {}, white_);
+  }
+  Bin cut_off;
+  for (const Bin& bin : bins_.cut_off)
+    append(bin, cut_off);
+  return phase::fit_noise(variances, variance_of(cut_off), white_);
 }
 
 NoiseModel estimate_noise(std::span<const FrameStack> stacks) {

@@ -19,7 +19,8 @@ namespace frangia {
 /// fitted to the variance over the brightness gives the model.
 ///
 /// Pixels that are cut off at 0 counts show less noise than they have; where they still show more
-/// than the curve of the others, dark pixels get what they tell.
+/// than the curve of the others, dark pixels get what they tell. Where all pixels are cut off in
+/// some frame, the bright ones of them tell the noise: one frame of several has none.
 ///
 /// @units    counts
 /// @missing  saturated pixels are ignored; with too few pixels the model is quantization noise
@@ -38,8 +39,8 @@ class NoiseSamples {
   };
   /// All of them.
   struct Bins {
-    std::array<Bin, kBins> lit;  ///< of equal width in brightness
-    Bin cut_off;                 ///< pixels at 0 counts in some frame
+    std::array<Bin, kBins> lit;      ///< of equal width in brightness
+    std::array<Bin, kBins> cut_off;  ///< pixels at 0 counts in some frame, likewise
   };
   /// Adds the samples of one stack. Stacks of other patterns than fringes are ignored.
   void add(const FrameStack& stack);
