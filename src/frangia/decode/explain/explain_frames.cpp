@@ -194,6 +194,8 @@ std::string remedy_of(const FrameHypothesis& hypothesis) {
       return {};
     case FrameCause::Exchanged:
       return "correct the order of the frames";
+    case FrameCause::Sorted:
+      return "bring the frames into the order of their numbers";
     case FrameCause::Covered:
       return "keep everything out of the light while the frames are captured";
     case FrameCause::Displaced:
@@ -231,7 +233,8 @@ FrameExplanation explain_frames(const FrameStack& stack,
   if (sample.counts.rows() < kMinPixels) return out;
   const FrameHypothesis declared = frame_hypotheses(stack.pattern).front();
   std::vector<Candidate> candidates{{declared, score_frames(sample, declared)}};
-  const bool covers = cover_fringe(sample, declared);
+  // Other patterns tell the plateaus of coarse fringes from lost frames.
+  const bool covers = cover_fringe(sample, declared) || sample.has_reference();
   if (!covers && candidates.front().score.unexplained < kOtherOrder) return out;
   out.decided = true;
   const FrameScore& sound = candidates.front().score;
