@@ -83,6 +83,20 @@ TEST(EstimateNoise, FindsTheNoiseOfFramesThatAreCutOffAtEachPixelInOneOfThem) {
   EXPECT_NEAR(estimate_noise(stacks).variance(70.0) / true_variance(70.0), 1.0, 0.4);
 }
 
+TEST(EstimateNoise, OfFewBitsThatAreStoredInManyIsThatOfTheBrightPart) {
+  std::vector<FrameStack> stacks = {shot_noise_frames(quarter_steps())};
+  stacks.front().white_level = 65535;
+  for (Frame& frame : stacks.front().frames) {
+    const auto& image = std::get<Image<std::uint8_t>>(frame);
+    Image<std::uint16_t> wide(image.width(), image.height());
+    std::copy(image.pixels().begin(), image.pixels().end(), wide.pixels().begin());
+    frame = std::move(wide);
+  }
+  const NoiseModel noise = estimate_noise(stacks);
+  for (const double counts : {30.0, 70.0, 110.0})
+    EXPECT_NEAR(noise.variance(counts) / true_variance(counts), 1.0, 0.06) << counts;
+}
+
 TEST(EstimateNoise, IgnoresAStepError) {
   const std::vector<FrameStack> stacks = {shot_noise_frames(quarter_steps(), 0.05)};
   EXPECT_NEAR(estimate_noise(stacks).variance(70.0) / true_variance(70.0), 1.0, 0.1);

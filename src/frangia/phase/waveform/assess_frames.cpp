@@ -69,8 +69,6 @@ ResidualRatios residual_ratios(const FrameStack& stack,
 
 /// Phase error that deserves a warning: a third of the phase noise of bright 8-bit frames.
 constexpr double kMaterial_rad = 0.004;
-/// The same of light that differed, which most frames show a little.
-constexpr double kNegligibleFlicker_rad = 0.001;
 /// Contrast that no sine reaches, even with noise.
 constexpr double kMaxContrast = 1.03;
 
@@ -140,7 +138,7 @@ FrameAssessment assess_frames(const FrameStack& stack,
 }
 
 bool differs_between_frames(const FrameAssessment& assessment) {
-  return assessment.exceeds_noise || assessment.flicker_error_rad > kNegligibleFlicker_rad;
+  return assessment.exceeds_noise || assessment.flicker_error_rad > kMaterial_rad;
 }
 
 bool needs_attention(const FrameAssessment& assessment) {

@@ -76,11 +76,13 @@ class NoiseRowGatherer {
   NoiseRowGatherer(const FrameStack& stack,
                    const FringeHarmonics& harmonics,
                    FrameWeights weights,
-                   int distance_px)
+                   int distance_px,
+                   double range_counts)
       : stack_(&stack),
         harmonics_(&harmonics),
         weights_(std::move(weights)),
-        distance_px_(static_cast<std::size_t>(distance_px)) {}
+        distance_px_(static_cast<std::size_t>(distance_px)),
+        range_counts_(range_counts) {}
   /// Adds the absolute second differences along a row.
   void gather(int y, NoiseBins& bins) const;
 
@@ -89,6 +91,7 @@ class NoiseRowGatherer {
   const FringeHarmonics* harmonics_;
   FrameWeights weights_;
   std::size_t distance_px_;
+  double range_counts_;  ///< of all bins together
 };
 
 void NoiseRowGatherer::gather(int y, NoiseBins& bins) const {
@@ -121,7 +124,7 @@ void NoiseRowGatherer::gather(int y, NoiseBins& bins) const {
       continue;
     const bool cut_off = std::min({darkest[i - d], darkest[i], darkest[i + d]}) <= 0;
     const double difference = (sum[i - d] - 2.0 * sum[i] + sum[i + d]) / std::sqrt(6.0);
-    const double share = mean[i] / stack_->white_level;
+    const double share = mean[i] / range_counts_;
     const auto number = std::min<std::size_t>(
         NoiseSamples::kBins - 1, static_cast<std::size_t>(share * NoiseSamples::kBins));
     NoiseSamples::Bin& bin = (cut_off ? bins.cut_off : bins.lit)[number];
@@ -237,6 +240,30 @@ void append(const NoiseBins& from, NoiseBins& to) {
   }
 }
 
+/// The white level, or a half, a quarter and so on of it that no pixel below it exceeds, so that
+/// the bins of brightness are those that occur; not below 8 bits.
+double range_of(const FrameStack& stack) {
+  constexpr int kStride = 5;
+  constexpr double kEightBits = 255.0;
+  int brightest = 0;
+  for (const Frame& frame : stack.frames) {
+    std::visit(
+        [&](const auto& image) {
+          for (int y = kStride / 2; y < image.height(); y += kStride) {
+            for (int x = kStride / 2; x < image.width(); x += kStride) {
+              const int counts = image(x, y);
+              if (counts < stack.white_level) brightest = std::max(brightest, counts);
+            }
+          }
+        },
+        frame);
+  }
+  double range = stack.white_level;
+  while (0.5 * range > brightest && 0.5 * range >= kEightBits)
+    range *= 0.5;
+  return range;
+}
+
 /// The mean over the samples of the variances of their bins. A median over all of them would be
 /// that of the background, which shows neither fringes nor texture.
 double mean_variance(const NoiseBins& bins) {
@@ -256,6 +283,7 @@ double mean_variance(const NoiseBins& bins) {
 void NoiseSamples::add(const FrameStack& stack) {
   if (stack.pattern.kind != PatternKind::Fringe || stack.frames.size() < 3) return;
   white_ = stack.white_level;
+  widen(range_of(stack));
   const std::vector<double>& shifts = stack.pattern.shifts_rad;
   const RowRounds rounds(
       width_of(stack.frames.front()), height_of(stack.frames.front()), kFirstSamples, kMostSamples);
@@ -263,7 +291,7 @@ void NoiseSamples::add(const FrameStack& stack) {
   if (shifts.size() > 3) {
     std::vector<NoiseRowGatherer> frames;
     for (const FrameWeights& weights : noise_combinations(shifts))
-      frames.emplace_back(stack, harmonics, weights, distance_px_);
+      frames.emplace_back(stack, harmonics, weights, distance_px_, range_counts_);
     NoiseBins bins;
     std::size_t rows = 0;
     for (int round = 0; round < rounds.count() && !are_filled(bins); ++round)
@@ -274,8 +302,9 @@ void NoiseSamples::add(const FrameStack& stack) {
   // Fine fringes add to the apparent noise of single frames, texture to that of their mean.
   std::vector<NoiseRowGatherer> frames;
   for (const FrameWeights& weights : single_frames(shifts.size()))
-    frames.emplace_back(stack, harmonics, weights, distance_px_);
-  const NoiseRowGatherer mean_frame(stack, harmonics, mean_of_frames(shifts), distance_px_);
+    frames.emplace_back(stack, harmonics, weights, distance_px_, range_counts_);
+  const NoiseRowGatherer mean_frame(
+      stack, harmonics, mean_of_frames(shifts), distance_px_, range_counts_);
   NoiseBins single;
   NoiseBins mean;
   for (int round = 0; round < rounds.count() && !are_filled(mean); ++round) {
@@ -292,7 +321,23 @@ void NoiseSamples::add(const FrameStack& stack) {
 
 void NoiseSamples::add(const NoiseSamples& other) {
   white_ = other.white_;
-  append(other.bins_, bins_);
+  if (other.range_counts_ == 0.0) return;
+  widen(other.range_counts_);
+  NoiseSamples wide = other;
+  wide.widen(range_counts_);
+  append(wide.bins_, bins_);
+}
+
+void NoiseSamples::widen(double range_counts) {
+  if (range_counts <= range_counts_) return;
+  const double factor = range_counts / std::exchange(range_counts_, range_counts);
+  if (!std::isfinite(factor)) return;  // the first frames
+  const Bins before = std::exchange(bins_, {});
+  for (std::size_t bin = 0; bin < before.lit.size(); ++bin) {
+    const auto wide = static_cast<std::size_t>(static_cast<double>(bin) / factor);
+    append(before.lit[bin], bins_.lit[wide]);
+    append(before.cut_off[bin], bins_.cut_off[wide]);
+  }
 }
 
 bool NoiseSamples::empty() const {

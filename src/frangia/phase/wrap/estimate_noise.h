@@ -39,7 +39,9 @@ class NoiseSamples {
   };
   /// All of them.
   struct Bins {
-    std::array<Bin, kBins> lit;      ///< of equal width in brightness
+    /// Of equal width in brightness, up to a white level or, where counts are far below it, a half
+    /// or a quarter of it and so on: 12 bits are often stored in 16.
+    std::array<Bin, kBins> lit;
     std::array<Bin, kBins> cut_off;  ///< pixels at 0 counts in some frame, likewise
   };
   /// Adds the samples of one stack. Stacks of other patterns than fringes are ignored.
@@ -51,8 +53,12 @@ class NoiseSamples {
   [[nodiscard]] int distance_px() const { return distance_px_; }  ///< as it was constructed
 
  private:
+  /// Makes the bins as wide as frames of this brightness need.
+  void widen(double range_counts);
+
   Bins bins_;
   int white_ = 255;
+  double range_counts_ = 0.0;  ///< of all bins together; 0 before the first frames
   int distance_px_;
 };
 
