@@ -361,10 +361,8 @@ NoiseModel NoiseSamples::model() const {
       if (const auto one = variance_of(bins_.cut_off[bin])) variances.push_back(*one);
     return phase::fit_noise(variances, {}, white_);
   }
-  Bin cut_off;
-  for (const Bin& bin : bins_.cut_off)
-    append(bin, cut_off);
-  return phase::fit_noise(variances, variance_of(cut_off), white_);
+  // Fringes whose dark end is cut off bend there; a dark background does not.
+  return phase::fit_noise(variances, variance_of(bins_.cut_off.front()), white_);
 }
 
 NoiseModel estimate_noise(std::span<const FrameStack> stacks) {
