@@ -83,6 +83,14 @@ TEST(EstimateNoise, FindsTheNoiseOfFramesThatAreCutOffAtEachPixelInOneOfThem) {
   EXPECT_NEAR(estimate_noise(stacks).variance(70.0) / true_variance(70.0), 1.0, 0.4);
 }
 
+TEST(EstimateNoise, OfDarkPixelsIsNotTheBendOfFringesThatAreCutOff) {
+  for (const double contrast : {1.1, 1.2}) {
+    const std::vector<FrameStack> stacks = {
+        shot_noise_frames(quarter_steps(), 0.0, 400, 3, 7.0, contrast)};
+    EXPECT_LT(estimate_noise(stacks).variance(0.0), 4.0 * true_variance(0.0)) << contrast;
+  }
+}
+
 TEST(EstimateNoise, OfFewBitsThatAreStoredInManyIsThatOfTheBrightPart) {
   std::vector<FrameStack> stacks = {shot_noise_frames(quarter_steps())};
   stacks.front().white_level = 65535;

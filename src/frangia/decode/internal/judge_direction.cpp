@@ -57,13 +57,30 @@ void apply_ceiling(const Ceiling& ceiling, const DirectionInput& input, JudgedFr
     stack.white_level = ceiling.counts;
 }
 
+/// The camera's noise by the coarsest fringes alone, whose cut end bends least; `known` where it is
+/// less, or stated.
+NoiseModel noise_beside_cut(std::span<const FrameStack> stacks,
+                            const DirectionInput& input,
+                            const NoiseModel& known) {
+  constexpr double kBright = 0.25;  // of the white level
+  const auto fringes = fringes_of(stacks, input.plan.direction);
+  if (fringes.empty() || input.rig.reference().noise) return known;
+  NoiseModel out = estimate_noise({fringes.front(), 1});
+  out.floor_counts2 += stacks.front().compression_counts2;
+  const double bright = kBright * stacks.front().white_level;
+  return out.variance(0.0) + out.variance(bright) < known.variance(0.0) + known.variance(bright)
+             ? out
+             : known;
+}
+
 /// Raises the dark end of the fringes, which the camera cuts off. A function of the caller that
 /// wraps frames gets them as they were captured.
 bool apply_cut(const DirectionInput& input, JudgedFrames& out) {
   if (input.options.own.wrap) return false;
   const std::span<const FrameStack> stacks =
       out.stacks.empty() ? input.stacks : std::span<const FrameStack>(out.stacks);
-  const std::optional<CutDarkEnd> cut = find_cut_dark_end(stacks, out.noise);
+  const NoiseModel noise = noise_beside_cut(stacks, input, out.noise);
+  const std::optional<CutDarkEnd> cut = find_cut_dark_end(stacks, noise);
   if (!cut) return false;
   input.run.warn(fmt::format(
       "the camera cuts the dark end of the fringes off at {} counts: {:.0f} % of their samples are "
@@ -73,7 +90,7 @@ bool apply_cut(const DirectionInput& input, JudgedFrames& out) {
       cut->counts,
       100.0 * cut->share,
       cut->depth_counts));
-  RaisedFrames raised = raise_dark_end(stacks, *cut, out.noise);
+  RaisedFrames raised = raise_dark_end(stacks, *cut, noise);
   out.stacks = std::move(raised.stacks);
   out.noise = raised.noise;
   return true;

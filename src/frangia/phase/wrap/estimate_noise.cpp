@@ -125,8 +125,11 @@ void NoiseRowGatherer::gather(int y, NoiseBins& bins) const {
     const bool cut_off = std::min({darkest[i - d], darkest[i], darkest[i + d]}) <= 0;
     const double difference = (sum[i - d] - 2.0 * sum[i] + sum[i + d]) / std::sqrt(6.0);
     const double share = mean[i] / range_counts_;
-    const auto number = std::min<std::size_t>(
-        NoiseSamples::kBins - 1, static_cast<std::size_t>(share * NoiseSamples::kBins));
+    auto number = std::min<std::size_t>(NoiseSamples::kBins - 1,
+                                        static_cast<std::size_t>(share * NoiseSamples::kBins));
+    // Fringes whose dark end is cut off bend there; the first bin is that of a dark background.
+    constexpr double kDark = 3.0 / NoiseSamples::kBins;
+    if (cut_off && brightest[i] > kDark * range_counts_) number = std::max<std::size_t>(number, 1);
     NoiseSamples::Bin& bin = (cut_off ? bins.cut_off : bins.lit)[number];
     bin.differences_counts.push_back(static_cast<float>(std::abs(difference)));
     bin.sum_counts += mean[i];
@@ -361,7 +364,6 @@ NoiseModel NoiseSamples::model() const {
       if (const auto one = variance_of(bins_.cut_off[bin])) variances.push_back(*one);
     return phase::fit_noise(variances, {}, white_);
   }
-  // Fringes whose dark end is cut off bend there; a dark background does not.
   return phase::fit_noise(variances, variance_of(bins_.cut_off.front()), white_);
 }
 
