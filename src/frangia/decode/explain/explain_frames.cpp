@@ -233,8 +233,7 @@ FrameExplanation explain_frames(const FrameStack& stack,
   if (sample.counts.rows() < kMinPixels) return out;
   const FrameHypothesis declared = frame_hypotheses(stack.pattern).front();
   std::vector<Candidate> candidates{{declared, score_frames(sample, declared)}};
-  // Other patterns tell the plateaus of coarse fringes from lost frames.
-  const bool covers = cover_fringe(sample, declared) || sample.has_reference();
+  const bool covers = cover_fringe(sample, declared);
   if (!covers && candidates.front().score.unexplained < kOtherOrder) return out;
   out.decided = true;
   const FrameScore& sound = candidates.front().score;

@@ -317,16 +317,8 @@ FrameVerdict judge_frames(const FrameStack& stack,
   JudgeOptions alone = options;
   alone.references = {};
   FrameVerdict out = judge_by_evidence(stack, noise, alone);
-  if (options.references.empty() || is_sound(out.explanation)) return out;
-  if (!out.explanation.decided) {
-    // On a part of one coarse fringe the other patterns decide, but for frames that are left out
-    // alone: without them it is as described.
-    FrameVerdict beside = judge_by_evidence(stack, noise, options);
-    const bool is_left_out = beside.action == FrameAction::LeaveOutFrames &&
-                             beside.explanation.best.cause == FrameCause::Lost &&
-                             beside.left_out.size() == 1;
-    return is_left_out ? beside : out;
-  }
+  if (options.references.empty() || !out.explanation.decided || is_sound(out.explanation))
+    return out;
   // What the frames that remain predict of the other patterns confirms the cause.
   if (out.action == FrameAction::LeaveOutFrames &&
       agree_as_described(options.references, without_frames(stack, out.left_out), noise))

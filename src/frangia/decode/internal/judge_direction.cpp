@@ -135,7 +135,7 @@ std::vector<FrameVerdict> judge_patterns(std::span<const FrameStack> captured,
     if (is_sound(verdicts[i].explanation)) sound.push_back(stacks[i]);
   for (std::size_t i = 0; i < stacks.size() && !sound.empty(); ++i) {
     const FrameExplanation& found = verdicts[i].explanation;
-    if (!is_sound(found)) verdicts[i] = judge(*stacks[i]);
+    if (found.decided && !is_sound(found)) verdicts[i] = judge(*stacks[i]);
   }
   std::move(late.begin(), late.end(), std::back_inserter(verdicts));
   return verdicts;
