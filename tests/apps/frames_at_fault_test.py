@@ -235,6 +235,15 @@ class FramesAtFault(unittest.TestCase):
                 self.assertIn(f"cut off at {name} counts", text)
                 self.assertLess(error, 1.8 * sigma)
 
+    def test_a_dark_end_that_the_camera_cuts_off_is_found(self):
+        for steps, level in ((4, 0), (3, 0), (6, 16)):
+            with self.subTest(steps=steps, level=level):
+                cut = lambda counts: to_8_bits(np.maximum(counts - 24 + level, level))  # noqa: E731
+                code, _, text, error, sigma = self.scan(steps, coarse=True).capture(to_image=cut).reconstruct()
+                self.assertEqual(code, 0, text)
+                self.assertIn(f"cuts the dark end of the fringes off at {level} counts", text)
+                self.assertLess(error, 1.8 * sigma)
+
     def test_frames_that_are_no_fringes_are_refused(self):
         x, y = np.meshgrid(np.arange(WIDTH), np.arange(HEIGHT))
 

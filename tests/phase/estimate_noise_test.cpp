@@ -27,7 +27,8 @@ FrameStack shot_noise_frames(const Pattern& pattern,
                              double step_error = 0.0,
                              int height = 400,
                              std::uint32_t seed = 3,
-                             double fineness = 1.0) {
+                             double fineness = 1.0,
+                             double contrast = 0.7) {
   const double gain_e = 60.0;
   const double read_counts = 0.6;
   std::mt19937 generator(seed);
@@ -39,9 +40,9 @@ FrameStack shot_noise_frames(const Pattern& pattern,
       for (int x = 0; x < image.width(); ++x) {
         const double mean = 20.0 + 0.16 * x;
         const double light =
-            mean * (1.0 + 0.7 * std::cos(kPi + fineness * (0.1 * x + 0.02 * y - kPi) +
-                                         shift * (1.0 + step_error)));
-        const double sigma = std::hypot(read_counts, std::sqrt(light / gain_e));
+            mean * (1.0 + contrast * std::cos(kPi + fineness * (0.1 * x + 0.02 * y - kPi) +
+                                              shift * (1.0 + step_error)));
+        const double sigma = std::hypot(read_counts, std::sqrt(std::max(0.0, light) / gain_e));
         image(x, y) =
             static_cast<std::uint8_t>(std::lround(std::max(0.0, light + sigma * noise(generator))));
       }
@@ -73,6 +74,35 @@ TEST(EstimateNoise, FindsTheNoiseOfFramesOfWhichTheFirstIsDarkAllOver) {
       EXPECT_NEAR(noise.variance(counts) / true_variance(counts), 1.0, 0.15)
           << frames << " " << counts;
   }
+}
+
+TEST(EstimateNoise, FindsTheNoiseOfFramesThatAreCutOffAtEachPixelInOneOfThem) {
+  Pattern pattern = quarter_steps();
+  pattern.shifts_rad = equal_shifts(6, kTwoPi / 6);
+  const std::vector<FrameStack> stacks = {shot_noise_frames(pattern, 0.0, 400, 3, 1.0, 1.4)};
+  EXPECT_NEAR(estimate_noise(stacks).variance(70.0) / true_variance(70.0), 1.0, 0.4);
+}
+
+TEST(EstimateNoise, OfDarkPixelsIsNotTheBendOfFringesThatAreCutOff) {
+  for (const double contrast : {1.1, 1.2}) {
+    const std::vector<FrameStack> stacks = {
+        shot_noise_frames(quarter_steps(), 0.0, 400, 3, 7.0, contrast)};
+    EXPECT_LT(estimate_noise(stacks).variance(0.0), 4.0 * true_variance(0.0)) << contrast;
+  }
+}
+
+TEST(EstimateNoise, OfFewBitsThatAreStoredInManyIsThatOfTheBrightPart) {
+  std::vector<FrameStack> stacks = {shot_noise_frames(quarter_steps())};
+  stacks.front().white_level = 65535;
+  for (Frame& frame : stacks.front().frames) {
+    const auto& image = std::get<Image<std::uint8_t>>(frame);
+    Image<std::uint16_t> wide(image.width(), image.height());
+    std::copy(image.pixels().begin(), image.pixels().end(), wide.pixels().begin());
+    frame = std::move(wide);
+  }
+  const NoiseModel noise = estimate_noise(stacks);
+  for (const double counts : {30.0, 70.0, 110.0})
+    EXPECT_NEAR(noise.variance(counts) / true_variance(counts), 1.0, 0.06) << counts;
 }
 
 TEST(EstimateNoise, IgnoresAStepError) {

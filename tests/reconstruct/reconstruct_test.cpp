@@ -144,7 +144,7 @@ TEST(Reconstruct, NamesAViewOfAMovedPartAndLeavesItOut) {
     EXPECT_EQ(result.view_summaries[i].left_out, i == 3) << i;
     EXPECT_GT(result.view_summaries[i].points, 0U) << i;
   }
-  ASSERT_EQ(warnings.size(), 1U);
+  ASSERT_EQ(warnings.size(), 1U) << ::testing::PrintToString(warnings);
   EXPECT_NE(warnings[0].find("view 3 fits no other view"), std::string::npos) << warnings[0];
   EXPECT_LT(error_of(result, "bust").rms_mm, 0.069);  // measured 0.0531
 }

@@ -1,14 +1,18 @@
 #include "frangia/decode/decode_view.h"
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <string>
 #include <variant>
 
 #include "frangia/core/held_messages.h"
 #include "frangia/decode/explain/explain_lag.h"
+#include "frangia/decode/explain/judge_frames.h"
 #include "frangia/decode/internal/decode_direction.h"
+#include "frangia/decode/internal/judge_direction.h"
 #include "frangia/decode/select_stacks.h"
+#include "frangia/phase/waveform/frame_mixing.h"
 #include "frangia/phase/waveform/light_bands.h"
 
 namespace frangia {
@@ -141,6 +145,24 @@ std::vector<FrameStack> at_even_light(std::span<const FrameStack> stacks,
   return out;
 }
 
+/// The frames without what they hold of those before; empty where they hold nothing of them. The
+/// first one, whose predecessor is not known, is left out where the others determine the phase.
+std::vector<FrameStack> each_alone(std::span<const FrameStack> stacks,
+                                   const DecodeOptions& options,
+                                   const Run& run) {
+  if (options.own.wrap) return {};
+  const std::optional<FrameMixing> mixing = find_frame_mixing(stacks);
+  if (!mixing) return {};
+  run.warn(describe(*mixing));
+  std::vector<FrameStack> out = without_mixing(stacks, *mixing);
+  constexpr std::size_t kEnough = 4;
+  FrameStack& first = out.front();
+  if (first.pattern.kind == PatternKind::Fringe && first.frames.size() >= kEnough &&
+      may_leave_out(first.pattern, options))
+    first = without_frames(first, std::array{std::size_t{0}});
+  return out;
+}
+
 }  // namespace
 
 DecodedView decode_view(std::span<const FrameStack> captured,
@@ -149,9 +171,13 @@ DecodedView decode_view(std::span<const FrameStack> captured,
                         const Image<Eigen::Vector2f>& rays,
                         const DecodeOptions& options,
                         const Run& run) {
-  const ViewInput input{plan, rig, rays, options};
-  const std::vector<FrameStack> evened = at_even_light(captured, options, run);
-  const std::span<const FrameStack> stacks = evened.empty() ? captured : evened;
+  const std::vector<FrameStack> alone = each_alone(captured, options, run);
+  DecodeOptions own_noise = options;  // that of the other views is of frames that hold others
+  if (!alone.empty()) own_noise.survey.noise.reset();
+  const ViewInput input{plan, rig, rays, own_noise};
+  const std::span<const FrameStack> shown = alone.empty() ? captured : alone;
+  const std::vector<FrameStack> evened = at_even_light(shown, options, run);
+  const std::span<const FrameStack> stacks = evened.empty() ? shown : evened;
   if (!options.accept_inconsistent) {
     if (const std::optional<FrameLag> lag = explain_lag(stacks))
       return decode_out_of_step(stacks, *lag, input, run);

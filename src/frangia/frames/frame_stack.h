@@ -40,6 +40,9 @@ struct FrameStack {
   /// Of a white or ambient frame in colour: linear red, green and blue as shares of full scale.
   /// `frames` then holds its luminance.
   Image<Eigen::Vector3f> color{};
+  /// Noise of the phase of each pixel over that of frames all of which are measured; empty: 1
+  /// everywhere.
+  Image<float> noise_gain{};
 
   /// Exposure time relative to the first exposure of the pattern.
   [[nodiscard]] double gain() const {

@@ -198,6 +198,21 @@ export const FAULTS_DECODE = {
     'Bilder {0} und {1} sind vertauscht',
     'i fotogrammi {0} e {1} sono scambiati',
   ],
+  'fault.frameOfPatternBefore': [
+    'frame 0 shows the last frame of pattern "{0}"',
+    'Bild 0 zeigt das letzte Bild von Muster „{0}“',
+    "il fotogramma 0 mostra l'ultimo fotogramma del pattern «{0}»",
+  ],
+  'fault.framesSorted': [
+    'the frames are in the alphabetical order of their numbers, 10 before 2',
+    'die Bilder sind in der alphabetischen Reihenfolge ihrer Nummern, 10 vor 2',
+    "i fotogrammi sono nell'ordine alfabetico dei loro numeri, 10 prima di 2",
+  ],
+  'fault.orderByNumber': [
+    'bring the frames into the order of their numbers',
+    'die Bilder in die Reihenfolge ihrer Nummern bringen',
+    "mettere i fotogrammi nell'ordine dei loro numeri",
+  ],
   'fault.frameDiffersToo': [
     ', and frame {0} differs, too',
     ', und auch Bild {0} weicht ab',
@@ -248,6 +263,11 @@ export const FAULTS_DECODE = {
     'the frames are cut off at {0} counts, below their white level of {1}: {2} % of the samples are at it and count as saturated; expose shorter, and set white_level = {3} in rig.toml',
     'die Bilder sind bei {0} Stufen abgeschnitten, unter ihrem Weißwert {1}: {2} % der Werte liegen dort und gelten als gesättigt; kürzer belichten und white_level = {3} in rig.toml setzen',
     'i fotogrammi sono tagliati a {0} livelli, sotto il loro livello di bianco {1}: il {2} % dei campioni è lì e conta come saturo; esporre di meno e impostare white_level = {3} in rig.toml',
+  ],
+  'fault.darkEndCut': [
+    'the camera cuts the dark end of the fringes off at {0} counts: {1} % of their samples are at it, and the fringes through the others reach {2} counts below it; the phase follows from the others; raise the black level or the brightness of the camera, or lower its contrast',
+    'die Kamera schneidet das dunkle Ende der Streifen bei {0} Stufen ab: {1} % ihrer Werte liegen dort, und die Streifen durch die anderen reichen {2} Stufen darunter; die Phase folgt aus den anderen; Schwarzwert oder Helligkeit der Kamera erhöhen oder ihren Kontrast senken',
+    'la camera taglia la parte scura delle frange a {0} livelli: il {1} % dei loro campioni è lì, e le frange per gli altri arrivano {2} livelli più in basso; la fase segue dagli altri; aumentare il livello del nero o la luminosità della camera, o ridurne il contrasto',
   ],
   'fault.leftOutPhase': [
     '{0}; {1} left out, and the phase is computed from the others; {2}',

@@ -258,6 +258,16 @@ export const FAULTS_PHASE = {
     'Muster „{0}“: das Licht ist von Zeile zu Zeile um {1} % rms verschieden, in Bändern, die von Bild zu Bild wandern, wie eine Kamera mit Rolling Shutter flackerndes Licht sieht; es ist ausgeglichen; ganze Perioden des Projektors oder der Lampe belichten',
     'pattern "{0}": la luce varia da riga a riga del {1} % rms, in bande che si spostano da un fotogramma all\'altro, come una camera con otturatore rolling vede una luce che sfarfalla; è compensata; esporre per periodi interi del proiettore o della lampada',
   ],
+  'fault.frameHoldsBefore': [
+    'each frame holds {0} % of the one before it, as a camera delivers them that reduces noise over time; it is taken out; switch that off, or capture each frame several times and keep the last',
+    'jedes Bild enthält {0} % des vorigen, wie sie eine Kamera liefert, die Rauschen über die Zeit mindert; es ist herausgerechnet; das abschalten, oder jedes Bild mehrmals aufnehmen und das letzte behalten',
+    "ogni fotogramma contiene il {0} % del precedente, come li consegna una camera che riduce il rumore nel tempo; è tolto; disattivare questa funzione, o riprendere ogni fotogramma più volte e tenere l'ultimo",
+  ],
+  'fault.frameHoldsLightBefore': [
+    'each frame holds {0} % of the light of the one before it, as where exposures begin before the projector has switched; it is taken out; leave more time between projecting and exposing',
+    'jedes Bild enthält {0} % des Lichts des vorigen, wie wo Belichtungen beginnen, bevor der Projektor gewechselt hat; es ist herausgerechnet; zwischen Projizieren und Belichten mehr Zeit lassen',
+    'ogni fotogramma contiene il {0} % della luce del precedente, come dove le esposizioni iniziano prima che il proiettore abbia cambiato; è tolta; lasciare più tempo tra proiezione ed esposizione',
+  ],
   'fault.lightShiftsDiffered': [
     'light or shifts that differed between the frames shift the phase by {0} rad rms, which is counted in sigma',
     'Licht oder Verschiebungen, die sich zwischen den Bildern unterschieden, verschieben die Phase um {0} rad rms; Sigma zählt es mit',

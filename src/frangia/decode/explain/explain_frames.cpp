@@ -194,6 +194,8 @@ std::string remedy_of(const FrameHypothesis& hypothesis) {
       return {};
     case FrameCause::Exchanged:
       return "correct the order of the frames";
+    case FrameCause::Sorted:
+      return "bring the frames into the order of their numbers";
     case FrameCause::Covered:
       return "keep everything out of the light while the frames are captured";
     case FrameCause::Displaced:

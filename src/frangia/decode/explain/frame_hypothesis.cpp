@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -30,6 +31,16 @@ FrameHypothesis as_described(const Pattern& pattern) {
           .lamp_on = {},
           .displaced = {},
           .path = {}};
+}
+
+/// The numbers of the frames, from `first` on, in alphabetical order, less `first`.
+std::vector<std::size_t> alphabetical(std::size_t frames, std::size_t first) {
+  std::vector<std::size_t> out(frames);
+  std::iota(out.begin(), out.end(), 0);
+  std::sort(out.begin(), out.end(), [&](std::size_t a, std::size_t b) {
+    return std::to_string(a + first) < std::to_string(b + first);
+  });
+  return out;
 }
 
 /// "frame 2", "frames 2 and 3", "some frames".
@@ -76,6 +87,7 @@ std::string clause_of(FrameCause cause, std::size_t frame, const FrameHypothesis
     case FrameCause::Covered:
     case FrameCause::Displaced:
     case FrameCause::Exchanged:
+    case FrameCause::Sorted:
     case FrameCause::Exposure:
     case FrameCause::AsDescribed:
     case FrameCause::Unexplained:
@@ -100,6 +112,8 @@ std::string name_of(FrameCause cause) {
       return "repeated";
     case FrameCause::Exchanged:
       return "exchanged";
+    case FrameCause::Sorted:
+      return "sorted";
     case FrameCause::Late:
       return "late";
     case FrameCause::Gain:
@@ -219,6 +233,14 @@ std::vector<FrameHypothesis> frame_hypotheses(const Pattern& pattern) {
       std::swap(out.back().shifts_rad[i], out.back().shifts_rad[k]);
     }
   }
+  for (const std::size_t first : {0U, 1U}) {
+    const std::vector<std::size_t> order = alphabetical(frames, first);
+    if (std::is_sorted(order.begin(), order.end())) continue;  // numbers of one digit
+    add(FrameCause::Sorted, 0, 0, 2);
+    out.back().frames.clear();
+    for (std::size_t k = 0; k < frames; ++k)
+      out.back().shifts_rad[k] = declared.shifts_rad[order[k]];
+  }
   return out;
 }
 
@@ -233,7 +255,8 @@ std::optional<FrameHypothesis> both_of(const FrameHypothesis& a, const FrameHypo
   if (common || (ordered(a) && ordered(b))) return std::nullopt;
   for (const FrameHypothesis* one : {&a, &b})
     if (one->lamp_on || !one->path.empty() || one->has_free_steps || one->in_part ||
-        !one->displaced.empty() || one->cause == FrameCause::Exposure)
+        !one->displaced.empty() || one->cause == FrameCause::Exposure ||
+        one->cause == FrameCause::Sorted)
       return std::nullopt;
   FrameHypothesis out = ordered(b) ? b : a;
   const FrameHypothesis& other = ordered(b) ? a : b;
@@ -272,6 +295,8 @@ std::string describe(const FrameHypothesis& hypothesis) {
         text += fmt::format(", and frame {} differs, too", hypothesis.frames[i]);
       return text;
     }
+    case FrameCause::Sorted:
+      return "the frames are in the alphabetical order of their numbers, 10 before 2";
     case FrameCause::Exposure: {
       const auto [least, most] =
           std::minmax_element(hypothesis.gains.begin(), hypothesis.gains.end());

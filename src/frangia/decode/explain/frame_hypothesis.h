@@ -18,6 +18,7 @@ enum class FrameCause {
   Displaced,    ///< a frame is displaced as a whole against the others
   Repeated,     ///< a frame shows the one before it again
   Exchanged,    ///< two frames show each other
+  Sorted,       ///< the frames are in the alphabetical order of their numbers: 1, 10, 11, 2
   Late,         ///< the frames show the one before them, from one of them on
   Gain,         ///< a frame was taken at another gain, exposure or power of the lamp
   Exposure,     ///< several frames were, each at its own: a camera that exposes by itself
@@ -30,7 +31,7 @@ enum class FrameCause {
 };
 
 /// Returns the word for a cause in JSON and in the table of hypotheses: "as-described", "lost",
-/// "covered", "displaced", "repeated", "exchanged", "late", "gain", "exposure", "lamp",
+/// "covered", "displaced", "repeated", "exchanged", "sorted", "late", "gain", "exposure", "lamp",
 /// "moved", "steps", "start", "direction" or "unexplained".
 [[nodiscard]] std::string name_of(FrameCause cause);
 

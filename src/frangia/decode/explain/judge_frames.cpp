@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "frangia/core/statistics.h"
 #include "frangia/decode/explain/internal/frame_design.h"
 #include "frangia/decode/explain/internal/frame_sample.h"
 #include "frangia/decode/explain/internal/score_frames.h"
@@ -39,6 +40,7 @@ std::vector<std::size_t> useless_frames(const FrameHypothesis& fault) {
       return {};
     case FrameCause::AsDescribed:
     case FrameCause::Exchanged:
+    case FrameCause::Sorted:
     case FrameCause::Exposure:
     case FrameCause::Late:
     case FrameCause::Steps:
@@ -192,6 +194,7 @@ FrameVerdict judge_by_evidence(const FrameStack& stack,
   constexpr std::size_t kFewSteps = 4;  // show some combinations of the errors of their steps alone
   if (found.explanation.best.size() == 1 &&
       (found.best.cause == FrameCause::Exchanged || found.best.cause == FrameCause::Late ||
+       found.best.cause == FrameCause::Sorted ||
        (found.best.cause == FrameCause::Steps &&
         (stack.frames.size() > kFewSteps || !found.best.has_free_steps))) &&
       found.best.faults == 1) {
@@ -215,7 +218,76 @@ FrameVerdict judge_by_evidence(const FrameStack& stack,
   return out;
 }
 
+/// Whether a frame shows another one again, as far as noise tells, where a stack has fringes.
+bool shows_again(const FrameStack& stack,
+                 const Frame& frame,
+                 const Frame& other,
+                 const NoiseModel& noise) {
+  constexpr int kStride = 3;
+  constexpr double kSigmas = 8.0;
+  constexpr std::size_t kFewest = 200;  // pixels
+  constexpr double kMostDiffering = 2.0;
+  constexpr double kLeastBright = 0.25;  // of the pixels: else both are dark
+  std::vector<double> squares;
+  double bright = 0.0;
+  for (int y = 0; y < height_of(frame); y += kStride) {
+    for (int x = 0; x < width_of(frame); x += kStride) {
+      int least = stack.white_level;
+      int most = 0;
+      for (const Frame& one : stack.frames) {
+        least = std::min(least, counts_at(one, x, y));
+        most = std::max(most, counts_at(one, x, y));
+      }
+      const double variance = noise.variance(0.5 * (least + most));
+      const double change = kSigmas * std::sqrt(variance);
+      if (most >= stack.white_level || most - least < change) continue;
+      const double difference = counts_at(frame, x, y) - counts_at(other, x, y);
+      squares.push_back(difference * difference / (2.0 * variance));
+      if (counts_at(frame, x, y) - least > change) bright += 1.0;
+    }
+  }
+  return squares.size() >= kFewest && bright > kLeastBright * static_cast<double>(squares.size()) &&
+         median(squares) < kMostDiffering;
+}
+
 }  // namespace
+
+std::optional<FrameVerdict> judge_first_frame(const FrameStack& stack,
+                                              const FrameStack& before,
+                                              const NoiseModel& noise,
+                                              const JudgeOptions& options) {
+  const Frame& first = stack.frames.front();
+  const Frame& last = before.frames.back();
+  if (width_of(first) != width_of(last) || height_of(first) != height_of(last)) return std::nullopt;
+  if (!shows_again(stack, first, last, noise)) return std::nullopt;
+  FrameVerdict out;
+  FrameExplanation& found = out.explanation;
+  found.pattern = stack.pattern.name;
+  found.decided = true;
+  found.best = frame_hypotheses(stack.pattern).front();
+  found.best.cause = FrameCause::Repeated;
+  found.best.frames = {0};
+  found.best.faults = 1;
+  found.alike.push_back(found.best);
+  found.explanation.best = {
+      fmt::format("frame 0 shows the last frame of pattern \"{}\"", before.pattern.name)};
+  found.explanation.second = {"the frames are as described"};
+  constexpr double kCertain = 30.0;  // of hundreds of pixels
+  found.explanation.log_odds = kCertain;
+  found.explanation.remedy = "capture the frames again, the projector and the camera in step";
+  out.finding = fmt::format("pattern \"{}\": {}", found.pattern, found.explanation.best.front());
+  out.action = FrameAction::LeaveOutView;
+  const FrameStack rest = without_frames(stack, std::array{std::size_t{0}});
+  FrameExplanation again;
+  const bool remains = remain_sound(rest, noise, options, again) ||
+                       (!again.decided && again.pattern == rest.pattern.name);
+  if (options.may_leave_out && remains) {
+    out.left_out = {0};
+    out.action = FrameAction::LeaveOutFrames;
+    found.unexplained_rad = again.unexplained_rad;
+  }
+  return out;
+}
 
 bool leaves_out_view(std::span<const FrameVerdict> verdicts) {
   return std::any_of(verdicts.begin(), verdicts.end(), [](const FrameVerdict& one) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -53,6 +54,16 @@ struct JudgeOptions {
 [[nodiscard]] FrameVerdict judge_frames(const FrameStack& stack,
                                         const NoiseModel& noise,
                                         const JudgeOptions& options = {});
+
+/// Judges the frames of a pattern the first of which shows the last frame of the pattern that was
+/// captured before it: a projector that is late only where the pattern changes.
+///
+/// Two frames of different fringes that are equal within their noise at the pixels with fringes
+/// leave no other cause, with three frames, too. Nothing where they are not equal, or dark.
+[[nodiscard]] std::optional<FrameVerdict> judge_first_frame(const FrameStack& stack,
+                                                            const FrameStack& before,
+                                                            const NoiseModel& noise,
+                                                            const JudgeOptions& options = {});
 
 /// Whether the frames are as described, with evidence.
 [[nodiscard]] bool is_sound(const FrameExplanation& found);

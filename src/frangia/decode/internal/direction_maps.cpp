@@ -234,7 +234,7 @@ bool allow_one_pass(const DirectionInput& input, const DirectionMaps& fitted) {
   return !options.keep_maps && !options.own.any() && !options.recover_saturated &&
          !options.response && options.waveforms.empty() && !corrects &&
          std::all_of(fitted.fringes.begin(), fitted.fringes.end(), [](const FrameStack* stack) {
-           return stack->pattern.exposure_count() == 1;
+           return stack->pattern.exposure_count() == 1 && stack->noise_gain.empty();
          });
 }
 

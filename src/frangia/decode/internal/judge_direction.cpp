@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <iterator>
 #include <optional>
+#include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -11,6 +13,7 @@
 #include "frangia/core/angles.h"
 #include "frangia/decode/explain/explain_frames.h"
 #include "frangia/decode/select_stacks.h"
+#include "frangia/phase/waveform/cut_dark_end.h"
 #include "frangia/phase/wrap/estimate_noise.h"
 #include "frangia/phase/wrap/noise_of_view.h"
 #include "frangia/rig/rig.h"
@@ -29,13 +32,6 @@ NoiseModel noise_of(const DirectionInput& input, std::span<const FrameStack> sta
                          : estimate_noise(stacks);
   noise.floor_counts2 += stacks.front().compression_counts2;
   return noise;
-}
-
-/// Whether the phase may be computed from some of the frames: no algorithm needs all of them.
-bool may_leave_out(const Pattern& pattern, const DecodeOptions& options) {
-  return pattern.fringes_per_degree == 0.0 && !options.own_algorithm && !options.own.any() &&
-         !options.recover_saturated &&
-         (options.algorithm == "auto" || options.algorithm == "least-squares");
 }
 
 /// Three frames leave no residual: a part that is within one coarse fringe may look like any
@@ -61,6 +57,45 @@ void apply_ceiling(const Ceiling& ceiling, const DirectionInput& input, JudgedFr
     stack.white_level = ceiling.counts;
 }
 
+/// The camera's noise by the coarsest fringes alone, whose cut end bends least; `known` where it is
+/// less, or stated.
+NoiseModel noise_beside_cut(std::span<const FrameStack> stacks,
+                            const DirectionInput& input,
+                            const NoiseModel& known) {
+  constexpr double kBright = 0.25;  // of the white level
+  const auto fringes = fringes_of(stacks, input.plan.direction);
+  if (fringes.empty() || input.rig.reference().noise) return known;
+  NoiseModel out = estimate_noise({fringes.front(), 1});
+  out.floor_counts2 += stacks.front().compression_counts2;
+  const double bright = kBright * stacks.front().white_level;
+  return out.variance(0.0) + out.variance(bright) < known.variance(0.0) + known.variance(bright)
+             ? out
+             : known;
+}
+
+/// Raises the dark end of the fringes, which the camera cuts off. A function of the caller that
+/// wraps frames gets them as they were captured.
+bool apply_cut(const DirectionInput& input, JudgedFrames& out) {
+  if (input.options.own.wrap) return false;
+  const std::span<const FrameStack> stacks =
+      out.stacks.empty() ? input.stacks : std::span<const FrameStack>(out.stacks);
+  const NoiseModel noise = noise_beside_cut(stacks, input, out.noise);
+  const std::optional<CutDarkEnd> cut = find_cut_dark_end(stacks, noise);
+  if (!cut) return false;
+  input.run.warn(fmt::format(
+      "the camera cuts the dark end of the fringes off at {} counts: {:.0f} % of their samples are "
+      "at it, and the fringes through the others reach {:.0f} counts below it; the phase follows "
+      "from the others; raise the black level or the brightness of the camera, or lower its "
+      "contrast",
+      cut->counts,
+      100.0 * cut->share,
+      cut->depth_counts));
+  RaisedFrames raised = raise_dark_end(stacks, *cut, noise);
+  out.stacks = std::move(raised.stacks);
+  out.noise = raised.noise;
+  return true;
+}
+
 /// Whether the frames are in another order, and more than one predicts them.
 bool is_undecided_order(const FrameVerdict& verdict) {
   return verdict.action == FrameAction::LeaveOutView && verdict.remedy_rad.empty() &&
@@ -68,20 +103,31 @@ bool is_undecided_order(const FrameVerdict& verdict) {
 }
 
 /// Explains each pattern by itself, and those that are not as described again beside the others.
-std::vector<FrameVerdict> judge_patterns(std::span<const FrameStack* const> fringes,
+std::vector<FrameVerdict> judge_patterns(std::span<const FrameStack> captured,
+                                         std::span<const FrameStack* const> fringes,
                                          const DirectionInput& input,
                                          bool has_other_check,
                                          const NoiseModel& noise) {
   std::vector<const FrameStack*> stacks;
   std::vector<FrameVerdict> verdicts;
   std::vector<const FrameStack*> sound;
-  const auto judge = [&](const FrameStack& stack) {
-    return judge_frames(
-        stack, noise, {may_leave_out(stack.pattern, input.options), has_other_check, sound});
+  const auto options_of = [&](const FrameStack& stack) -> JudgeOptions {
+    return {may_leave_out(stack.pattern, input.options), has_other_check, sound};
   };
+  const auto judge = [&](const FrameStack& stack) {
+    return judge_frames(stack, noise, options_of(stack));
+  };
+  std::vector<FrameVerdict> late;  // where the pattern changes: no other cause is asked for
   for (const FrameStack* stack : fringes) {
-    if (stack->pattern.exposure_count() > 1 || may_look_like_a_fault(stack->pattern, input.rig))
-      continue;
+    if (stack->pattern.exposure_count() > 1) continue;
+    if (stack != captured.data()) {
+      const FrameStack& before = *std::prev(stack);
+      if (auto first = judge_first_frame(*stack, before, noise, options_of(*stack))) {
+        late.push_back(*std::move(first));
+        continue;
+      }
+    }
+    if (may_look_like_a_fault(stack->pattern, input.rig)) continue;
     stacks.push_back(stack);
     verdicts.push_back(judge(*stack));
   }
@@ -91,6 +137,7 @@ std::vector<FrameVerdict> judge_patterns(std::span<const FrameStack* const> frin
     const FrameExplanation& found = verdicts[i].explanation;
     if (found.decided && !is_sound(found)) verdicts[i] = judge(*stacks[i]);
   }
+  std::move(late.begin(), late.end(), std::back_inserter(verdicts));
   return verdicts;
 }
 
@@ -103,18 +150,25 @@ std::vector<double> degrees_of(const std::vector<double>& shifts_rad) {
 
 }  // namespace
 
+bool may_leave_out(const Pattern& pattern, const DecodeOptions& options) {
+  return pattern.fringes_per_degree == 0.0 && !options.own_algorithm && !options.own.any() &&
+         !options.recover_saturated &&
+         (options.algorithm == "auto" || options.algorithm == "least-squares");
+}
+
 JudgedFrames judge_direction(const DirectionInput& input) {
   JudgedFrames out;
   if (input.plan.maps.empty()) return out;
   out.noise = noise_of(input, input.stacks);
   if (const std::optional<Ceiling> ceiling = find_ceiling(input.stacks, out.noise))
     apply_ceiling(*ceiling, input, out);
+  const bool is_cut = apply_cut(input, out);
   const std::span<const FrameStack> stacks =
       out.stacks.empty() ? input.stacks : std::span<const FrameStack>(out.stacks);
   const auto fringes = fringes_of(stacks, input.plan.direction);
   const bool has_other_check = fringes.size() > 1 || !gray_of(stacks, input.plan.direction).empty();
   bool changed = false;
-  for (FrameVerdict& verdict : judge_patterns(fringes, input, has_other_check, out.noise)) {
+  for (FrameVerdict& verdict : judge_patterns(stacks, fringes, input, has_other_check, out.noise)) {
     out.unexplained_rad[verdict.explanation.pattern] = verdict.explanation.unexplained_rad;
     if (is_undecided_order(verdict)) {
       for (const FrameHypothesis& one : verdict.explanation.alike)
@@ -136,7 +190,7 @@ JudgedFrames judge_direction(const DirectionInput& input) {
         stack.pattern.shifts_rad = verdict.remedy_rad;
     }
   }
-  out.noise = noise_of(input, out.stacks);
+  if (!is_cut) out.noise = noise_of(input, out.stacks);  // filled samples have less
   return out;
 }
 

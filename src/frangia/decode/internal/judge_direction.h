@@ -25,6 +25,9 @@ struct JudgedFrames {
   std::map<std::string, std::vector<std::vector<double>>> orders_rad;
 };
 
+/// Whether the phase may be computed from some of the frames: no algorithm needs all of them.
+[[nodiscard]] bool may_leave_out(const Pattern& pattern, const DecodeOptions& options);
+
 /// Explains the fringe patterns of a direction and leaves out the frames at fault.
 [[nodiscard]] JudgedFrames judge_direction(const DirectionInput& input);
 

@@ -137,9 +137,12 @@ FrameAssessment assess_frames(const FrameStack& stack,
   return assessment;
 }
 
+bool differs_between_frames(const FrameAssessment& assessment) {
+  return assessment.exceeds_noise || assessment.flicker_error_rad > kMaterial_rad;
+}
+
 bool needs_attention(const FrameAssessment& assessment) {
-  return assessment.exceeds_noise || assessment.flicker_error_rad > 0.0 ||
-         assessment.harmonic_error_rad > kMaterial_rad ||
+  return differs_between_frames(assessment) || assessment.harmonic_error_rad > kMaterial_rad ||
          (assessment.contrast > kMaxContrast && assessment.harmonic == 0);
 }
 

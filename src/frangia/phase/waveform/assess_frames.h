@@ -61,6 +61,10 @@ struct AssessmentOptions {
                                             const NoiseModel& noise,
                                             const AssessmentOptions& options = {});
 
+/// Returns whether frames differ beyond their noise, or by light that shifts the phase and is not
+/// compensated.
+[[nodiscard]] bool differs_between_frames(const FrameAssessment& assessment);
+
 /// Returns whether an assessment deserves a warning: frames that differ beyond their noise, flicker
 /// that is not compensated, harmonics that shift the phase, or a contrast above 1.
 [[nodiscard]] bool needs_attention(const FrameAssessment& assessment);

@@ -76,11 +76,13 @@ class NoiseRowGatherer {
   NoiseRowGatherer(const FrameStack& stack,
                    const FringeHarmonics& harmonics,
                    FrameWeights weights,
-                   int distance_px)
+                   int distance_px,
+                   double range_counts)
       : stack_(&stack),
         harmonics_(&harmonics),
         weights_(std::move(weights)),
-        distance_px_(static_cast<std::size_t>(distance_px)) {}
+        distance_px_(static_cast<std::size_t>(distance_px)),
+        range_counts_(range_counts) {}
   /// Adds the absolute second differences along a row.
   void gather(int y, NoiseBins& bins) const;
 
@@ -89,6 +91,7 @@ class NoiseRowGatherer {
   const FringeHarmonics* harmonics_;
   FrameWeights weights_;
   std::size_t distance_px_;
+  double range_counts_;  ///< of all bins together
 };
 
 void NoiseRowGatherer::gather(int y, NoiseBins& bins) const {
@@ -102,8 +105,9 @@ void NoiseRowGatherer::gather(int y, NoiseBins& bins) const {
         [&](const auto& image) {
           for (int x = 0; x < width; ++x) {
             const auto i = static_cast<std::size_t>(x);
-            sum[i] += weights_[k] * image(x, y);
             mean[i] += image(x, y) / static_cast<double>(stack_->frames.size());
+            if (weights_[k] == 0.0) continue;
+            sum[i] += weights_[k] * image(x, y);
             brightest[i] = std::max(brightest[i], static_cast<int>(image(x, y)));
             darkest[i] = std::min(darkest[i], static_cast<int>(image(x, y)));
           }
@@ -120,10 +124,13 @@ void NoiseRowGatherer::gather(int y, NoiseBins& bins) const {
       continue;
     const bool cut_off = std::min({darkest[i - d], darkest[i], darkest[i + d]}) <= 0;
     const double difference = (sum[i - d] - 2.0 * sum[i] + sum[i + d]) / std::sqrt(6.0);
-    const double share = mean[i] / stack_->white_level;
-    const auto number = std::min<std::size_t>(
-        NoiseSamples::kBins - 1, static_cast<std::size_t>(share * NoiseSamples::kBins));
-    NoiseSamples::Bin& bin = cut_off ? bins.cut_off : bins.lit[number];
+    const double share = mean[i] / range_counts_;
+    auto number = std::min<std::size_t>(NoiseSamples::kBins - 1,
+                                        static_cast<std::size_t>(share * NoiseSamples::kBins));
+    // Fringes whose dark end is cut off bend there; the first bin is that of a dark background.
+    constexpr double kDark = 3.0 / NoiseSamples::kBins;
+    if (cut_off && brightest[i] > kDark * range_counts_) number = std::max<std::size_t>(number, 1);
+    NoiseSamples::Bin& bin = (cut_off ? bins.cut_off : bins.lit)[number];
     bin.differences_counts.push_back(static_cast<float>(std::abs(difference)));
     bin.sum_counts += mean[i];
   }
@@ -230,9 +237,34 @@ void append(const NoiseSamples::Bin& from, NoiseSamples::Bin& to) {
 }
 
 void append(const NoiseBins& from, NoiseBins& to) {
-  for (std::size_t bin = 0; bin < to.lit.size(); ++bin)
+  for (std::size_t bin = 0; bin < to.lit.size(); ++bin) {
     append(from.lit[bin], to.lit[bin]);
-  append(from.cut_off, to.cut_off);
+    append(from.cut_off[bin], to.cut_off[bin]);
+  }
+}
+
+/// The white level, or a half, a quarter and so on of it that no pixel below it exceeds, so that
+/// the bins of brightness are those that occur; not below 8 bits.
+double range_of(const FrameStack& stack) {
+  constexpr int kStride = 5;
+  constexpr double kEightBits = 255.0;
+  int brightest = 0;
+  for (const Frame& frame : stack.frames) {
+    std::visit(
+        [&](const auto& image) {
+          for (int y = kStride / 2; y < image.height(); y += kStride) {
+            for (int x = kStride / 2; x < image.width(); x += kStride) {
+              const int counts = image(x, y);
+              if (counts < stack.white_level) brightest = std::max(brightest, counts);
+            }
+          }
+        },
+        frame);
+  }
+  double range = stack.white_level;
+  while (0.5 * range > brightest && 0.5 * range >= kEightBits)
+    range *= 0.5;
+  return range;
 }
 
 /// The mean over the samples of the variances of their bins. A median over all of them would be
@@ -254,6 +286,7 @@ double mean_variance(const NoiseBins& bins) {
 void NoiseSamples::add(const FrameStack& stack) {
   if (stack.pattern.kind != PatternKind::Fringe || stack.frames.size() < 3) return;
   white_ = stack.white_level;
+  widen(range_of(stack));
   const std::vector<double>& shifts = stack.pattern.shifts_rad;
   const RowRounds rounds(
       width_of(stack.frames.front()), height_of(stack.frames.front()), kFirstSamples, kMostSamples);
@@ -261,7 +294,7 @@ void NoiseSamples::add(const FrameStack& stack) {
   if (shifts.size() > 3) {
     std::vector<NoiseRowGatherer> frames;
     for (const FrameWeights& weights : noise_combinations(shifts))
-      frames.emplace_back(stack, harmonics, weights, distance_px_);
+      frames.emplace_back(stack, harmonics, weights, distance_px_, range_counts_);
     NoiseBins bins;
     std::size_t rows = 0;
     for (int round = 0; round < rounds.count() && !are_filled(bins); ++round)
@@ -272,8 +305,9 @@ void NoiseSamples::add(const FrameStack& stack) {
   // Fine fringes add to the apparent noise of single frames, texture to that of their mean.
   std::vector<NoiseRowGatherer> frames;
   for (const FrameWeights& weights : single_frames(shifts.size()))
-    frames.emplace_back(stack, harmonics, weights, distance_px_);
-  const NoiseRowGatherer mean_frame(stack, harmonics, mean_of_frames(shifts), distance_px_);
+    frames.emplace_back(stack, harmonics, weights, distance_px_, range_counts_);
+  const NoiseRowGatherer mean_frame(
+      stack, harmonics, mean_of_frames(shifts), distance_px_, range_counts_);
   NoiseBins single;
   NoiseBins mean;
   for (int round = 0; round < rounds.count() && !are_filled(mean); ++round) {
@@ -283,18 +317,36 @@ void NoiseSamples::add(const FrameStack& stack) {
       mean_frame.gather(y, mean);
     });
   }
-  append(mean_variance(mean) < kFineFringes * mean_variance(single) ? mean : single, bins_);
+  const double of_mean = mean_variance(mean);  // 0 where each pixel is cut off in some frame
+  const bool is_less = of_mean > 0.0 && of_mean < kFineFringes * mean_variance(single);
+  append(is_less ? mean : single, bins_);
 }
 
 void NoiseSamples::add(const NoiseSamples& other) {
   white_ = other.white_;
-  append(other.bins_, bins_);
+  if (other.range_counts_ == 0.0) return;
+  widen(other.range_counts_);
+  NoiseSamples wide = other;
+  wide.widen(range_counts_);
+  append(wide.bins_, bins_);
+}
+
+void NoiseSamples::widen(double range_counts) {
+  if (range_counts <= range_counts_) return;
+  const double factor = range_counts / std::exchange(range_counts_, range_counts);
+  if (!std::isfinite(factor)) return;  // the first frames
+  const Bins before = std::exchange(bins_, {});
+  for (std::size_t bin = 0; bin < before.lit.size(); ++bin) {
+    const auto wide = static_cast<std::size_t>(static_cast<double>(bin) / factor);
+    append(before.lit[bin], bins_.lit[wide]);
+    append(before.cut_off[bin], bins_.cut_off[wide]);
+  }
 }
 
 bool NoiseSamples::empty() const {
-  return std::all_of(bins_.lit.begin(), bins_.lit.end(), [](const Bin& bin) {
-    return bin.differences_counts.size() < kMinBinSamples;
-  });
+  const auto is_few = [](const Bin& bin) { return bin.differences_counts.size() < kMinBinSamples; };
+  return std::all_of(bins_.lit.begin(), bins_.lit.end(), is_few) &&
+         std::all_of(bins_.cut_off.begin() + 1, bins_.cut_off.end(), is_few);
 }
 
 NoiseModel NoiseSamples::model() const {
@@ -307,7 +359,12 @@ NoiseModel NoiseSamples::model() const {
   std::vector<phase::VarianceAt> variances;
   for (const Bin& bin : bins_.lit)
     if (const auto one = variance_of(bin)) variances.push_back(*one);
-  return phase::fit_noise(variances, variance_of(bins_.cut_off), white_);
+  if (variances.empty()) {
+    for (std::size_t bin = 1; bin < bins_.cut_off.size(); ++bin)  // without the background
+      if (const auto one = variance_of(bins_.cut_off[bin])) variances.push_back(*one);
+    return phase::fit_noise(variances, {}, white_);
+  }
+  return phase::fit_noise(variances, variance_of(bins_.cut_off.front()), white_);
 }
 
 NoiseModel estimate_noise(std::span<const FrameStack> stacks) {

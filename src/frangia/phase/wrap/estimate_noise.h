@@ -19,7 +19,8 @@ namespace frangia {
 /// fitted to the variance over the brightness gives the model.
 ///
 /// Pixels that are cut off at 0 counts show less noise than they have; where they still show more
-/// than the curve of the others, dark pixels get what they tell.
+/// than the curve of the others, dark pixels get what they tell. Where all pixels are cut off in
+/// some frame, the bright ones of them tell the noise: one frame of several has none.
 ///
 /// @units    counts
 /// @missing  saturated pixels are ignored; with too few pixels the model is quantization noise
@@ -38,8 +39,10 @@ class NoiseSamples {
   };
   /// All of them.
   struct Bins {
-    std::array<Bin, kBins> lit;  ///< of equal width in brightness
-    Bin cut_off;                 ///< pixels at 0 counts in some frame
+    /// Of equal width in brightness, up to a white level or, where counts are far below it, a half
+    /// or a quarter of it and so on: 12 bits are often stored in 16.
+    std::array<Bin, kBins> lit;
+    std::array<Bin, kBins> cut_off;  ///< pixels at 0 counts in some frame, likewise
   };
   /// Adds the samples of one stack. Stacks of other patterns than fringes are ignored.
   void add(const FrameStack& stack);
@@ -50,8 +53,12 @@ class NoiseSamples {
   [[nodiscard]] int distance_px() const { return distance_px_; }  ///< as it was constructed
 
  private:
+  /// Makes the bins as wide as frames of this brightness need.
+  void widen(double range_counts);
+
   Bins bins_;
   int white_ = 255;
+  double range_counts_ = 0.0;  ///< of all bins together; 0 before the first frames
   int distance_px_;
 };
 

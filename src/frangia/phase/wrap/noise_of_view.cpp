@@ -17,7 +17,7 @@ constexpr double kDiffers = 2.0;  ///< ratio of variances that no estimate of go
 /// Ratio of the variances at two distances and at one beyond which it is not white.
 constexpr double kWhiteNoise = 1.3;
 constexpr int kFar_px = 2;
-constexpr std::size_t kShowNoise = 4;  ///< frames of which a combination contains noise only
+constexpr std::size_t kShowNoise = 3;  ///< frames, of three the sum or, of coarse fringes, each
 
 /// Where noise models are compared, counts: lit pixels of good frames are about as bright.
 double compared_at(int white_level) {

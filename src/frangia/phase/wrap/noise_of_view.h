@@ -19,7 +19,7 @@ namespace frangia {
 /// by more than a factor of two in variance. More noise than known has to be white, since texture
 /// and what moved between the frames look like noise otherwise.
 ///
-/// @shape    fringe patterns of four frames or more; fewer leave what is known
+/// @shape    fringe patterns of three frames or more; others leave what is known
 [[nodiscard]] NoiseModel noise_of_view(std::span<const FrameStack> stacks, const NoiseModel& known);
 
 }  // namespace frangia

@@ -44,6 +44,13 @@ FRANGIA_VECTORIZED void find_status(const float* __restrict sigma,
   }
 }
 
+FRANGIA_VECTORIZED void multiply(const float* __restrict gain,
+                                 std::size_t n,
+                                 float* __restrict sigma) {
+  for (std::size_t i = 0; i < n; ++i)
+    sigma[i] *= gain[i];
+}
+
 FRANGIA_VECTORIZED void clear_discarded(const TileState& __restrict state,
                                         std::size_t n,
                                         float* __restrict phase,
@@ -96,6 +103,7 @@ WrappedPhase wrap_phase(const FrameStack& stack,
                        .modulation_counts = out.modulation_counts.pixels().data() + at,
                        .mean_counts = out.mean_counts.pixels().data() + at,
                        .brightest = state.brightest.data()});
+          if (!stack.noise_gain.empty()) multiply(stack.noise_gain.pixels().data() + at, n, sigma);
           find_status(sigma, n, {kernel.white(), options.max_sigma_rad}, state);
           clear_discarded(state, n, phase, sigma);
           narrow(state, n, out.status.pixels().data() + at);

@@ -54,7 +54,7 @@ void report_assessments(const Scan& scan,
                         const Run& run) {
   for (const FrameAssessment& assessment : assessments_of_used(decoded)) {
     const std::string folder = scan.views[view].folder.string();
-    const bool varies = assessment.exceeds_noise || assessment.flicker_error_rad > 0.0;
+    const bool varies = differs_between_frames(assessment);
     if (varies || (view == 0 && needs_attention(assessment))) {
       run.warn(fmt::format("{}: {}", folder, describe(assessment)));
     } else if (view == 0) {
