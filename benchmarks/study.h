@@ -19,17 +19,27 @@ namespace frangia {
 /// The arguments of a study.
 struct StudyArguments {
   std::string part;
+  int first_seed = 1;
   int seeds = 0;
   bool verbose = false;  ///< -v: also prints the result of each seed to standard error
   std::string only;      ///< measures the cases alone whose names contain it; empty: all
 };
 
-/// @errors   Error(Input) unless the arguments are `PART SEEDS [-v] [CASE]`
+/// @errors   Error(Input) unless the arguments are `PART SEEDS [-v] [CASE]`, with a number of seeds
+/// or
+///           FIRST-LAST
 inline StudyArguments study_arguments(const std::vector<std::string_view>& arguments) {
   StudyArguments study;
   if (arguments.size() >= 2) {
     study.part = arguments[0];
-    std::from_chars(arguments[1].data(), arguments[1].data() + arguments[1].size(), study.seeds);
+    const std::string_view seeds = arguments[1];
+    const char* const end = seeds.data() + seeds.size();
+    const char* const rest = std::from_chars(seeds.data(), end, study.seeds).ptr;
+    if (rest != end && *rest == '-') {
+      study.first_seed = study.seeds;
+      std::from_chars(rest + 1, end, study.seeds);
+      study.seeds -= study.first_seed - 1;
+    }
     study.verbose = arguments.size() > 2 && arguments[2] == "-v";
     const std::size_t last = study.verbose ? 3 : 2;
     if (arguments.size() > last) study.only = arguments[last];

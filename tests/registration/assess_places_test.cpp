@@ -115,5 +115,29 @@ TEST(AssessPlaces, DoNotBelieveATurntableThatTheViewsContradict) {
   EXPECT_LT(ratio, 1.6);
 }
 
+TEST(AssessPlaces, TakeThePartPosesFromTheViewsWhereTheAxisRestsOnTheRig) {
+  constexpr double kInformation = 1e4;  // 0.01 mm
+  Turntable table{{0.0, 0.0, 500.0}, {0.0, -1.0, 0.0}};
+  table.point_sigma_mm = table.axis_sigma_rad = table.angle_sigma_rad = 0.0;
+  const TableState state{table, {0.0, 1.0}, {0, 1}, {Eigen::Isometry3d::Identity()}};
+  Bundle bundle{{}, FastCameraModel(testing::small_camera_model()), state, state, {}};
+  bundle.systematic_mm = 0.002;
+  bundle.prior_sigma = prior_sigmas(state, {}, 500.0);
+  const Eigen::Index unknowns = state.unknowns();
+  BundleSums sums;
+  sums.hessian = kInformation * Eigen::MatrixXd::Identity(unknowns, unknowns);
+  sums.region_gradients = Eigen::MatrixXd::Zero(unknowns, 1);
+  sums.distances_mm.assign(100, 0.001F);
+  sums.over_sigma.assign(100, 0.67F);
+  RegistrationReport report;
+  report.given = table;
+  const Eigen::VectorXd none = Eigen::VectorXd::Zero(unknowns);
+  assess_places(report, bundle, sums, {}, Overlap::SaysNothing, none);
+  ASSERT_EQ(report.motions.size(), 2U);
+  EXPECT_TRUE(report.rests_on_rig);
+  EXPECT_LT(report.motions[0].norm(), 1e-9);
+  EXPECT_NEAR(report.motions[1].row(3).norm(), 0.01, 0.001);
+}
+
 }  // namespace
 }  // namespace frangia

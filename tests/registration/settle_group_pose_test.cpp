@@ -90,6 +90,9 @@ TEST(SettleGroupPose, KeepsAPoseThatFits) {
   const SettledPose found = Sides(slotted).settled(0.0, 1e9);
   EXPECT_EQ(found.moved_mm, 0.0);
   EXPECT_TRUE(found.open.empty());
+  ASSERT_EQ(found.held.size(), 1U);  // the distances hardly show the turn, the slot does
+  EXPECT_TRUE(found.held[0].turns);
+  EXPECT_LT(found.held[0].spread_mm, 0.3);
 }
 
 TEST(SettleGroupPose, LeavesOpenHowARoundPartIsTurned) {

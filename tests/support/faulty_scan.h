@@ -39,6 +39,7 @@ struct FaultyScan {
   Rig stated;
   Pattern pattern{.name = "fine", .shifts_rad = {0.0, 1.0, 2.0}};
   double phase_sigma_rad = 0.008;
+  bool noisy = true;  ///< false: points as `phase_sigma_rad` states them, without their noise
   std::uint32_t seed = 1;
   std::vector<double> stated_angles_rad;
   std::vector<double> times_s;  ///< as the stations state them; empty: they do not
@@ -186,7 +187,7 @@ struct FaultyScan {
                           static_cast<std::uint32_t>(y) * 104729U);
       std::normal_distribution<double> noise(0.0, phase_sigma_rad);
       for (int x = 0; x < camera.width_px; ++x) {
-        const double error_rad = noise(random);
+        const double error_rad = noisy ? noise(random) : 0.0;
         const Eigen::Vector3d ray = true_rays(x, y).cast<double>().homogeneous();
         const Eigen::Vector3d along = part_from_rig.linear() * ray;
         const auto hit = part.first_hit(part_from_rig.translation(), along);

@@ -13,7 +13,9 @@ SECTIONS = {
     "large": Inputs("simulate reconstruct", files="benchmarks/large_rig.toml", case_s=180),
     "views": Inputs(SCAN, case_s=20),
     "poses": Inputs(
-        modules="registration simulate", files="benchmarks/pose_study.cpp benchmarks/study.h tests/support", case_s=120
+        modules="registration simulate",
+        files="benchmarks/pose_study.cpp benchmarks/pose_reach.h benchmarks/study.h tests/support",
+        case_s=9,
     ),
     "moved_parts": Inputs("reconstruct", case_s=20),
     "targets": Inputs("reconstruct", case_s=10),

@@ -79,26 +79,38 @@ ScanViews resample_all(MergedScans& out,
   return all;
 }
 
-/// Settles what the fit of each scan to the others leaves open. Returns whether a scan moved; adds
-/// the motions that stay open to `motions`.
-bool settle_scans(ScanViews& all,
-                  const std::vector<SurfelMap>& maps,
-                  double prior_mm,
-                  ViewMotions& motions,
-                  const Run& run) {
+/// What the contradictions of a scan with the others tell of a motion that its distances do not
+/// show.
+struct KnownMotion {
+  std::size_t scan = 0;
+  Eigen::Matrix<double, 6, 1> motion;  ///< of one standard deviation
+};
+
+/// What is settled of the scans.
+struct SettledScans {
+  bool moved = false;               ///< whether a scan moved
+  std::vector<KnownMotion> known;   ///< also where it is hardly known
+  std::vector<ViewGroup> groups{};  ///< each scan
+};
+
+/// Settles what the fit of each scan to the others leaves open.
+SettledScans settle_scans(ScanViews& all,
+                          const std::vector<SurfelMap>& maps,
+                          double prior_mm,
+                          const Run& run) {
   constexpr std::size_t kMost = 24;  // scans: among more, each has several neighbours
   const std::size_t scans = all.views.size();
-  if (scans > kMost) return false;
+  if (scans > kMost) return {};
   std::vector<std::vector<ViewGroup::Member>> members;
   for (std::size_t i = 0; i < scans; ++i)
     members.push_back({{i, all.views.rig_from_object(i)}});
   const double spacing_mm = spacing_for(members, maps);
   const FastCameraModel model(all.model);
   const GroupViews views{maps, model};
-  std::vector<ViewGroup> groups;
+  SettledScans out;
+  std::vector<ViewGroup>& groups = out.groups;
   for (const auto& own : members)
     groups.push_back(make_group(own, maps, spacing_mm));
-  bool moved = false;
   const Eigen::Isometry3d same = Eigen::Isometry3d::Identity();
   for (std::size_t i = 1; i < scans; ++i) {
     if (groups[i].points.size() == 0) continue;
@@ -114,7 +126,7 @@ bool settle_scans(ScanViews& all,
           settled.moved_mm));
       all.views.set_rig_from_object(i, all.views.rig_from_object(i) * settled.to_from.inverse());
       groups[i] = make_group({{i, all.views.rig_from_object(i)}}, maps, spacing_mm);
-      moved = true;
+      out.moved = true;
     }
     constexpr double kNamed = 0.1;  // spacings: less is in sigma only
     for (const OpenMotion& open : settled.open) {
@@ -126,15 +138,12 @@ bool settle_scans(ScanViews& all,
             open.words(),
             open.spread_mm));
       }
-      motions.resize(scans, Eigen::Matrix<double, 6, Eigen::Dynamic>(6, 0));
-      for (std::size_t k = 0; k < scans; ++k) {
-        motions[k].conservativeResize(Eigen::NoChange, motions[k].cols() + 1);
-        motions[k].rightCols<1>().setZero();
-      }
-      motions[i].rightCols<1>() = open.motion;
+      out.known.push_back({i, open.motion});
     }
+    for (const OpenMotion& held : settled.held)
+      out.known.push_back({i, held.motion});
   }
-  return moved;
+  return out;
 }
 
 /// Refines the poses, and settles what they leave open. Returns how far the surfaces were apart
@@ -151,18 +160,13 @@ double register_and_settle(MergedScans& out,
   const double prior_mm = options.prior_mm > 0.0   ? options.prior_mm
                           : options.reach_mm > 0.0 ? options.reach_mm
                                                    : default_reach_mm(maps);
-  ViewMotions open;
-  if (settle_scans(all, maps, prior_mm, open, run))
-    out.registration = register_poses(all.views, maps, all.model, options, run);
+  const SettledScans settled = settle_scans(all, maps, prior_mm, run);
+  if (settled.moved) out.registration = register_poses(all.views, maps, all.model, options, run);
+  // Along what the distances do not show the poses have their prior, until contradictions tell
+  // more.
   motions = out.registration->motions;
-  if (motions.empty()) {
-    motions = std::move(open);
-  } else if (!open.empty()) {
-    for (std::size_t view = 0; view < motions.size(); ++view) {
-      Eigen::Matrix<double, 6, Eigen::Dynamic> both(6, motions[view].cols() + open[view].cols());
-      both << motions[view], open[view];
-      motions[view] = std::move(both);
-    }
+  for (const KnownMotion& known : settled.known) {
+    narrow_motions(motions, known.scan, known.motion, settled.groups[known.scan].points.points_mm);
   }
   return rms_before_mm;
 }

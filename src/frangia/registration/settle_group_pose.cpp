@@ -196,6 +196,7 @@ class PoseSettler {
     bool moved = true;
     for (int round = 0; round < kRounds && moved; ++round) {
       settled_.open.clear();
+      settled_.held.clear();
       moved = false;
       for (Eigen::Index i = 0; i < weak.cols(); ++i)
         moved = settle_along(i) || moved;
@@ -236,8 +237,8 @@ class PoseSettler {
     if (!(way > 0.0)) return moved;
     const double spread_mm = spread_along(poses, at, motion, way);
     constexpr double kNoticed = 10.0;  // standard deviations of a distance
-    if (spread_mm > kNoticed * contradictions_.sigma_mm())
-      settled_.open.push_back(open_motion(at, motion, spread_mm, way));
+    const bool open = spread_mm > kNoticed * contradictions_.sigma_mm();
+    (open ? settled_.open : settled_.held).push_back(open_motion(at, motion, spread_mm, way));
     return moved;
   }
 

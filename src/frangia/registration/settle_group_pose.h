@@ -32,6 +32,7 @@ struct SettledPose {
                           ///< no pose contradicts less
   double log_odds = 0.0;  ///< of the pose over the start
   std::vector<OpenMotion> open;  ///< what the surfaces do not decide
+  std::vector<OpenMotion> held;  ///< motions that the distances do not show, but contradictions do
 };
 
 /// Options of `settle_group_pose`.

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+#include <span>
 #include <vector>
 
 #include <Eigen/Core>
@@ -41,5 +43,14 @@ struct TurntableSigma {
 /// @shape    one for each view
 [[nodiscard]] ViewMotions motions_of_rig(const TurntableStations& given,
                                          const TurntableSigma& sigma);
+
+/// Narrows motions by what else is known of one view against the others, whose mean stays: along
+/// `known`, of one standard deviation, it moves by no more than that.
+///
+/// @shape    `points_mm`: of the view, object frame
+void narrow_motions(ViewMotions& motions,
+                    std::size_t view,
+                    const Eigen::Matrix<double, 6, 1>& known,
+                    std::span<const Eigen::Vector3f> points_mm);
 
 }  // namespace frangia

@@ -30,15 +30,7 @@ void score_pairs(PoseRound& round,
                  const TurntableStations& given,
                  const std::optional<DriftModel>& model,
                  const Eigen::VectorXd& rig_at) {
-  if (model) {
-    round.rig_at = rig_at;
-    round.rig = rig_changes(*model, *given.pattern, surfels, round.chart.setting.rig_basis, rig_at);
-    PoseSetting& setting = round.chart.setting;
-    setting.rig_changes = model->count();
-    setting.projector_moves = model->by_motions_of_projector(setting.tilt_rad, setting.shift_mm);
-  }
-  const RigChanges* rig = round.rig ? &*round.rig : nullptr;
-  round.sums = sum_poses(round.bundle, surfels, {round.poses, rig});
+  sum_pairs(round, surfels, given, model, rig_at);
   score(round);
 }
 

@@ -158,6 +158,15 @@ Eigen::MatrixXd information_of(const Bundle& bundle,
   return scaled(0.5 * (information + information.transpose()), unit.cwiseInverse());
 }
 
+/// The information that leaves axis and angles to the rig: of the part poses of further setups, on
+/// which the rig says nothing.
+Eigen::MatrixXd of_part_poses(Eigen::MatrixXd information, const TableState& state) {
+  const Eigen::Index own = state.index_of_setup(1);
+  information.topRows(own).setZero();
+  information.leftCols(own).setZero();
+  return information;
+}
+
 /// The information of points that several views measured.
 Eigen::MatrixXd information_of_ties(const Bundle& bundle) {
   const TieSums ties = sum_ties(bundle.ties, bundle.state);
@@ -212,6 +221,8 @@ void assess_places(RegistrationReport& report,
   Eigen::MatrixXd information;
   if (overlap == Overlap::Determines)
     information = information_of(bundle, sums, bundle.prior_sigma);
+  else if (!state.part_poses.empty() && !sums.distances_mm.empty())
+    information = of_part_poses(information_of(bundle, sums, bundle.prior_sigma), state);
   if (!bundle.ties.empty()) {
     const Eigen::MatrixXd of_ties = information_of_ties(bundle);
     information = information.size() > 0 ? Eigen::MatrixXd(information + of_ties) : of_ties;

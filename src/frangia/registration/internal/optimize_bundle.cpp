@@ -65,6 +65,30 @@ BundleSums sum(const Bundle& bundle, const SurfelLists& surfels) {
 
 namespace {
 
+/// Information of the prior beside pairs that count by one weight for all. The pairs of a noisy
+/// view share an error that is small beside their noise, so that more of them are independent: the
+/// prior of its angle counts less by as much. Else it would pull the view out of the gate.
+Eigen::VectorXd prior_information(const Bundle& bundle, const BundleSums& sums, double weight) {
+  Eigen::VectorXd information = bundle.prior_sigma.cwiseAbs2().cwiseInverse();
+  PairTally all;
+  std::vector<PairTally> of_view(bundle.maps.size());
+  for (std::size_t view = 0; view < of_view.size(); ++view) {
+    for (const std::size_t other : bundle.pairs[view]) {
+      const PairTally pair = sums.pair(view, other);
+      of_view[view].add(pair);
+      of_view[other].add(pair);
+      all.add(pair);
+    }
+  }
+  for (std::size_t view = 1; view < of_view.size(); ++view) {
+    if (of_view[view].agree == 0) continue;
+    const double variance = static_cast<double>(of_view[view].agree) / of_view[view].weight;
+    const double noisier = variance * all.weight / static_cast<double>(all.agree);
+    information[static_cast<Eigen::Index>(view) + 3] *= std::clamp(1.0 / noisier, weight, 1.0);
+  }
+  return information;
+}
+
 /// Mean distance of the surfels from the axis.
 double arm_mm(const Bundle& bundle, const SurfelLists& surfels) {
   const Turntable& table = bundle.given.table;
@@ -99,12 +123,12 @@ void optimize_bundle(Bundle& bundle,
                      const SurfelLists& surfels,
                      int max_iterations,
                      const Run& run) {
-  const Eigen::VectorXd information = bundle.prior_sigma.cwiseAbs2().cwiseInverse();
   const double arm = arm_mm(bundle, surfels);
   const auto linearize = [&](double gate_mm) {
     bundle.gate_mm = gate_mm;
     BundleSums sums = sum(bundle, surfels);
     const double weight = effective_weight(bundle, sums);
+    const Eigen::VectorXd information = prior_information(bundle, sums, weight);
     Linearization at;
     at.hessian = weight * sums.hessian;
     at.hessian.diagonal() += information;

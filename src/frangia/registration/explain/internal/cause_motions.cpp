@@ -13,17 +13,34 @@ namespace {
 
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 
-/// A rotation about the table's axis by 1 rad.
-Eigen::Matrix<double, 6, 1> turn_of_table() {
-  return Eigen::Matrix<double, 6, 1>::Unit(2);
+Eigen::Isometry3d table_of_view(const PoseSetting& setting, std::size_t view) {
+  return setting.object_from_table.empty() ? Eigen::Isometry3d::Identity()
+                                           : setting.object_from_table[view];
 }
 
-Eigen::MatrixXd repeated(const Eigen::MatrixXd& motions,
-                         const Eigen::VectorXd& shares,
-                         Eigen::Index unknowns) {
-  Eigen::MatrixXd all = Eigen::MatrixXd::Zero(unknowns, motions.cols());
-  for (Eigen::Index view = 0; view < shares.size(); ++view)
-    all.middleRows(6 * view, 6) = shares[view] * motions;
+/// A rotation about the axis of a view's table by 1 rad, by a share of each view.
+Eigen::MatrixXd turns_of_table(const PoseSetting& setting,
+                               const Eigen::VectorXd& shares,
+                               Eigen::Index unknowns) {
+  Eigen::MatrixXd all = Eigen::MatrixXd::Zero(unknowns, 1);
+  for (Eigen::Index view = 0; view < shares.size(); ++view) {
+    const Eigen::Isometry3d table = table_of_view(setting, static_cast<std::size_t>(view));
+    const Eigen::Vector3d axis = table.linear().col(2);
+    all.block<3, 1>(6 * view, 0) = shares[view] * axis;
+    all.block<3, 1>(6 * view + 3, 0) = shares[view] * table.translation().cross(axis);
+  }
+  return all;
+}
+
+/// The same motion of the part on its table in each view, by a share.
+Eigen::MatrixXd motions_on_table(const PoseSetting& setting,
+                                 const Eigen::VectorXd& shares,
+                                 Eigen::Index unknowns) {
+  Eigen::MatrixXd all = Eigen::MatrixXd::Zero(unknowns, 6);
+  for (Eigen::Index view = 0; view < shares.size(); ++view) {
+    all.middleRows<6>(6 * view) =
+        shares[view] * motions_of_part(setting, static_cast<std::size_t>(view));
+  }
   return all;
 }
 
@@ -60,13 +77,14 @@ Eigen::VectorXd turned_angles(const PoseSetting& setting) {
 
 }  // namespace
 
-Eigen::Matrix<double, 6, 6> motions_of_part(const PoseSetting& setting) {
+Eigen::Matrix<double, 6, 6> motions_of_part(const PoseSetting& setting, std::size_t view) {
+  const Eigen::Matrix3d axes = table_of_view(setting, view).linear();
   Matrix6 by = Matrix6::Zero();
   for (int i = 0; i < 3; ++i) {
-    const Eigen::Vector3d turn = Eigen::Vector3d::Unit(i) / setting.radius_mm;
+    const Eigen::Vector3d turn = axes.col(i) / setting.radius_mm;
     by.block<3, 1>(0, i) = turn;
     by.block<3, 1>(3, i) = setting.center_mm.cross(turn);
-    by(3 + i, 3 + i) = 1.0;
+    by.block<3, 1>(3, 3 + i) = axes.col(i);
   }
   return by;
 }
@@ -87,21 +105,21 @@ Eigen::MatrixXd unit_motions(PoseCause cause,
       return all;
     }
     case PoseCause::Turned:
-      return repeated(turn_of_table() / setting.radius_mm, from_on(at[0], setting.views), unknowns);
+      return turns_of_table(setting, from_on(at[0], setting.views) / setting.radius_mm, unknowns);
     case PoseCause::AnglesScaled:
-      return repeated(turn_of_table(), turned_angles(setting), unknowns);
+      return turns_of_table(setting, turned_angles(setting), unknowns);
     case PoseCause::AnglesWrong: {
       const auto count = static_cast<Eigen::Index>(at.size());
       Eigen::MatrixXd all(unknowns, count);
       for (Eigen::Index i = 0; i < count; ++i) {
         const auto view = static_cast<Eigen::Index>(at[static_cast<std::size_t>(i)]);
-        all.col(i) = repeated(
-            turn_of_table() / setting.radius_mm, Eigen::VectorXd::Unit(views, view), unknowns);
+        all.col(i) = turns_of_table(
+            setting, Eigen::VectorXd::Unit(views, view) / setting.radius_mm, unknowns);
       }
       return all;
     }
     case PoseCause::PartMoved:
-      return repeated(motions_of_part(setting), from_on(at[0], setting.views), unknowns);
+      return motions_on_table(setting, from_on(at[0], setting.views), unknowns);
     case PoseCause::PartMovedTwice: {
       Eigen::MatrixXd all(unknowns, 12);
       all << unit_motions(PoseCause::PartMoved, {at[0]}, setting, unknowns),
@@ -109,9 +127,8 @@ Eigen::MatrixXd unit_motions(PoseCause cause,
       return all;
     }
     case PoseCause::ViewMoved:
-      return repeated(motions_of_part(setting),
-                      Eigen::VectorXd::Unit(views, static_cast<Eigen::Index>(at[0])),
-                      unknowns);
+      return motions_on_table(
+          setting, Eigen::VectorXd::Unit(views, static_cast<Eigen::Index>(at[0])), unknowns);
     case PoseCause::ViewsMoved: {
       const auto count = static_cast<Eigen::Index>(at.size());
       Eigen::MatrixXd all(unknowns, 6 * count);
@@ -125,14 +142,15 @@ Eigen::MatrixXd unit_motions(PoseCause cause,
       const Eigen::MatrixXd functions = time_profile(profile, setting.times);
       Eigen::MatrixXd all(unknowns, 6 * functions.cols());
       for (Eigen::Index i = 0; i < functions.cols(); ++i)
-        all.middleCols<6>(6 * i) = repeated(motions_of_part(setting), functions.col(i), unknowns);
+        all.middleCols<6>(6 * i) = motions_on_table(setting, functions.col(i), unknowns);
       return all;
     }
     case PoseCause::Wobble:
     case PoseCause::Unexplained: {
       Eigen::MatrixXd all = Eigen::MatrixXd::Zero(unknowns, 6 * views);
       for (Eigen::Index view = 0; view < views; ++view)
-        all.block<6, 6>(6 * view, 6 * view) = motions_of_part(setting);
+        all.block<6, 6>(6 * view, 6 * view) =
+            motions_of_part(setting, static_cast<std::size_t>(view));
       return all;
     }
     case PoseCause::Rig:

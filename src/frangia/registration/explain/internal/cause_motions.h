@@ -10,9 +10,10 @@
 
 namespace frangia {
 
-/// Motions of points by changes of 1 mm: rotations about the part's centre by an arc of 1 mm, then
-/// shifts.
-[[nodiscard]] Eigen::Matrix<double, 6, 6> motions_of_part(const PoseSetting& setting);
+/// Motions of the points of a view by changes of 1 mm: rotations about the part's centre by an arc
+/// of 1 mm, then shifts, along the axes of the table that it stands on.
+[[nodiscard]] Eigen::Matrix<double, 6, 6> motions_of_part(const PoseSetting& setting,
+                                                          std::size_t view);
 
 /// The motions of the views by the own changes of a cause, each by 1 mm or by its prior.
 ///

@@ -23,6 +23,9 @@ struct PoseSetting {
   Eigen::Index rig_changes = 0;    ///< terms of the rig; 0: it has no unknowns
   Eigen::MatrixXd rig_basis;       ///< functions of time that its changes consist of
   std::vector<Eigen::Isometry3d> object_from_rig;  ///< of each view: how a moved table shows
+  /// Of each view, the table that the part stands on in its setup, whose axis is z; object frame.
+  /// Empty: that of the object frame.
+  std::vector<Eigen::Isometry3d> object_from_table{};
   double tilt_rad = 1e-3;  ///< unit of rotations of a table or projector that is knocked
   double shift_mm = 0.5;   ///< unit of their shifts
   /// Changes of the rig by a motion of the projector, by each unit; terms x 6. Empty: none.

@@ -64,7 +64,7 @@ void hold_open_motions(Linearization& at,
                        const Eigen::VectorXd& off) {
   constexpr double kHeld = 1e4;  // times what the pairs of the view would tell of a shift
   const double pairs = sums.weight_of(view);
-  const Eigen::Matrix<double, 6, 6> by = motions_of_part(setting);
+  const Eigen::Matrix<double, 6, 6> by = motions_of_part(setting, view);
   const auto first = static_cast<Eigen::Index>(6 * view);
   const auto eigen = symmetric_eigen(congruence(by, data.block<6, 6>(first, first)));
   const Eigen::Matrix<double, 6, 6> from = by.inverse();
@@ -75,6 +75,17 @@ void hold_open_motions(Linearization& at,
     at.hessian.block<6, 6>(first, first) += held * row * row.transpose();
     at.gradient.segment<6>(first) += held * row * row.dot(off.segment<6>(first));
   }
+}
+
+/// The table of each view as its setup stands on it: z is the axis.
+std::vector<Eigen::Isometry3d> tables_of_views(const TableState& state) {
+  const Eigen::Isometry3d rig_from_table = state.table.rig_from_object(0.0);
+  std::vector<Eigen::Isometry3d> tables;
+  for (std::size_t view = 0; view < state.angles_rad.size(); ++view) {
+    tables.push_back(rig_from_table.inverse() * state.part_pose(state.setup_of(view)).inverse() *
+                     rig_from_table);
+  }
+  return tables;
 }
 
 /// Centre and radius of the part that some surfels show.
@@ -146,6 +157,7 @@ PoseChart make_chart(const Bundle& bundle,
   constexpr double kTilt_rad = rad_from_deg(0.1);  // as `RefineRigOptions` has them of a drift
   constexpr double kShift = 0.001;
   setting.object_from_rig = chart.from;
+  if (!state.part_poses.empty()) setting.object_from_table = tables_of_views(state);
   setting.tilt_rad = kTilt_rad;
   setting.shift_mm = kShift * setting.distance_mm;
   chart.table_sigma = stated_sigmas(bundle);

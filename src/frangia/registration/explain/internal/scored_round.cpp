@@ -4,6 +4,7 @@
 
 #include <Eigen/Cholesky>
 
+#include "frangia/registration/explain/internal/cause_motions.h"
 #include "frangia/registration/explain/internal/pose_round.h"
 #include "frangia/registration/explain/internal/time_profiles.h"
 
@@ -80,6 +81,34 @@ bool leaves_prior(const PoseRound& round, const CauseHypothesis& cause) {
   return table.head(own).cwiseAbs().maxCoeff() > kUnlikely;
 }
 
+/// Prepares the equations of a round whose noise is known.
+void weigh_with_noise(PoseRound& round) {
+  NormalEquations data = from_stated(round.sums.all(), round.at());
+  const Eigen::Index unknowns = data.gradient.size();
+  data.hessian *= round.noise.scale;
+  data.gradient *= round.noise.scale;
+  if (const auto ties = round.ties()) data.add(*ties);
+  round.exact.emplace(data, padded(round.chart.with_exact_table().table, unknowns));
+  round.evidence.emplace(std::move(data), padded(round.chart.table, unknowns));
+}
+
+void score_weighed(PoseRound& round) {
+  round.causes = with_either_table(round);
+  for (ScoredCause& cause : round.causes) {
+    double rare = cause.cause == PoseCause::AsStated ? 0.0 : kFaultsAreRare;
+    if (cause.cause == PoseCause::Turntable) rare += kStatementsHold;
+    cause.log_odds += rare;
+    for (CauseHypothesis& other : cause.others)
+      other.log_odds += rare;
+  }
+  std::stable_sort(
+      round.causes.begin(), round.causes.end(), [](const ScoredCause& a, const ScoredCause& b) {
+        return a.log_odds > b.log_odds;
+      });
+  for (const ScoredCause& cause : round.causes)
+    round.motions.push_back(round.posterior(cause.best).motion);
+}
+
 }  // namespace
 
 double PoseRound::surface_mm(const Eigen::VectorXd& difference) const {
@@ -122,7 +151,7 @@ std::vector<Eigen::Matrix<double, 6, 6>> surfaces_of(
 
 void weigh(PoseRound& round) {
   const Eigen::VectorXd at = round.at();
-  NormalEquations data = from_stated(round.sums.all(), at);
+  const NormalEquations data = from_stated(round.sums.all(), at);
   const Eigen::Index unknowns = data.gradient.size();
   const Eigen::MatrixXd table = padded(round.chart.table, unknowns);
   const PoseEvidence plain(data, table);
@@ -132,29 +161,34 @@ void weigh(PoseRound& round) {
   const double determined =
       static_cast<double>(rich.changes.size()) - rich.changes_covariance.trace();
   round.noise.left_share = std::max(0.0, 1.0 - determined / std::max(1.0, round.noise.regions));
-  data.hessian *= round.noise.scale;
-  data.gradient *= round.noise.scale;
-  if (const auto ties = round.ties()) data.add(*ties);
-  round.exact.emplace(data, padded(round.chart.with_exact_table().table, unknowns));
-  round.evidence.emplace(std::move(data), table);
+  weigh_with_noise(round);
+}
+
+void sum_pairs(PoseRound& round,
+               const SurfelLists& surfels,
+               const TurntableStations& given,
+               const std::optional<DriftModel>& model,
+               const Eigen::VectorXd& rig_at) {
+  if (model) {
+    round.rig_at = rig_at;
+    round.rig = rig_changes(*model, *given.pattern, surfels, round.chart.setting.rig_basis, rig_at);
+    PoseSetting& setting = round.chart.setting;
+    setting.rig_changes = model->count();
+    setting.projector_moves = model->by_motions_of_projector(setting.tilt_rad, setting.shift_mm);
+  }
+  const RigChanges* rig = round.rig ? &*round.rig : nullptr;
+  round.sums = sum_poses(round.bundle, surfels, {round.poses, rig});
 }
 
 void score(PoseRound& round) {
   weigh(round);
-  round.causes = with_either_table(round);
-  for (ScoredCause& cause : round.causes) {
-    double rare = cause.cause == PoseCause::AsStated ? 0.0 : kFaultsAreRare;
-    if (cause.cause == PoseCause::Turntable) rare += kStatementsHold;
-    cause.log_odds += rare;
-    for (CauseHypothesis& other : cause.others)
-      other.log_odds += rare;
-  }
-  std::stable_sort(
-      round.causes.begin(), round.causes.end(), [](const ScoredCause& a, const ScoredCause& b) {
-        return a.log_odds > b.log_odds;
-      });
-  for (const ScoredCause& cause : round.causes)
-    round.motions.push_back(round.posterior(cause.best).motion);
+  score_weighed(round);
+}
+
+void score_with(PoseRound& round, const PairNoise& noise) {
+  round.noise = noise;
+  weigh_with_noise(round);
+  score_weighed(round);
 }
 
 double noticeable_mm(const PoseRound& round) {
@@ -229,7 +263,9 @@ bool are_alike(const PoseRound& round, const CauseMotion& one, const CauseMotion
   // The linearization of knocks and drifts, which differ between the views, has similar errors.
   const bool constant = one.cause == PoseCause::Rig || other.cause == PoseCause::Rig;
   const bool rigs = constant && changes_rig(one.cause) && changes_rig(other.cause);
-  const double of_rigs = round.rig_at.isZero() ? kAlikeRigs : kAlikeFoundRigs;
+  // A knock, which may be of all views but the first, is none of the errors of a linearization.
+  const bool knocked = one.cause == PoseCause::RigMoved || other.cause == PoseCause::RigMoved;
+  const double of_rigs = round.rig_at.isZero() && !knocked ? kAlikeRigs : kAlikeFoundRigs;
   const double share = rigs ? of_rigs : kAlike;
   const Eigen::VectorXd none = round.stated();
   const Eigen::VectorXd apart = one.motion - other.motion;

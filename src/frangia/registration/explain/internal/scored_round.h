@@ -74,8 +74,20 @@ struct PoseRound {
 /// Prepares the equations of a round, with the noise that its richest hypothesis leaves.
 void weigh(PoseRound& round);
 
-/// Scores all hypotheses on the pairs of a round.
+/// Sums the pairs of the views in the poses of a round.
+///
+/// @shape    `rig_at`: changes of the rig that measured the surfels, as `changes_of_views` has them
+void sum_pairs(PoseRound& round,
+               const SurfelLists& surfels,
+               const TurntableStations& given,
+               const std::optional<DriftModel>& model,
+               const Eigen::VectorXd& rig_at);
+
+/// Scores all hypotheses on the pairs of a round, with the noise that they have.
 void score(PoseRound& round);
+
+/// The same with a noise that is known.
+void score_with(PoseRound& round, const PairNoise& noise);
 
 /// The smallest effect that is explained: what surfaces of sound scans have in common is not
 /// blamed, nor what is far below the scatter of one pair; where too few regions tell what they have
