@@ -128,7 +128,8 @@ PixelLight light_of(const std::vector<int>& counts, int white_level, const Noise
   for (const int one : counts)
     mean += static_cast<double>(one) / static_cast<double>(counts.size());
   const double variance = noise.variance(mean);
-  return {*most<white_level&& * most - *least> kFringeSigmas * std::sqrt(variance), variance};
+  const int change = *most - *least;
+  return {*most < white_level && change > kFringeSigmas * std::sqrt(variance), variance};
 }
 
 void read_pixel(const FrameStack& stack, int x, int y, std::vector<int>& counts) {
@@ -275,10 +276,9 @@ void predict(const CutSamples& samples,
 }
 
 double quantile_of(std::vector<double>& values, double share) {
-  const auto at =
-      values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), at, values.end());
-  return *at;
+  const auto at = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), values.begin() + at, values.end());
+  return values[static_cast<std::size_t>(at)];
 }
 
 Image<std::uint16_t> raised(const Frame& frame, int counts) {
