@@ -188,6 +188,11 @@ export const FAULTS_DECODE = {
     'die Bilder sind wie angegeben',
     'i fotogrammi sono come indicato',
   ],
+  'fault.onePatternNotDescribed': [
+    'one pattern is not as described',
+    'ein Muster ist nicht wie angegeben',
+    'un pattern non è come indicato',
+  ],
   'fault.framesDifferFringes': [
     'the frames differ from fringes of these shifts, and no known cause explains it',
     'die Bilder weichen von Streifen mit diesen Verschiebungen ab, und keine bekannte Ursache erklärt es',
