@@ -25,12 +25,15 @@ struct Grid {
   PixelBox box;  ///< holds all measured pixels
 };
 
-/// How many pixels on each side of a depth step receive light from beyond it. A normal blur leaves
-/// 1 % of the light of a straight edge at 2.33 sigma; the first pixel has its centre at half a
-/// pixel.
-int mixed_reach_px(double blur_px) {
-  return std::max(1, static_cast<int>(std::ceil(2.33 * blur_px - 0.5)));
+/// How many pixels beside the border of a surface receive more light from beyond it than
+/// `light_sigmas` of a normal blur leave there; the first pixel has its centre at half a pixel.
+int mixed_reach_px(double blur_px, double light_sigmas) {
+  return std::max(1, static_cast<int>(std::ceil(light_sigmas * blur_px - 0.5)));
 }
+
+constexpr double kOnePercent = 2.33;  // sigmas of a normal distribution
+/// Beside a dark background, where no other phase mixes in and that of the surface is corrected.
+constexpr double kFivePercent = 1.645;
 
 /// Whether a neighbour of a measured pixel is measured, but not connected to it.
 bool at_depth_step(const PixelConnections& connections, int x, int y) {
@@ -177,8 +180,9 @@ std::vector<RangePixel> remove_mixed_pixels(RangeGrid& range,
   const PixelBox box = measured_box(range.depth_mm);
   const Grid grid{range, rays, box};
   const PixelConnections connections = connect_pixels(range, rays, box, slope);
-  const int reach_px = mixed_reach_px(options.blur_px);
-  const int least_dark = options.min_dark_neighbors + 2 * (reach_px - 1);  // a row of the window
+  const int reach_px = mixed_reach_px(options.blur_px, kOnePercent);
+  const int dark_px = mixed_reach_px(options.blur_px, kFivePercent);
+  const int least_dark = options.min_dark_neighbors + 2 * (dark_px - 1);  // a row of the window
   Image<std::uint8_t> remove(rays.width(), rays.height(), 0);
   parallel_rows(box.height(), [&](int row) {
     const int y = box.top + row;
@@ -186,7 +190,7 @@ std::vector<RangePixel> remove_mixed_pixels(RangeGrid& range,
       if (std::isnan(range.depth_mm(x, y))) continue;
       const bool mixed = at_depth_step(connections, x, y) ||
                          near_depth_step(grid, slope, reach_px, x, y) ||
-                         at_silhouette(status, least_dark, reach_px, x, y);
+                         at_silhouette(status, least_dark, dark_px, x, y);
       remove(x, y) = mixed ? 1 : 0;
     }
   });

@@ -26,7 +26,8 @@ struct MixedPixelOptions {
 /// The pixels on both sides of a depth step may mix light of both surfaces: those next to it, and
 /// with a blurred image all that receive more than 1 % of their light from beyond it. The outermost
 /// pixel of a silhouette receives light from only a part of its area, so its point does not lie on
-/// the ray through its centre. Patches too small to be a surface are removed last.
+/// the ray through its centre; with a blurred image those with more than 5 % from beyond it are as
+/// far off. Patches too small to be a surface are removed last.
 ///
 /// @shape    w x h; the result holds the removed pixels row by row, with their former values: some
 ///          see a single surface, see `recover_edge_pixels`
