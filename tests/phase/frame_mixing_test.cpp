@@ -85,6 +85,17 @@ TEST(FrameMixing, IsFoundAndTakenOut) {
   }
 }
 
+TEST(FrameMixing, IsFoundFromATenthToAHalf) {
+  for (const double share : {0.1, 0.2, 0.4, 0.5}) {
+    for (const bool by_camera : {true, false}) {
+      const auto found = find_frame_mixing(view_of(4, {.seed = 3}, mix(share, by_camera)));
+      ASSERT_TRUE(found) << share << (by_camera ? " by the camera" : " of the light");
+      EXPECT_NEAR(found->share, share, 0.01);
+      EXPECT_EQ(found->by_camera, by_camera) << share;
+    }
+  }
+}
+
 TEST(FrameMixing, IsNotFoundInOtherFrames) {
   for (const int steps : {4, 6}) {
     for (const RenderedScene& scene : {RenderedScene{.seed = 1},

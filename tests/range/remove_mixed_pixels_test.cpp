@@ -55,8 +55,8 @@ TEST(RemoveMixedPixels, RemovesThePixelsBetweenTwoSurfaces) {
 TEST(RemoveMixedPixels, ReachesAsFarAsTheBlurOfTheImage) {
   struct Case {
     double blur_px;
-    int at_step_px;        // 1 % of the light of an edge lies 2.33 sigma beside it
-    int at_silhouette_px;  // 5 % lie 1.645 sigma beside it
+    int at_step_px;        // pixels beside a step that get more than 1 % of their light across it
+    int at_silhouette_px;  // pixels that a dark background takes more than 5 % of their light
   };
   for (const Case& one : {Case{0.0, 2, 1}, Case{0.5, 2, 1}, Case{1.0, 2, 2}, Case{1.2, 3, 2}}) {
     Scene scene;

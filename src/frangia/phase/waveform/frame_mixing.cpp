@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <numeric>
 #include <utility>
 #include <variant>
 
@@ -25,7 +26,8 @@ constexpr double kLeftByMixing = 0.3;  ///< of the squared residuals of all patt
 constexpr double kLeftInEach = 0.6;    ///< of those of each: it predicts all of them
 
 /// Sampled pixels of all frames of a view (rows), in the order of capture: those whose light
-/// changes by a quarter of what it does at most.
+/// changes by a quarter of what it does at most, thinned to a few thousand: the search for the
+/// share goes through all of them many times.
 Eigen::MatrixXd sample_view(std::span<const FrameStack> stacks) {
   const Frame& first = stacks.front().frames.front();
   const int stride = std::max(1,
@@ -59,9 +61,11 @@ Eigen::MatrixXd sample_view(std::span<const FrameStack> stacks) {
   std::nth_element(changes.begin(), high, changes.end());
   constexpr double kLeastOfMost = 0.25;
   std::erase_if(kept, [&](const auto& one) { return change_of(one) < kLeastOfMost * *high; });
-  Eigen::MatrixXd out(frames, std::ssize(kept));
-  for (std::size_t i = 0; i < kept.size(); ++i)
-    out.col(static_cast<Eigen::Index>(i)) = kept[i];
+  constexpr std::size_t kSearched = 3000;
+  const std::size_t every = std::max<std::size_t>(1, kept.size() / kSearched);
+  Eigen::MatrixXd out(frames, static_cast<Eigen::Index>((kept.size() + every - 1) / every));
+  for (Eigen::Index i = 0; i < out.cols(); ++i)
+    out.col(i) = kept[static_cast<std::size_t>(i) * every];
   return out;
 }
 
@@ -107,10 +111,7 @@ std::vector<double> squares_left(const Eigen::MatrixXd& counts,
 }
 
 double sum_of(const std::vector<double>& values) {
-  double sum = 0.0;
-  for (const double one : values)
-    sum += one;
-  return sum;
+  return std::accumulate(values.begin(), values.end(), 0.0);
 }
 
 /// The share that leaves least, by golden section.
