@@ -204,10 +204,13 @@ export async function openPage(browser, url, viewport = { width: 1440, height: 9
   return page;
 }
 
+/** The rules of axe that another theme can break. */
+export const COLORS = { runOnly: { type: 'rule', values: ['color-contrast', 'link-in-text-block'] } };
+
 /** Runs axe on the page as it is. */
-export async function axe(page, name) {
+export async function axe(page, name, options = {}) {
   const found = await page
-    .evaluate(async () => (await window.axe.run(document)).violations.map((one) => `${one.id}: ${one.nodes.map((node) => node.target).slice(0, 3)}`))
+    .evaluate(async (options) => (await window.axe.run(document, { resultTypes: ['violations'], ...options })).violations.map((one) => `${one.id}: ${one.nodes.map((node) => node.target).slice(0, 3)}`), options)
     .catch((error) => [`axe: ${error.message}`]);
   for (const violation of found) fail(`${name}: ${violation}`);
 }
@@ -222,7 +225,7 @@ export const settled = (page) =>
   });
 
 /** In the page: what is cut off, has no room, or is one primary button too many. */
-function faultsOfLayout() {
+export function faultsOfLayout() {
   const faults = [];
   const shown = (element) => {
     const { width, height } = element.getBoundingClientRect();

@@ -198,7 +198,7 @@ await tell(home, async () => {
       await hit;
     }
   };
-  const [top, besides, left, right] = [[0.582, 0.497], [0.6, 0.52], [0.388, 0.68], [0.718, 0.706]];
+  const [top, besides, left, right] = [[0.575, 0.497], [0.592, 0.518], [0.397, 0.665], [0.7, 0.689]];
   await page.click('#align');
   await pick(top, besides, left);
   await page.waitForSelector('.notice >> text=choose faces that meet at an angle');

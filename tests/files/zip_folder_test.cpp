@@ -71,6 +71,24 @@ TEST(UnzipFolder, TakesTheFolderOfItsMarkerAndNothingThatLeadsOut) {
   }
 }
 
+TEST(UnzipFolder, TakesTheOutermostFolderOfItsMarker) {
+  const testing::TemporaryFolder folder;
+  const auto archive = folder.path() / "scan.zip";
+  {
+    ZipWriter writer(archive);
+    for (const std::string name : {"Part/capture/scan.toml", "Part/scan.toml", "scan.txt"}) {
+      writer.begin(name);
+      writer.text(name);
+    }
+    writer.commit();
+  }
+  const auto into = folder.path() / "into";
+  unzip_folder(archive, "scan.toml", into);
+  EXPECT_EQ(std::filesystem::file_size(into / "scan.toml"), 14U);
+  EXPECT_EQ(std::filesystem::file_size(into / "capture" / "scan.toml"), 22U);
+  EXPECT_FALSE(std::filesystem::exists(into / "scan.txt"));
+}
+
 TEST(UnzipFolder, ReadsLongNamesAndRefusesWhatExpandsTooFarAltogether) {
   const testing::TemporaryFolder folder;
   const auto archive = folder.path() / "scan.zip";

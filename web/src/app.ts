@@ -7,7 +7,7 @@ import type { StepName } from './step_names';
 import { dialogs, footer, header, picture } from './frame_parts';
 import { onKey } from './keyboard';
 import { MeshSource } from './mesh_source';
-import { type Language, setLanguage, t } from './messages';
+import { type Language, setLanguage } from './messages';
 import { App } from './parts';
 import { applyPreferences } from './preferences';
 import { blankPage, notices } from './shell';
@@ -106,6 +106,7 @@ export class FrangiaApp extends App {
     this.building.forget();
     this.measuring.forget();
     const created = this.projects.takeCreated();
+    if (this.projects.takeRenamed(this.projectShown)) return;
     if (!state.project) this.go('project');
     else if (state.project.surface || state.project.surface_loading || state.project.versions.length > 0)
       this.go('surface');
@@ -165,6 +166,7 @@ export class FrangiaApp extends App {
   }
 
   protected override updated(): void {
+    this.querySelector<HTMLElement>('.drop')?.showPopover(); // above dialogs, too
     void this.exporting.follow();
     this.editing.follow();
     this.measuring.follow();
@@ -194,6 +196,6 @@ export class FrangiaApp extends App {
         }
         ${notices(this)}
       </div>
-      ${footer(this)}${dialogs(this)} ${this.opening.over ? html`<div class="drop">${t('open.drop')}</div>` : ''}`;
+      ${footer(this)}${dialogs(this)}`;
   }
 }

@@ -101,7 +101,9 @@ const entryField = ({ value, lines, most }: NonNullable<Question['entry']>, done
           aria-labelledby="question"
           .value=${value}
           @keydown=${(event: KeyboardEvent) => {
-            if (event.key === 'Enter') done();
+            if (event.key !== 'Enter') return;
+            event.preventDefault(); // it would press what gets the focus when the dialog closes
+            done();
           }}
         />
       </div>`;

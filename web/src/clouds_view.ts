@@ -2,7 +2,7 @@ import * as THREE from 'three';
 
 import type { MeshArrays } from './arrays';
 import { viridis } from './colors';
-import { colorByHeight } from './mesh_colors';
+import { colorByHeight, type Ends } from './mesh_colors';
 
 /** The coarse surface among the clouds. */
 const GROWN = 'grown';
@@ -36,7 +36,8 @@ export class CloudsView {
     return mesh ? (mesh.geometry.index?.count ?? 0) / 3 : 0;
   }
 
-  set(station: number, positions: Float32Array | null): void {
+  /** Points of a station; those of the live preview are coloured by height, from one end of a scale to the other. */
+  set(station: number, positions: Float32Array | null, ends: Ends | null = null): void {
     const old = this.group.getObjectByName(String(station)) as THREE.Points | undefined;
     if (old) {
       old.geometry.dispose();
@@ -45,8 +46,8 @@ export class CloudsView {
     if (!positions) return;
     const geometry = new THREE.BufferGeometry().setAttribute('position', new THREE.BufferAttribute(positions, 3));
     const material = new THREE.PointsMaterial({ size: station < 0 ? 2 : 1.6, sizeAttenuation: false });
-    if (station < 0) {
-      colorByHeight(geometry, positions);
+    if (ends) {
+      colorByHeight(geometry, positions, ends);
       material.vertexColors = true;
     } else {
       const [r, g, b] = viridis(0.35 + 0.6 * ((station * 0.381966) % 1));

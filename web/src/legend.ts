@@ -1,35 +1,53 @@
-import { html, svg, type TemplateResult } from 'lit';
+import { html, noChange, svg, type TemplateResult } from 'lit';
 import type { Store } from './store';
 import { css, MARK_COLORS, type Rgb, SEVERAL_SETUPS, setupColor } from './colors';
 import { icon } from './icons';
 import { number, t } from './messages';
-import { type Legend, shade } from './mesh_colors';
+import { type Ends, type Legend, shade } from './mesh_colors';
 
-/** An end of the scale, which can be written over; `factor` is from the unit of the mesh to that of the legend. */
-function end(app: Store, scale: Legend, at: 0 | 1, factor: number, digits: number): TemplateResult {
+/** A scale as it is shown: `factor` is from the unit of its values to that of the title. */
+interface Shown {
+  title: string;
+  scale: Legend;
+  factor: number;
+  digits: number;
+  /** The colour at a share of the scale. */
+  color: (share: number) => Rgb;
+  /** Whether somebody chose its ends. */
+  own: boolean;
+  /** Chooses them; null takes the usual ones. */
+  setEnds: (ends: Ends | null) => void;
+}
+
+/** An end of the scale, which can be written over. */
+function end({ scale, factor, digits, setEnds }: Shown, at: 0 | 1): TemplateResult {
   const ends: [number, number] = [scale.low, scale.high];
+  const name = at === 0 ? 'legend-low' : 'legend-high';
   const set = (event: Event) => {
     const input = event.target as HTMLInputElement;
     const value = input.valueAsNumber / factor;
     const wanted: [number, number] = at === 0 ? [value, ends[1]] : [ends[0], value];
-    if (wanted[0] < wanted[1]) app.viewer.setEnds(wanted);
-    app.requestUpdate();
+    if (wanted[0] < wanted[1]) setEnds(wanted);
     input.value = ((wanted[0] < wanted[1] ? value : ends[at]) * factor).toFixed(digits);
   };
+  // What is being written stays, although the usual ends of a live picture change.
+  const focused = document.activeElement;
+  const written = focused instanceof HTMLInputElement && focused.name === name;
   return html`<input
     class="num"
-    name=${at === 0 ? 'legend-low' : 'legend-high'}
+    name=${name}
     type="number"
     step="any"
     aria-label=${t(at === 0 ? 'legend.low' : 'legend.high')}
     title=${t(at === 0 ? 'legend.low' : 'legend.high')}
-    .value=${(ends[at] * factor).toFixed(digits)}
+    .value=${written ? noChange : (ends[at] * factor).toFixed(digits)}
     @change=${set}
   />`;
 }
 
 /** A colour scale whose histogram stands on it, and whose ends can be chosen. */
-function legend(app: Store, title: string, scale: Legend, factor: number, digits: number): TemplateResult {
+export function legend(shown: Shown): TemplateResult {
+  const { title, scale, factor, digits, color, own, setEnds } = shown;
   const most = Math.max(1, ...scale.counts);
   const bins = scale.counts.length;
   const width = 280 / bins;
@@ -38,9 +56,9 @@ function legend(app: Store, title: string, scale: Legend, factor: number, digits
     <svg viewBox="0 0 280 68" preserveAspectRatio="none" aria-hidden="true">
       ${scale.counts.map((count, i) => {
         const height = 58 * Math.sqrt(count / most);
-        const color = css(shade(scale, scale.band ? (i + 0.5) / bins : bins > 1 ? i / (bins - 1) : 0));
-        return svg`<rect x=${i * width} y=${60 - height} width=${width + 0.4} height=${height} fill=${color} />
-          <rect x=${i * width} y="61.500" width=${width + 0.4} height="6.500" fill=${color} />`;
+        const fill = css(color(scale.band ? (i + 0.5) / bins : bins > 1 ? i / (bins - 1) : 0));
+        return svg`<rect x=${i * width} y=${60 - height} width=${width + 0.4} height=${height} fill=${fill} />
+          <rect x=${i * width} y="61.500" width=${width + 0.4} height="6.500" fill=${fill} />`;
       })}
       ${(scale.band ?? []).map((limit) => {
         const x = (280 * (limit - scale.low)) / (scale.high - scale.low);
@@ -48,24 +66,21 @@ function legend(app: Store, title: string, scale: Legend, factor: number, digits
       })}
     </svg>
     <div class="legend-range num">
-      ${end(app, scale, 0, factor, digits)}
+      ${end(shown, 0)}
       ${
-        app.viewer.hasOwnEnds
+        own
           ? html`<button
               class="icon-btn"
               id="usual-ends"
               title=${t('legend.usual')}
               aria-label=${t('legend.usual')}
-              @click=${() => {
-                app.viewer.setEnds(null);
-                app.requestUpdate();
-              }}
+              @click=${() => setEnds(null)}
             >
               ${icon('again')}
             </button>`
           : html`<span>${number(((scale.low + scale.high) / 2) * factor, digits)}</span>`
       }
-      ${end(app, scale, 1, factor, digits)}
+      ${end(shown, 1)}
     </div>
     ${scale.beyond > 0.001 ? html`<p class="quiet">${t('surface.beyond', { share: number(100 * scale.beyond, 1) })}</p>` : ''}
   </figure>`;
@@ -100,10 +115,19 @@ export function surfaceLegend(app: Store): TemplateResult | string {
       )}
     </div>`;
   if (!scale) return '';
-  if (coloring === 'sigma')
-    return html`<div class="chip">${legend(app, t('surface.sigmaLegend'), scale, 1000, 1)}</div>`;
-  if (coloring === 'views') return html`<div class="chip">${legend(app, t('surface.viewsLegend'), scale, 1, 0)}</div>`;
-  if (coloring === 'deviation')
-    return html`<div class="chip">${legend(app, t('surface.deviationLegend'), scale, 1, 2)}</div>`;
+  const { viewer } = app;
+  const shown = (title: string, factor: number, digits: number) => {
+    const setEnds = (ends: Ends | null) => {
+      viewer.setEnds(ends);
+      app.requestUpdate();
+    };
+    const color = (share: number) => shade(scale, share);
+    return html`<div class="chip">
+      ${legend({ title, scale, factor, digits, color, own: viewer.hasOwnEnds, setEnds })}
+    </div>`;
+  };
+  if (coloring === 'sigma') return shown(t('surface.sigmaLegend'), 1000, 1);
+  if (coloring === 'views') return shown(t('surface.viewsLegend'), 1, 0);
+  if (coloring === 'deviation') return shown(t('surface.deviationLegend'), 1, 2);
   return '';
 }

@@ -1,5 +1,6 @@
 import type { Store } from './store';
 import { LiveView } from './live_view';
+import { type Ends, type Legend, scaleOfHeights } from './mesh_colors';
 import type { Layer } from './session';
 
 /** What the live preview can show, in the order of the choice. */
@@ -19,6 +20,11 @@ export class LiveStage {
   readonly view = new LiveView();
   /** When the last picture came, ms. */
   private drawnAt = 0;
+
+  /** The heights of the points, mm above the table, as the picture is coloured; null without points. */
+  heights: Legend | null = null;
+  /** The ends that were chosen for them. */
+  ownEnds: Ends | null = null;
 
   /** The largest contrast of fringes since the focus is turned. */
   peak = 0;
@@ -78,8 +84,19 @@ export class LiveStage {
   }
   draw(picture: ArrayBuffer): void {
     this.drawnAt = Date.now();
-    if (this.view.draw(picture) && this.view.positions) this.app.viewer.setCloud(-1, this.view.positions.slice());
+    if (this.view.draw(picture)) this.drawPoints();
     this.peak = Math.max(this.peak, this.view.figures?.contrast ?? 0);
+    this.app.requestUpdate();
+  }
+  private drawPoints(): void {
+    const { positions } = this.view;
+    if (!positions) return;
+    this.heights = scaleOfHeights(positions, this.ownEnds);
+    this.app.viewer.setCloud(-1, positions.slice(), [this.heights.low, this.heights.high]);
+  }
+  setEnds(ends: Ends | null): void {
+    this.ownEnds = ends;
+    this.drawPoints();
     this.app.requestUpdate();
   }
   /** The preview begins with the step Live, as soon as nothing else runs. */

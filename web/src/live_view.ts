@@ -1,6 +1,5 @@
 import { unpack, valuesOf } from './arrays';
 import { type Rgb, viridis } from './colors';
-import { type Ends, endsOfHeights } from './mesh_colors';
 import type { Layer } from './session';
 
 /** The figures that arrive with a live picture. */
@@ -82,8 +81,6 @@ export class LiveView {
   figures: LiveFigures | null = null;
   histogram = new Uint32Array(64);
   positions: Float32Array | null = null;
-  /** The lowest and the highest of the points, mm above the table. */
-  heights: Ends = [0, 0];
   /** Whether the dark and the saturated pixels are marked. */
   marks = true;
   /** Whether the picture is enlarged until its pixels are seen. */
@@ -104,10 +101,7 @@ export class LiveView {
     this.figures = valuesOf<LiveFigures>(message);
     this.histogram = arrays.get('histogram') as Uint32Array<ArrayBuffer>;
     this.positions = (arrays.get('positions') as Float32Array | undefined) ?? null;
-    if (this.positions) {
-      this.heights = endsOfHeights(this.positions);
-      return true;
-    }
+    if (this.positions) return true;
     const { width, height, layer } = this.figures;
     const picture = arrays.get('picture') as Uint8Array;
     if (layer === 'none' || layer === 'points' || width === 0) return false;

@@ -123,22 +123,28 @@ export function vertexColors(arrays: MeshArrays, coloring: Coloring, scale: Lege
   return colors;
 }
 
-const heightsOf = (positions: Float32Array): Float32Array => positions.filter((_, i) => i % 3 === 2);
-/** The heights at the ends of the scale of points. */
-export function endsOfHeights(positions: Float32Array): Ends {
-  const heights = heightsOf(positions);
-  return [quantile(heights, 0), quantile(heights, 1)];
+/** The heights of points above the turntable as a scale with its histogram: all of them, or between the ends that were chosen. */
+export function scaleOfHeights(positions: Float32Array, ends: Ends | null): Legend {
+  const heights = positions.filter((_, i) => i % 3 === 2);
+  const [low, high] = ends ?? [quantile(heights, 0), quantile(heights, 1)];
+  const counts = new Array<number>(BINS).fill(0);
+  let beyond = 0;
+  for (const height of heights) {
+    const share = (height - low) / (high - low || 1);
+    // The highest of a sample is a little below the highest of all.
+    if (ends && (share < 0 || share > 1)) beyond++;
+    const bin = Math.min(BINS - 1, Math.max(0, Math.floor(share * BINS)));
+    if (!ends || (share >= 0 && share <= 1)) counts[bin] = (counts[bin] as number) + 1;
+  }
+  return { low, high, counts, beyond: beyond / Math.max(1, heights.length), band: null };
 }
 /** The colour at a share of that scale: its dark end would not be seen on the dark picture. */
-export const heightColor = (share: number): Rgb => viridis(0.25 + 0.7 * share);
+export const heightColor = (share: number): Rgb => viridis(0.25 + 0.7 * Math.min(1, Math.max(0, share)));
 
 /** Colours points by their height above the turntable. */
-export function colorByHeight(geometry: THREE.BufferGeometry, positions: Float32Array): void {
-  const heights = heightsOf(positions);
-  const [low, high] = endsOfHeights(positions);
+export function colorByHeight(geometry: THREE.BufferGeometry, positions: Float32Array, [low, high]: Ends): void {
   const colors = new Float32Array(positions.length);
-  heights.forEach((height, i) => {
-    linear(heightColor((height - low) / (high - low || 1))).toArray(colors, 3 * i);
-  });
+  for (let i = 0; i < positions.length; i += 3)
+    linear(heightColor(((positions[i + 2] as number) - low) / (high - low || 1))).toArray(colors, i);
   geometry.setAttribute('color', new THREE.BufferAttribute(colors, 3));
 }

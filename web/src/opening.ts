@@ -1,28 +1,15 @@
-import type { Store } from './store';
+import { type Dropped, filesOf, sortOut } from './dropped';
 import { accepted, formatOf, REFERENCE_FORMATS, SURFACE_FORMATS } from './file_formats';
 import type { Inspecting } from './inspecting';
-import { number, t } from './messages';
+import { t } from './messages';
 import { freeName, type Projects } from './projects';
-import { requireSendable } from './session';
-import { MOST_FILES, type PlacedFile, zipOf } from './zip_files';
+import { CONFLICT, Refusal, requireSendable } from './session';
+import type { Store } from './store';
+import { type PlacedFile, zipOf } from './zip_files';
 
 const OPENABLE = accepted([...SURFACE_FORMATS, 'zip', 'toml', 'csv']);
 
 const stem = (name: string): string => name.replace(/\.[^.]*$/, '').slice(0, 50) || 'File';
-
-/** The files below an entry that was dropped. */
-async function below(entry: FileSystemEntry, folder: string): Promise<PlacedFile[]> {
-  const path = `${folder}${entry.name}`;
-  if (entry.isFile)
-    return [{ path, file: await new Promise<File>((done, fail) => (entry as FileSystemFileEntry).file(done, fail)) }];
-  const reader = (entry as FileSystemDirectoryEntry).createReader();
-  const found: PlacedFile[] = [];
-  for (;;) {
-    const some = await new Promise<FileSystemEntry[]>((done, fail) => reader.readEntries(done, fail));
-    if (some.length === 0) return found;
-    for (const one of some) if (!one.name.startsWith('.')) found.push(...(await below(one, `${path}/`)));
-  }
-}
 
 /** The step that shows what arrived. */
 type Arrived = 'surface' | 'scan' | 'inspect';
@@ -34,7 +21,7 @@ export class Opening {
   /** Share of a file that has been sent; null while none is. */
   sent: number | null = null;
   /** The job that reads a file into a project of its own. */
-  private pending: { job: number; name: string; step: Arrived } | null = null;
+  private pending: { job: number; name: string; step: Arrived; then: () => Promise<void> } | null = null;
 
   constructor(
     private readonly app: Store,
@@ -53,17 +40,26 @@ export class Opening {
     this.over = over;
     this.app.requestUpdate();
   }
+  /** Taken in any case: where nothing can be opened, the browser would leave the page for the file. */
   private onOver(event: DragEvent): void {
-    if (!event.dataTransfer?.types.includes('Files') || !this.app.session.state) return;
+    const { dataTransfer } = event;
+    if (!dataTransfer?.types.includes('Files')) return;
     event.preventDefault();
-    this.setOver(true);
+    if (this.app.session.link === 'open') this.setOver(true);
+    else dataTransfer.dropEffect = 'none';
   }
   private async onDrop(event: DragEvent): Promise<void> {
     if (!event.dataTransfer?.types.includes('Files')) return;
     event.preventDefault();
     this.setOver(false);
-    const entries = [...event.dataTransfer.items].map((item) => item.webkitGetAsEntry()).filter((one) => one !== null);
-    await this.open((await Promise.all(entries.map((entry) => below(entry, '')))).flat());
+    if (this.app.session.link !== 'open') return;
+    // What is opened, or why it is not, would stand behind a dialog.
+    for (const dialog of document.querySelectorAll<HTMLDialogElement>('dialog[open]')) dialog.close();
+    try {
+      await this.open(await filesOf(event.dataTransfer));
+    } catch (error) {
+      this.app.say(error);
+    }
   }
   /** Lets a person choose files, or a folder. */
   choose(folder: boolean): void {
@@ -82,30 +78,45 @@ export class Opening {
   async open(files: readonly PlacedFile[]): Promise<void> {
     const { app } = this;
     if (files.length === 0) return;
-    if (app.session.watches) return app.say(t('app.watching'));
+    if (app.session.watches) return app.say(new Refusal(CONFLICT, t('app.watching')));
     if (app.occupied) return app.say(t('open.busy'));
-    const named = (pattern: RegExp) => files.find(({ path }) => pattern.test(path));
     try {
-      const scan = named(/(^|\/)scan\.toml$/i);
-      const zip = named(/\.zip$/i);
-      const surface = files.find(({ path }) => formatOf(path, SURFACE_FORMATS));
-      const rig = named(/\.toml$/i);
-      if (scan) {
-        const folder = scan.path.split('/').at(-2);
-        if (files.length > MOST_FILES) throw new Error(t('open.many', { files: number(files.length) }));
-        requireSendable(files.reduce((sum, { file }) => sum + file.size, 0));
-        await this.own(await zipOf(files), folder ?? 'scan.toml', 'zip', folder ?? 'Scan', 'scan');
-      } else if (zip) await this.own(zip.file, zip.file.name, 'zip', stem(zip.file.name), 'scan');
-      else if (surface) await this.surface(surface.file);
-      else if (rig) await this.rig(rig.file, named(/\.csv$/i)?.file);
-      else app.say(t('open.unknown', { name: files[0]?.file.name ?? '' }));
+      await this.take(await sortOut(files));
     } catch (error) {
       app.say(error);
     }
     this.sent = null;
     app.requestUpdate();
   }
+  private async take(dropped: Dropped): Promise<void> {
+    const { kind } = dropped;
+    if (kind === 'scan') {
+      const { name, files } = dropped;
+      requireSendable(files.reduce((sum, { file }) => sum + file.size, 0));
+      await this.own(await zipOf(files), name || 'scan.toml', 'zip', name || 'Scan', 'scan');
+    } else if (kind === 'zip') await this.own(dropped.file, dropped.file.name, 'zip', stem(dropped.file.name), 'scan');
+    else if (kind === 'rig') await this.rig(dropped.file, dropped.covariance);
+    else if (kind === 'plan') await this.plan(dropped.file);
+    else if (!dropped.reference && !dropped.plan) await this.surface(dropped.file);
+    else await this.part(dropped.file, dropped.reference, dropped.plan);
+  }
 
+  /** A part with what it is compared with, and the plan of its inspection. */
+  private async part(file: File, reference?: File, plan?: File): Promise<void> {
+    const { inspecting } = this;
+    const format = formatOf(file.name, SURFACE_FORMATS) as string;
+    await this.own(file, file.name, format, stem(file.name), 'inspect', async () => {
+      if (plan) await inspecting.open(plan);
+      if (reference) await inspecting.send(reference);
+    });
+  }
+  /** A plan belongs to the part that is open. */
+  private async plan(file: File): Promise<void> {
+    const { app } = this;
+    if (!app.canOpen('inspect')) throw new Error(t('open.planAlone', { name: file.name }));
+    app.go('inspect');
+    await this.inspecting.open(file);
+  }
   private async surface(file: File): Promise<void> {
     const { app } = this;
     const format = formatOf(file.name, SURFACE_FORMATS) as string;
@@ -136,20 +147,34 @@ export class Opening {
   }
 
   /** Opens a file in a project that is made for it. */
-  private async own(file: Blob, fileName: string, format: string, wanted: string, step: Arrived): Promise<void> {
+  private async own(
+    file: Blob,
+    fileName: string,
+    format: string,
+    wanted: string,
+    step: Arrived,
+    then?: () => Promise<void>,
+  ): Promise<void> {
     const { app } = this;
     requireSendable(file.size);
     const name = this.freeName(wanted);
     await app.session.command('create-project', { name, stations: 8, devices: true });
     try {
-      await this.arrive(file, fileName, format, name, step);
+      await this.arrive(file, fileName, format, name, step, then);
     } catch (error) {
       await app.session.command('discard-project', { name }).catch(() => undefined); // the first error says more
       throw error;
     }
   }
   /** Sends a file to a project without a surface and a scan. */
-  private async arrive(file: Blob, fileName: string, format: string, name: string, step: Arrived): Promise<void> {
+  private async arrive(
+    file: Blob,
+    fileName: string,
+    format: string,
+    name: string,
+    step: Arrived,
+    then?: () => Promise<void>,
+  ): Promise<void> {
     const { app } = this;
     this.sent = 0;
     await app.session.send(file, (share) => {
@@ -159,13 +184,13 @@ export class Opening {
     const arguments_ = { format, bytes: file.size, name: fileName.slice(0, 120) };
     const { job } = await app.session.command<{ job: number }>('open-file', arguments_);
     this.sent = null;
-    this.pending = { job, name, step };
+    this.pending = { job, name, step, then: then ?? (async () => undefined) };
     this.follow();
   }
   /** Makes a file the surface of the open project, which has none, and inspects it. */
   async into(file: File, format: string): Promise<void> {
     requireSendable(file.size);
-    await this.arrive(file, file.name, format, this.app.project.name, 'inspect');
+    await this.arrive(file, file.name, format, this.app.project.name, 'inspect', () => this.inspecting.run());
   }
 
   /** Goes to what was opened when it is there; what could not be read leaves no project behind. */
@@ -176,7 +201,7 @@ export class Opening {
     this.pending = null;
     if (job.state === 'done') {
       app.go(pending.step);
-      if (pending.step === 'inspect') void this.inspecting.run();
+      void pending.then();
     } else void app.session.command('discard-project', { name: pending.name }).catch((error) => app.say(error));
   }
 }

@@ -38,6 +38,9 @@ export class Projects {
   /** Whether the project that opens next was created here. */
   private created = false;
 
+  /** The name that the open project gets here. */
+  private renamed = '';
+
   constructor(private readonly app: Store) {}
 
   /** A kept rig, where there is one: most projects use the rig that stands there. */
@@ -67,6 +70,12 @@ export class Projects {
     this.created = false;
     return created;
   }
+  /** Whether the open project has only got another name; asked once. */
+  takeRenamed(name: string): boolean {
+    const { renamed } = this;
+    if (name) this.renamed = '';
+    return name !== '' && name === renamed;
+  }
   async open(name: string): Promise<void> {
     const { app } = this;
     if (app.state.project?.name === name)
@@ -88,7 +97,9 @@ export class Projects {
   }
   async rename(name: string): Promise<void> {
     const to = await this.app.asking.write(t('home.renameAsk', { name }), name, t('home.rename'));
-    if (to && to !== name) await this.app.command('rename-project', { name, to });
+    if (!to || to === name) return;
+    if (name === this.app.state.project?.name) this.renamed = to;
+    await this.app.command('rename-project', { name, to });
   }
   async duplicate(name: string): Promise<void> {
     const copy = await this.app.asking.write(

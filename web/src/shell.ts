@@ -64,7 +64,7 @@ async function takeOver(app: App): Promise<void> {
   }
 }
 
-/** Who operates, a lost connection, and what went wrong. */
+/** Who operates, a lost connection, what went wrong, and what is held over the page. */
 export function notices(app: App): TemplateResult {
   const lost = app.session.link === 'lost';
   // It stands in the refusal, where there is one.
@@ -90,5 +90,6 @@ export function notices(app: App): TemplateResult {
           </div>`
         : ''
     }
+    ${app.opening.over ? html`<div class="drop" popover="manual">${t('open.drop')}</div>` : ''}
   </div>`;
 }

@@ -1,5 +1,5 @@
 import type { VerdictClause } from './types';
-import { isMessage, number, t } from './messages';
+import { decimalMark, isMessage, number, t } from './messages';
 import { capitalized } from './ui';
 
 type Value = VerdictClause['values'][string];
@@ -15,7 +15,8 @@ const SHARES = new Set(['share', 'poor_share', 'wanted_share', 'of_half_width'])
 
 function valueText(name: string, value: Value): string {
   if (value === null) return '·';
-  if (Array.isArray(value)) return `(${value.map((one) => number(one, 2)).join(', ')})`;
+  // A comma between numbers with a comma would read as one more digit.
+  if (Array.isArray(value)) return `(${value.map((one) => number(one, 2)).join(decimalMark() === ',' ? '; ' : ', ')})`;
   if (typeof value === 'string') return name === 'unit' && value === 'degrees' ? '°' : value;
   if (SHARES.has(name)) return percent(value);
   if (SIGNED.has(name)) return `${value < 0 ? '−' : '+'}${number(Math.abs(value), 4)}`;

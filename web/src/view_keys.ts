@@ -19,11 +19,13 @@ interface Acts {
   moved(): void;
   /** A clicking tool is used in the middle of the picture. */
   clicked(at: Point, keys: ModifierKeys): void;
+  /** No tool is used: what is seen there is brought nearer. */
+  approached(at: Point): void;
   /** A drawing tool is used there: its outline. */
   outlined(outline: Point[], keys: ModifierKeys): void;
 }
 
-/** The 3D picture by keyboard: arrows turn, Shift and arrows move, Page keys zoom; Enter uses the tool in the middle. */
+/** The 3D picture by keyboard: arrows turn, Shift and arrows move, Page keys zoom; Enter uses the tool in the middle, or brings nearer what is seen there. */
 export function listenToKeys(canvas: HTMLCanvasElement, camera: ViewCamera, settings: Settings, acts: Acts): void {
   const move = ({ key, shiftKey }: KeyboardEvent): boolean => {
     const [x, y] = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] }[key] ?? [0, 0];
@@ -36,11 +38,12 @@ export function listenToKeys(canvas: HTMLCanvasElement, camera: ViewCamera, sett
   };
   const use = ({ key, shiftKey: shift, ctrlKey, metaKey }: KeyboardEvent): boolean => {
     const { tool, brush } = settings;
-    if (key !== 'Enter' || !(DRAWING.has(tool) || CLICKING.has(tool))) return false;
+    if (key !== 'Enter') return false;
     const keys = { shift, ctrl: ctrlKey || metaKey };
     const middle: Point = [canvas.clientWidth / 2, canvas.clientHeight / 2];
     if (CLICKING.has(tool)) acts.clicked(middle, keys);
-    else acts.outlined(around(middle, brush), keys);
+    else if (DRAWING.has(tool)) acts.outlined(around(middle, brush), keys);
+    else acts.approached(middle);
     return true;
   };
   canvas.addEventListener('keydown', (event) => {

@@ -10,11 +10,13 @@ const AXES = [
   ['y', new THREE.Vector3(0, 1, 0)],
   ['z', new THREE.Vector3(0, 0, 1)],
 ] as const;
-/** Length of an axis: it ends outside of the cube. */
+/** Length of an axis from the middle of the cube, what is seen of it outside of the cube at least, and where its letter follows. */
 const ARM = 40;
-const CENTER = 58;
-/** An axis that is seen shorter than this share of its length is not drawn. */
+const LEAST_ARM = 7;
+const LETTER = 9;
+/** An axis that is seen shorter than this share of its length is not drawn: its letter would stand on a word of the cube. */
 const SHORTEST = 0.3;
+const CENTER = 58;
 const WIDEST_BAR_PX = 150;
 /** In a picture up to this width, pixels, the views stand beside the bar, and take so much of it. */
 const NARROW_PX = 900;
@@ -31,6 +33,18 @@ export function roundLength(most: number): number {
 
 const length = (mm: number): string => (mm < 1 ? `${Number((1000 * mm).toPrecision(1))} µm` : `${mm} mm`);
 
+/**
+ * How far the outline of the cube is from its middle in a direction of the picture, pixels. It has three pairs of parallel
+ * sides, one along each axis as it is seen; the reach of the cube across a side is the sum of its half edges there.
+ */
+function outlineOf(seen: readonly THREE.Vector3[], u: number, v: number): number {
+  const across = seen.map(({ x, y }) => {
+    const reach = seen.reduce((sum, other) => sum + Math.abs(other.x * y - other.y * x), 0);
+    return (HALF * reach) / Math.max(1e-9, Math.abs(u * y - v * x));
+  });
+  return Math.min(...across);
+}
+
 /** What stands on the 3D picture and follows the eye: a cube with the axes of the object, and a bar of known length. */
 export class ViewMarks {
   readonly element = svgElement('svg', { class: 'view-marks', 'aria-hidden': 'true' });
@@ -43,14 +57,12 @@ export class ViewMarks {
   private readonly bar = svgElement('path', { class: 'bar' });
   private readonly label = svgElement('text', { class: 'bar', x: String(BAR[0]), y: String(BAR[1] - 8) });
   private readonly cube: ViewCube;
-  private readonly behind = svgElement('g', {});
-  private readonly before = svgElement('g', {});
 
   /** `looked` is called with where the eye is to stand. */
   constructor(looked: (from: Triple) => void) {
     this.cube = new ViewCube(CENTER, looked);
-    const names = this.arms.map(({ text }) => text);
-    this.element.append(this.behind, this.cube.group, this.before, ...names, this.bar, this.label);
+    const arms = this.arms.flatMap(({ line, text }) => [line, text]);
+    this.element.append(...arms, this.cube.group, this.bar, this.label);
   }
 
   /** `mmPerPixel` and `widthPx` are those of the picture. */
@@ -58,20 +70,20 @@ export class ViewMarks {
     const turn = camera.quaternion.clone().invert();
     const seen = AXES.map(([, axis]) => axis.clone().applyQuaternion(turn));
     this.cube.update(turn);
-    for (const [i, { x, y, z }] of seen.entries()) {
+    for (const [i, { x, y }] of seen.entries()) {
       const { line, text } = this.arms[i] as { line: SVGElement; text: SVGElement };
-      // What points at the eye, or away from it, would stand on a word of the cube.
-      for (const one of [line, text]) one.toggleAttribute('hidden', Math.hypot(x, y) < SHORTEST);
-      // The cube covers what points away from the eye.
-      const group = z > 0 ? this.before : this.behind;
-      if (line.parentNode !== group) group.append(line);
-      const begin = z > 0 ? HALF : 0;
-      line.setAttribute('x1', (CENTER + begin * x).toFixed(1));
-      line.setAttribute('y1', (CENTER - begin * y).toFixed(1));
-      line.setAttribute('x2', (CENTER + ARM * x).toFixed(1));
-      line.setAttribute('y2', (CENTER - ARM * y).toFixed(1));
-      text.setAttribute('x', (CENTER + (ARM + 9) * x).toFixed(1));
-      text.setAttribute('y', (CENTER - (ARM + 9) * y).toFixed(1));
+      const size = Math.hypot(x, y);
+      for (const one of [line, text]) one.toggleAttribute('hidden', size < SHORTEST);
+      if (size < SHORTEST) continue;
+      const place = (one: SVGElement, far: number, [left, top]: readonly [string, string]) => {
+        one.setAttribute(left, (CENTER + (far * x) / size).toFixed(1));
+        one.setAttribute(top, (CENTER - (far * y) / size).toFixed(1));
+      };
+      const begin = outlineOf(seen, x / size, y / size);
+      const end = Math.max(ARM * size, begin + LEAST_ARM);
+      place(line, begin, ['x1', 'y1']);
+      place(line, end, ['x2', 'y2']);
+      place(text, end + LETTER, ['x', 'y']);
     }
     const mmPerUnit = mmPerPixel * grownOf(this.element);
     const room = widthPx > NARROW_PX ? WIDEST_BAR_PX : Math.min(WIDEST_BAR_PX, widthPx - VIEWS_PX);

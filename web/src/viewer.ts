@@ -121,16 +121,18 @@ export class Viewer {
       outlined: (stroke: Point[], keys: ModifierKeys) =>
         events.outlined(this.view.outlineOf(stroke), this.through, keys),
       clicked: (point: Point, keys: ModifierKeys) => this.picks.clicked(point, keys),
+      approached: (point: Point) => this.approach(point),
+      moved: () => this.move(),
     };
     new PointerStrokes(this.canvas, this.overlay, this, acts);
-    listenToKeys(this.canvas, this.view, this, { ...acts, moved: () => this.move() });
+    listenToKeys(this.canvas, this.view, this, acts);
     this.canvas.addEventListener('dblclick', ({ offsetX, offsetY }) => this.approach([offsetX, offsetY]));
     this.resize();
   }
 
   /** Points of a station while a scan grows. */
-  setCloud(station: number, positions: Float32Array | null): void {
-    this.clouds.set(station, positions);
+  setCloud(station: number, positions: Float32Array | null, ends: Ends | null = null): void {
+    this.clouds.set(station, positions, ends);
     this.draw();
   }
   clearClouds(): void {
@@ -336,10 +338,9 @@ export class Viewer {
     if (!this.supported) return;
     const rig = this.rig.box();
     const part = this.showsReference ? this.reference.box : this.surface.box;
-    this.view.frame(rig ?? part, rig ? 0.78 : 1.12, direction);
+    this.view.frame(rig ?? part, rig ? 0.78 : 1.22, direction); // beside the legend and above the views
     this.draw();
   }
-
   setTool(tool: Tool): void {
     this.tool = tool;
     if (!this.supported) return;
@@ -347,7 +348,6 @@ export class Viewer {
     this.canvas.dataset.tool = tool;
     this.clearMeasurement();
   }
-
   /** Drops points that were clicked and make nothing yet. */
   clearMeasurement(): void {
     this.picks.forget();

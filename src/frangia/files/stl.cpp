@@ -100,8 +100,8 @@ Corners ascii_corners(const std::filesystem::path& path, std::string_view text) 
       open = !open;        // "end solid" ends the line with its name
       reader.skip_line();  // an optional name
     } else {
-      reader.fail(fmt::format(
-          "expected '{}', found {}", open ? "facet' or 'endsolid" : "solid", in_quotes(word)));
+      reader.fail(open ? fmt::format("expected 'facet' or 'endsolid', found {}", in_quotes(word))
+                       : fmt::format("expected '{}', found {}", "solid", in_quotes(word)));
     }
   }
 }

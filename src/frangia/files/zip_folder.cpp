@@ -48,7 +48,8 @@ bool is_hidden(const std::string& name) {
   });
 }
 
-/// The folder of the only entry with a file name, with its slash; empty for the top.
+/// The folder of the only entry with a file name that lies in no folder of another one, with its
+/// slash; empty for the top.
 std::string folder_with(const std::filesystem::path& archive,
                         const std::vector<ZipEntry>& entries,
                         const std::string& marker) {
@@ -60,6 +61,13 @@ std::string folder_with(const std::filesystem::path& archive,
   }
   if (folders.empty())
     refuse_archive(archive, fmt::format("holds no {}; choose another archive", marker));
+  // A scan holds a second scan.toml in its folder `capture`.
+  const std::vector<std::string> all = folders;
+  std::erase_if(folders, [&](const std::string& folder) {
+    return std::any_of(all.begin(), all.end(), [&](const std::string& outer) {
+      return outer.size() < folder.size() && folder.starts_with(outer);
+    });
+  });
   if (folders.size() > 1) {
     refuse_archive(
         archive,

@@ -18,12 +18,13 @@ void zip_folder(const std::filesystem::path& folder,
                 const Run& run = {});
 
 /// Unpacks the entries of an archive that lie in the folder of its only file `marker`, such as
-/// "scan.toml", into a new folder, with their subfolders. Hidden entries are left out.
+/// "scan.toml", into a new folder, with their subfolders, which may hold others of that name.
+/// Hidden entries are left out.
 ///
-/// @errors   Error(Input) that names the archive: it is none, is damaged, has no or several files
-///          `marker`, or an entry whose name leads out of the folder; what is unpacked is larger
-///          than 64 MiB and than 200 times the archive; Error(File) when the folder cannot be
-///          written; Error(Cancelled)
+/// @errors   Error(Input) that names the archive: it is none, is damaged, has no or several folders
+///          with a file `marker`, or an entry whose name leads out of the folder; what is unpacked
+///          is larger than 64 MiB and than 200 times the archive; Error(File) when the folder
+///          cannot be written; Error(Cancelled)
 void unzip_folder(const std::filesystem::path& archive,
                   const std::string& marker,
                   const std::filesystem::path& folder,

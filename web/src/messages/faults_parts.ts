@@ -36,6 +36,12 @@ export const FAULTS_PARTS = {
   'fault.refusedCommand': ['refused {0}: {1}', 'lehnte {0} ab: {1}', 'ha rifiutato {0}: {1}'],
   'fault.atDegrees': [' at {0} degrees', ' bei {0} Grad', ' a {0} gradi'],
   'fault.devicesFound': ['{0} devices found', '{0} Geräte gefunden', '{0} dispositivi trovati'],
+  'fault.expectedFacet': [
+    "expected 'facet' or 'endsolid', found {0}",
+    'erwartet war „facet“ oder „endsolid“, gefunden wurde {0}',
+    'atteso «facet» o «endsolid», trovato {0}',
+  ],
+  'fault.theEnd': ['the end', 'das Ende', 'la fine'],
   'fault.anotherPlace': ['another place', 'eine andere Stelle', 'un altro posto'],
   'fault.innerCorners': ['inner corners', 'innere Ecken', 'angoli interni'],
   'fault.grayCode': ['Gray code', 'Gray-Code', 'codice Gray'],

@@ -305,9 +305,9 @@ export const FRAME = {
     "Nell'immagine: più vicino, più lontano",
   ],
   'keys.use': [
-    'On the picture: use the tool in its middle',
-    'Im Bild: Werkzeug in der Mitte benutzen',
-    "Nell'immagine: usa lo strumento al centro",
+    'On the picture: use the tool in its middle; without a tool, go nearer',
+    'Im Bild: Werkzeug in der Mitte benutzen; ohne Werkzeug näher heran',
+    "Nell'immagine: usa lo strumento al centro; senza strumento, avvicinarsi",
   ],
   'app.viewKeys': [
     'Arrow keys turn the picture, with Shift they move it; Page up and down zoom; Enter uses the tool in its middle.',

@@ -162,6 +162,22 @@ export const HOME = {
     '{name} ist kein Netz, keine Punktwolke, keine STEP-Datei, kein Scan-Ordner, Zip oder Aufbau.',
     '{name} non è una mesh, una nuvola di punti, un file STEP, una cartella di scansione, uno zip o un apparato.',
   ],
+  'open.several': [
+    'These are {count} things: {names}. Drop one at a time, or a mesh with its STEP file and inspection plan.',
+    'Das sind {count} Dinge: {names}. Einzeln ablegen, oder ein Netz mit seiner STEP-Datei und seinem Prüfplan.',
+    'Sono {count} cose: {names}. Rilasciarne una alla volta, o una mesh con il suo file STEP e il piano di ispezione.',
+  ],
+  'open.empty': ['{name} is empty.', '{name} ist leer.', '{name} è vuota.'],
+  'open.unreadable': [
+    '{name} cannot be read: it was moved or deleted, or is not yours to read.',
+    '{name} ist nicht lesbar: verschoben, gelöscht oder ohne Leserecht.',
+    '{name} non si può leggere: è stato spostato o eliminato, o mancano i permessi.',
+  ],
+  'open.planAlone': [
+    '{name} is a plan of inspection: open the part first, then drop it again.',
+    '{name} ist ein Prüfplan: Erst das Teil öffnen, dann erneut ablegen.',
+    '{name} è un piano di ispezione: aprire prima il pezzo, poi rilasciarlo di nuovo.',
+  ],
   'open.which': ['{name}: what is it for?', '{name}: Wofür ist das?', '{name}: a che cosa serve?'],
   'open.compare': ['Compare the surface with it', 'Fläche damit vergleichen', 'Confronta la superficie con esso'],
   'open.own': ['Open it on its own', 'Für sich öffnen', 'Aprilo da solo'],

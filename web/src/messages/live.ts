@@ -9,7 +9,7 @@ export const LIVE = {
   'live.status': ['Status', 'Status', 'Stato'],
   'live.depth': ['Depth', 'Tiefe', 'Profondità'],
   'live.points': ['Points', 'Punkte', 'Punti'],
-  'live.height': ['mm above the table', 'mm über dem Tisch', 'mm sopra la tavola'],
+  'live.height': ['Height above the table, mm', 'Höhe über dem Tisch, mm', 'Altezza sopra la tavola, mm'],
   'live.waiting': ['Waiting for the first picture', 'Warten auf das erste Bild', 'In attesa della prima immagine'],
   'live.rate': [
     '{frames} frames/s, {decodes} decoded/s',

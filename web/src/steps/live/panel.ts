@@ -5,7 +5,8 @@ import { css, type Rgb, viridis } from '../../colors';
 import { histogram } from '../../histogram';
 import { icon } from '../../icons';
 import { cyclic, STATUS_COLORS } from '../../live_view';
-import { heightColor } from '../../mesh_colors';
+import { legend } from '../../legend';
+import { type Ends, heightColor } from '../../mesh_colors';
 import { number, t } from '../../messages';
 import type { LivePattern } from '../../types';
 import { term } from '../../terms';
@@ -77,9 +78,14 @@ function scale(app: App, layer: LiveLayer, low: number, high: number): TemplateR
         >${t('live.dark')}</span
       ></span
     >`;
-  const { heights } = app.live.view;
   if (layer === 'phase') return ramp('−π', cyclic, 'π', 'rad');
-  if (layer === 'points') return ramp(number(heights[0], 1), heightColor, number(heights[1], 1), t('live.height'));
+  if (layer === 'points') {
+    const { heights, ownEnds } = app.live;
+    const setEnds = (ends: Ends | null) => app.live.setEnds(ends);
+    const title = t('live.height');
+    if (!heights) return '';
+    return legend({ title, scale: heights, factor: 1, digits: 1, color: heightColor, own: ownEnds !== null, setEnds });
+  }
   if (layer === 'depth') return ramp(number(low, 1), (share) => viridis(1 - share), number(high, 1), 'mm');
   return ramp(number(low), viridis, number(high), t('live.counts'));
 }

@@ -132,6 +132,28 @@ function newProject(app: App): TemplateResult {
   </form>`;
 }
 
+/** A menu closes when something in it is chosen, by Escape, and when the focus leaves it; the focus stays at its button. */
+function close(menu: HTMLDetailsElement): void {
+  menu.open = false;
+  menu.querySelector('summary')?.focus();
+}
+/** Before the button acts: a dialog that it opens gives the focus back to where it was then. */
+const closeMenu = {
+  capture: true,
+  handleEvent: (event: Event): void =>
+    close((event.currentTarget as HTMLElement).closest('details') as HTMLDetailsElement),
+};
+function closeByKey(event: KeyboardEvent): void {
+  const menu = event.currentTarget as HTMLDetailsElement;
+  if (event.key !== 'Escape' || !menu.open) return;
+  event.stopPropagation();
+  close(menu);
+}
+function closeBehind(event: FocusEvent): void {
+  const menu = event.currentTarget as HTMLDetailsElement;
+  if (!menu.contains(event.relatedTarget as Node | null)) menu.open = false;
+}
+
 function card(app: App, one: ProjectEntry): TemplateResult {
   const picture = app.projects.picture(one);
   const act = (key: MessageKey, name: string, run: () => Promise<void>) =>
@@ -146,9 +168,9 @@ function card(app: App, one: ProjectEntry): TemplateResult {
       <span class="tag ${one.has_surface ? 'on' : ''}">${t(state)}</span>
       ${one.notes ? html`<span class="notes quiet">${one.notes}</span>` : ''}
     </button>
-    <details class="menu">
+    <details class="menu" @keydown=${closeByKey} @focusout=${closeBehind}>
       <summary class="icon-btn" title=${t('home.more')} aria-label="${t('home.more')}: ${one.name}">⋯</summary>
-      <div class="acts">
+      <div class="acts" @click=${closeMenu}>
         ${act('home.rename', 'rename', () => app.projects.rename(one.name))}
         ${act('home.duplicate', 'duplicate', () => app.projects.duplicate(one.name))}
         ${act('home.notes', 'notes', () => app.projects.note(one))}
