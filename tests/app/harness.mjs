@@ -207,10 +207,10 @@ export async function openPage(browser, url, viewport = { width: 1440, height: 9
 /** The rules of axe that another theme can break. */
 export const COLORS = { runOnly: { type: 'rule', values: ['color-contrast', 'link-in-text-block'] } };
 
-/** Runs axe on the page as it is. */
-export async function axe(page, name, options = {}) {
+/** Runs axe on the page as it is, or on a part of it. */
+export async function axe(page, name, options = {}, part = 'html') {
   const found = await page
-    .evaluate(async (options) => (await window.axe.run(document, { resultTypes: ['violations'], ...options })).violations.map((one) => `${one.id}: ${one.nodes.map((node) => node.target).slice(0, 3)}`), options)
+    .evaluate(async ([options, part]) => (await window.axe.run(document.querySelector(part), { resultTypes: ['violations'], ...options })).violations.map((one) => `${one.id}: ${one.nodes.map((node) => node.target).slice(0, 3)}`), [options, part])
     .catch((error) => [`axe: ${error.message}`]);
   for (const violation of found) fail(`${name}: ${violation}`);
 }
