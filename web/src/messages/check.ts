@@ -5,6 +5,11 @@ export const CHECK = {
   'check.title': ['Before the scan', 'Vor dem Scan', 'Prima della scansione'],
   'check.run': ['Check everything now', 'Jetzt alles prüfen', 'Controlla tutto ora'],
   'check.answer': ['All answer.', 'Alle antworten.', 'Tutti rispondono.'],
+  'check.answered': [
+    'Answered when last used.',
+    'Antworteten beim letzten Gebrauch.',
+    "Hanno risposto all'ultimo uso.",
+  ],
   'check.untested': ['Not tested yet.', 'Noch nicht geprüft.', 'Non ancora provati.'],
   'check.uncalibrated': [
     'The rig is not calibrated.',

@@ -1,6 +1,7 @@
 import { html, type TemplateResult } from 'lit';
 import { type DeviceDraft, driverOf } from '../../arranging';
 import type { App } from '../../parts';
+import { devicesAnswer } from '../../rig_facts';
 import { worded } from '../../faults';
 import { icon } from '../../icons';
 import { type MessageKey, t } from '../../messages';
@@ -137,10 +138,8 @@ export function devices(app: App): RigStage {
   const draft =
     app.arranging.deviceDraft ?? (project.devices.length === 0 && !project.scan_begun ? draftOf(app) : null);
   const faulty = project.devices.some((device) => device.fault);
-  // Whatever was measured with them shows that they answer.
-  const used = Boolean(project.display || project.calibration || project.axis || project.scan_begun);
-  const answer = project.devices.length > 0 && project.devices.every((device) => device.answer);
-  const due = Boolean(draft) || faulty || (!answer && !used && !project.rig_adjustable && project.can_scan);
+  const answer = devicesAnswer(project);
+  const due = Boolean(draft) || faulty || (!answer && !project.rig_adjustable && project.can_scan);
   const body = html` ${
     draft
       ? choosing(app, draft)
@@ -185,12 +184,12 @@ export function devices(app: App): RigStage {
       ? t('live.fixed')
       : faulty
         ? t('rig.noAnswer')
-        : answer || used
-          ? t('check.answer')
+        : answer
+          ? t(answer === 'now' ? 'check.answer' : 'check.answered')
           : project.devices.length
             ? t('check.untested')
             : '',
-    state: faulty ? 'bad' : answer || used ? 'done' : '',
+    state: faulty ? 'bad' : answer ? 'done' : '',
     due,
     body,
   };

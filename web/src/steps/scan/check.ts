@@ -4,7 +4,7 @@ import type { StepName } from '../../step_names';
 import { icon } from '../../icons';
 import { number, t } from '../../messages';
 import { plain } from '../../ui';
-import { axisIsKnown, hasTable } from '../../rig_facts';
+import { axisIsKnown, devicesAnswer, hasTable } from '../../rig_facts';
 import { scanArguments, scanMayShowAxis } from './axis_of_scan';
 
 /** Fringes of less contrast are blurred or drowned in room light: half of what a sound rig shows. */
@@ -28,11 +28,13 @@ interface Line {
 function devices(app: App): Line {
   const all = app.project.devices;
   const faulty = all.find((device) => device.fault);
-  const tested = all.every((device) => device.answer || device.fault);
+  const answer = devicesAnswer(app.project);
   return {
     label: t('rig.devices'),
-    state: faulty ? 'bad' : tested ? 'done' : '',
-    text: faulty ? plain(faulty.fault) : t(tested ? 'check.answer' : 'check.untested'),
+    state: faulty ? 'bad' : answer === 'now' ? 'done' : '',
+    text: faulty
+      ? plain(faulty.fault)
+      : t(answer === 'now' ? 'check.answer' : answer ? 'check.answered' : 'check.untested'),
     ...(faulty ? { step: 'rig' as const } : {}),
   };
 }
