@@ -45,7 +45,7 @@ LARGE = {
     "first_picture_s": ("a mesh of 1.7 M triangles on screen, in a window of 1280 x 720", "s", "3 s"),
     "orbit_frames_per_s": ("while a hand orbits it, at a reduced level", "frames a second", "10"),
     "orbit_frame_ms": ("drawing such a frame", "ms", ""),
-    "detail_s": ("from the end of that to the picture of all its triangles", "s", "1 s"),
+    "detail_s": ("from the end of that to the finest picture, of 500 000 triangles", "s", "1 s"),
     "rest_frame_ms": ("drawing it at rest", "ms", ""),
     "lasso_ms": ("lasso over a tenth of the triangles, to its picture", "ms", "500 ms"),
     "undo_ms": ("undo of deleting them, to its picture", "ms", "400 ms"),
