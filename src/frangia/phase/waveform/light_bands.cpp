@@ -10,6 +10,7 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
+#include <Eigen/LU>
 #include <fmt/format.h>
 
 #include "frangia/core/parallel.h"
@@ -30,13 +31,16 @@ constexpr double kOneSided = 0.6;
 constexpr double kPriorBand = 0.1;       ///< standard deviation of a gain before the data
 constexpr double kMostBand = 1.0 / 3.0;  ///< largest gain of bands
 constexpr double kLeastBand = 0.003;     ///< rms that is corrected
-/// What bands leave of the squared residuals, over what gains of whole frames leave.
+/// What bands leave of the squared residuals, over what gains of whole frames leave, and over what
+/// these and displacements leave.
 constexpr double kLeftByBands = 0.7;
 constexpr int kBandRounds = 3;  ///< of the fit, which is linear in small gains
 
 /// Sampled pixels of a fringe pattern.
 struct BandSamples {
   Eigen::MatrixXd counts;    ///< frames x pixels
+  Eigen::MatrixXd across;    ///< change of the counts from column to column, frames x pixels
+  Eigen::MatrixXd down;      ///< the same from row to row
   std::vector<int> block;    ///< of rows, by pixel
   std::vector<bool> is_odd;  ///< of the columns, by pixel
   int rows_per_block = 1;
@@ -104,9 +108,22 @@ BandSamples sample_rows(const FrameStack& stack, const FringeFit& fringe) {
       odd_at_least(static_cast<double>(lit.size()) / static_cast<double>(kBandPixels)));
   out.counts.resize(fringe.model.rows(),
                     static_cast<Eigen::Index>((lit.size() + every - 1) / every));
+  out.across.resize(out.counts.rows(), out.counts.cols());
+  out.down.resize(out.counts.rows(), out.counts.cols());
   for (std::size_t i = 0; i < lit.size(); i += every) {
-    static_cast<void>(read(lit[i].x, lit[i].y));
-    out.counts.col(static_cast<Eigen::Index>(i / every)) = counts;
+    const auto [x, y, modulation] = lit[i];
+    const auto pixel = static_cast<Eigen::Index>(i / every);
+    static_cast<void>(read(x, y));
+    out.counts.col(pixel) = counts;
+    for (std::size_t k = 0; k < stack.frames.size(); ++k) {
+      const auto at = [&](int dx, int dy) {
+        return counts_at(
+            stack.frames[k], std::clamp(x + dx, 0, width - 1), std::clamp(y + dy, 0, height - 1));
+      };
+      const auto frame = static_cast<Eigen::Index>(k);
+      out.across(frame, pixel) = 0.5 * (at(1, 0) - at(-1, 0));
+      out.down(frame, pixel) = 0.5 * (at(0, 1) - at(0, -1));
+    }
     out.block.push_back(lit[i].y / out.rows_per_block);
     out.is_odd.push_back(lit[i].x % 2 == 1);
   }
@@ -197,6 +214,44 @@ double left_by(const BandSamples& samples, const FringeFit& fringe, const BlockG
   return sum;
 }
 
+/// What is left of the residuals of the odd columns where each frame has a gain and is displaced,
+/// as by a camera that shook: frame k changes by its displacement along the slopes of its counts.
+/// At the upper and lower border of a part this looks like bands.
+double left_by_motion(const BandSamples& samples,
+                      const FringeFit& fringe,
+                      const BlockGains& gains) {
+  constexpr Eigen::Index kUnknowns = 3;  // of each frame: gain, displacement across and down
+  const Eigen::Index frames = fringe.model.rows();
+  const auto counted = [&](std::size_t pixel) { return !gains.col(samples.block[pixel]).hasNaN(); };
+  const auto design = [&](std::size_t pixel) {
+    const auto column = static_cast<Eigen::Index>(pixel);
+    const Eigen::VectorXd shown = fringe.model * (fringe.fit * samples.counts.col(column));
+    Eigen::MatrixXd out(frames, kUnknowns * frames);
+    out << fringe.rest * shown.asDiagonal(), fringe.rest * samples.across.col(column).asDiagonal(),
+        fringe.rest * samples.down.col(column).asDiagonal();
+    return out;
+  };
+  Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(kUnknowns * frames, kUnknowns * frames);
+  Eigen::VectorXd right = Eigen::VectorXd::Zero(kUnknowns * frames);
+  for (std::size_t pixel = 0; pixel < samples.block.size(); ++pixel) {
+    if (samples.is_odd[pixel] || !counted(pixel)) continue;
+    const Eigen::MatrixXd of_pixel = design(pixel);
+    normal += of_pixel.transpose() * of_pixel;
+    right +=
+        of_pixel.transpose() * fringe.rest * samples.counts.col(static_cast<Eigen::Index>(pixel));
+  }
+  normal.diagonal() *= 1.0 + 1e-6;  // what all frames share leaves no residual
+  const Eigen::VectorXd found = normal.ldlt().solve(right);
+  double sum = 0.0;
+  for (std::size_t pixel = 0; pixel < samples.block.size(); ++pixel) {
+    if (!samples.is_odd[pixel] || !counted(pixel)) continue;
+    sum +=
+        (fringe.rest * samples.counts.col(static_cast<Eigen::Index>(pixel)) - design(pixel) * found)
+            .squaredNorm();
+  }
+  return sum;
+}
+
 /// The gains of each row, between the middles of the blocks that have some.
 std::vector<float> by_rows(const Eigen::RowVectorXd& of_blocks, int rows_per_block, int height) {
   std::vector<std::pair<double, double>> known;  // middle of a block, gain
@@ -253,6 +308,7 @@ std::optional<LightBands> find_light_bands(const FrameStack& fringes) {
   const double by_bands = left_by(samples, fringe, tried);
   if (by_bands > kLeftByBands * left_by(samples, fringe, of_whole_frames(tried)))
     return std::nullopt;
+  if (by_bands > kLeftByBands * left_by_motion(samples, fringe, tried)) return std::nullopt;
   const BlockGains gains = fit_gains(samples, fringe, Columns::All, kBandRounds);
   const Eigen::ArrayXXd known = gains.array().isNaN().select(0.0, gains.array());
   LightBands out;
