@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <cstdint>
+#include <cstdlib>
 #include <numbers>
 #include <utility>
 #include <vector>
@@ -25,10 +25,12 @@ using Block = Eigen::Matrix<float, kBlock_px, kBlock_px>;
 Block transformed(const Block& block) {
   static const Block kCosines = [] {
     Block out;
-    for (int u = 0; u < kBlock_px; ++u)
-      for (int x = 0; x < kBlock_px; ++x)
+    for (int u = 0; u < kBlock_px; ++u) {
+      for (int x = 0; x < kBlock_px; ++x) {
         out(u, x) = static_cast<float>((u == 0 ? std::sqrt(0.125) : 0.5) *
                                        std::cos((2 * x + 1) * u * std::numbers::pi / 16.0));
+      }
+    }
     return out;
   }();
   return kCosines * block * kCosines.transpose();
@@ -38,9 +40,10 @@ Block block_at(const Frame& frame, int left, int top) {
   return std::visit(
       [&](const auto& image) {
         Block out;
-        for (int y = 0; y < kBlock_px; ++y)
+        for (int y = 0; y < kBlock_px; ++y) {
           for (int x = 0; x < kBlock_px; ++x)
             out(y, x) = static_cast<float>(image(left + x, top + y));
+        }
         return out;
       },
       frame);
@@ -109,9 +112,10 @@ std::vector<Place> find_grids(const std::vector<LitBlock>& blocks) {
       for (const LitBlock& block : blocks) {
         const Block waves = block.waves({x, y});
         double energy = 0.0;
-        for (int v = 0; v < kBlock_px; ++v)
+        for (int v = 0; v < kBlock_px; ++v) {
           for (int u = std::max(0, kHigh - v); u < kBlock_px; ++u)
             energy += static_cast<double>(waves(v, u) * waves(v, u));
+        }
         energies.push_back(energy);
       }
       grids.emplace_back(median(std::move(energies)), Place{x, y});
@@ -154,10 +158,10 @@ std::vector<double> scales_of(const std::vector<LitBlock>& blocks,
   std::array<std::vector<float>, std::size_t{kBlock_px} * kBlock_px> values;
   for (const LitBlock& block : blocks) {
     const Block waves = block.waves(grid);
-    for (int v = 0; v < kBlock_px; ++v)
-      for (int u = 0; u < kBlock_px; ++u)
-        values[static_cast<std::size_t>(v * kBlock_px + u)].push_back(
-            waves(v, u) / static_cast<float>(level_counts));
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      const auto [v, u] = std::div(static_cast<int>(i), kBlock_px);
+      values[i].push_back(waves(v, u) / static_cast<float>(level_counts));
+    }
   }
   std::vector<double> out;
   for (std::size_t i = 1; i < values.size(); ++i) {
@@ -200,9 +204,10 @@ double level_step(std::span<const Frame> frames, int white_level) {
     std::visit(
         [&](const auto& image) {
           const std::size_t stride = std::max<std::size_t>(1, image.pixels().size() / kSamples);
-          for (std::size_t i = 0; i < image.pixels().size(); i += stride)
+          for (std::size_t i = 0; i < image.pixels().size(); i += stride) {
             if (image.pixels()[i] > 0 && image.pixels()[i] < white_level)
               ++histogram[image.pixels()[i]];
+          }
         },
         frame);
   }

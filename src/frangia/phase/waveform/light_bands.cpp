@@ -61,68 +61,87 @@ struct FringeFit {
   }
 };
 
-/// Samples pixels with fringes. An odd number of columns from one to the next keeps both kinds.
-BandSamples sample_rows(const FrameStack& stack, const FringeFit& fringe) {
+/// Change of the counts from column to column and from row to row.
+Eigen::Vector2d slope_at(const Frame& frame, int x, int y) {
+  const auto at = [&](int dx, int dy) {
+    return static_cast<double>(counts_at(frame,
+                                         std::clamp(x + dx, 0, width_of(frame) - 1),
+                                         std::clamp(y + dy, 0, height_of(frame) - 1)));
+  };
+  return 0.5 * Eigen::Vector2d(at(1, 0) - at(-1, 0), at(0, 1) - at(0, -1));
+}
+
+/// The largest odd number up to this one: an odd number of pixels from one to the next keeps odd
+/// and even columns.
+int odd_up_to(double number) {
+  return 2 * static_cast<int>(0.5 * std::max(0.0, number - 0.5)) + 1;
+}
+
+/// Reads the counts of a pixel, one per frame; returns whether none is saturated.
+bool read_counts(const FrameStack& stack, int x, int y, Eigen::VectorXd& counts) {
+  bool saturated = false;
+  for (std::size_t k = 0; k < stack.frames.size(); ++k) {
+    const int found = counts_at(stack.frames[k], x, y);
+    counts(static_cast<Eigen::Index>(k)) = found;
+    saturated = saturated || found >= stack.white_level;
+  }
+  return !saturated;
+}
+
+/// A pixel with fringes.
+struct LitPixel {
+  int x = 0;
+  int y = 0;
+  double modulation = 0.0;
+};
+
+std::vector<LitPixel> lit_pixels(const FrameStack& stack, const FringeFit& fringe) {
   const int width = width_of(stack.frames.front());
   const int height = height_of(stack.frames.front());
-  const auto odd_at_least = [](double number) {
-    return 2 * static_cast<int>(0.5 * std::max(0.0, number - 0.5)) + 1;
-  };
   const int stride =
-      odd_at_least(static_cast<double>(width) * height / static_cast<double>(kGridPixels));
-  struct Lit {
-    int x;
-    int y;
-    double modulation;
-  };
-  std::vector<Lit> lit;
+      odd_up_to(static_cast<double>(width) * height / static_cast<double>(kGridPixels));
+  std::vector<LitPixel> out;
   std::vector<double> modulations;
   Eigen::VectorXd counts(fringe.model.rows());
-  const auto read = [&](int x, int y) {
-    bool saturated = false;
-    for (std::size_t k = 0; k < stack.frames.size(); ++k) {
-      const int found = counts_at(stack.frames[k], x, y);
-      counts(static_cast<Eigen::Index>(k)) = found;
-      saturated = saturated || found >= stack.white_level;
-    }
-    return !saturated;
-  };
   for (int y = 0; y < height; ++y) {
     for (int x = y % stride; x < width; x += stride) {
-      if (!read(x, y)) continue;
+      if (!read_counts(stack, x, y, counts)) continue;
       const double cosine = fringe.fit.row(1).dot(counts);
       const double sine = fringe.fit.row(2).dot(counts);
-      lit.push_back({x, y, std::hypot(cosine, sine)});
-      modulations.push_back(lit.back().modulation);
+      out.push_back({x, y, std::hypot(cosine, sine)});
+      modulations.push_back(out.back().modulation);
     }
   }
-  BandSamples out;
-  out.rows_per_block = std::max(1, height / kBlocks);
-  out.blocks = (height + out.rows_per_block - 1) / out.rows_per_block;
-  if (lit.empty()) return out;
+  if (out.empty()) return out;
   const auto bright = modulations.begin() + std::ssize(modulations) * 99 / 100;
   std::nth_element(modulations.begin(), bright, modulations.end());
   const double least = std::max(1.0, kLeastOfBright * *bright);
-  std::erase_if(lit, [&](const Lit& one) { return one.modulation < least; });
+  std::erase_if(out, [&](const LitPixel& one) { return one.modulation < least; });
+  return out;
+}
+
+BandSamples sample_rows(const FrameStack& stack, const FringeFit& fringe) {
+  const int height = height_of(stack.frames.front());
+  BandSamples out;
+  out.rows_per_block = std::max(1, height / kBlocks);
+  out.blocks = (height + out.rows_per_block - 1) / out.rows_per_block;
+  const std::vector<LitPixel> lit = lit_pixels(stack, fringe);
+  if (lit.empty()) return out;
   const auto every = static_cast<std::size_t>(
-      odd_at_least(static_cast<double>(lit.size()) / static_cast<double>(kBandPixels)));
+      odd_up_to(static_cast<double>(lit.size()) / static_cast<double>(kBandPixels)));
   out.counts.resize(fringe.model.rows(),
                     static_cast<Eigen::Index>((lit.size() + every - 1) / every));
   out.across.resize(out.counts.rows(), out.counts.cols());
   out.down.resize(out.counts.rows(), out.counts.cols());
+  Eigen::VectorXd counts(fringe.model.rows());
   for (std::size_t i = 0; i < lit.size(); i += every) {
-    const auto [x, y, modulation] = lit[i];
     const auto pixel = static_cast<Eigen::Index>(i / every);
-    static_cast<void>(read(x, y));
+    static_cast<void>(read_counts(stack, lit[i].x, lit[i].y, counts));
     out.counts.col(pixel) = counts;
     for (std::size_t k = 0; k < stack.frames.size(); ++k) {
-      const auto at = [&](int dx, int dy) {
-        return counts_at(
-            stack.frames[k], std::clamp(x + dx, 0, width - 1), std::clamp(y + dy, 0, height - 1));
-      };
-      const auto frame = static_cast<Eigen::Index>(k);
-      out.across(frame, pixel) = 0.5 * (at(1, 0) - at(-1, 0));
-      out.down(frame, pixel) = 0.5 * (at(0, 1) - at(0, -1));
+      const Eigen::Vector2d slope = slope_at(stack.frames[k], lit[i].x, lit[i].y);
+      out.across(static_cast<Eigen::Index>(k), pixel) = slope.x();
+      out.down(static_cast<Eigen::Index>(k), pixel) = slope.y();
     }
     out.block.push_back(lit[i].y / out.rows_per_block);
     out.is_odd.push_back(lit[i].x % 2 == 1);
@@ -256,9 +275,8 @@ double left_by_motion(const BandSamples& samples,
 std::vector<float> by_rows(const Eigen::RowVectorXd& of_blocks, int rows_per_block, int height) {
   std::vector<std::pair<double, double>> known;  // middle of a block, gain
   for (Eigen::Index block = 0; block < of_blocks.size(); ++block) {
-    if (!std::isnan(of_blocks(block)))
-      known.emplace_back((static_cast<double>(block) + 0.5) * rows_per_block - 0.5,
-                         of_blocks(block));
+    if (std::isnan(of_blocks(block))) continue;
+    known.emplace_back((static_cast<double>(block) + 0.5) * rows_per_block - 0.5, of_blocks(block));
   }
   std::vector<float> out;
   std::size_t next = 0;
