@@ -32,9 +32,11 @@ struct Scene {
   double motion_rad = 0.0;  ///< of the phase from frame to frame
   double harmonic = 0.0;    ///< the second one, over the fringes
   double bump_rad = 2.0;    ///< of the part
+  double shake_px = 0.0;    ///< displacement of the frames along the columns, largest
+  bool is_round = false;    ///< dark at its upper and lower border
 };
 
-double true_phase(const Scene& scene, int x, int y) {
+double true_phase(const Scene& scene, double x, double y) {
   const double along = x * std::cos(scene.turn_rad) + y * std::sin(scene.turn_rad);
   return kTwoPi * along / scene.period_px +
          scene.bump_rad * std::sin(0.02 * x) * std::cos(0.015 * y);
@@ -48,11 +50,14 @@ FrameStack frames_of(const Scene& scene, const GainAt& gain) {
   for (int k = 0; k < scene.steps; ++k) {
     stack.pattern.shifts_rad.push_back(kTwoPi * k / scene.steps);
     Image<std::uint8_t> frame(kWidth, kHeight);
+    const double shaken_px = scene.shake_px * std::sin(2.1 * k);
     for (int y = 0; y < kHeight; ++y) {
+      const double row = y + shaken_px;
+      const double border = scene.is_round ? std::exp(-std::pow((row - 100.0) / 45.0, 2)) : 1.0;
       for (int x = 0; x < kWidth; ++x) {
         const double phase =
-            true_phase(scene, x, y) + stack.pattern.shifts_rad.back() + k * scene.motion_rad;
-        const double albedo = 60.0 + 35.0 * std::sin(0.05 * x) * std::cos(0.07 * y);
+            true_phase(scene, x, row) + stack.pattern.shifts_rad.back() + k * scene.motion_rad;
+        const double albedo = border * (60.0 + 35.0 * std::sin(0.05 * x) * std::cos(0.07 * row));
         const double light =
             albedo * (1.0 + 0.8 * std::cos(phase) + scene.harmonic * std::cos(2.0 * phase));
         frame(x, y) = static_cast<std::uint8_t>(std::lround(
@@ -130,6 +135,9 @@ TEST(LightBands, AreNotFoundInOtherFrames) {
       {},
       [](int frame, int row) { return frame == 2 && row > 120 ? -0.9 : 0.0; },
       "a frame that is covered");
+  expect_none({.turn_rad = 0.02, .bump_rad = 0.3, .shake_px = 1.5, .is_round = true},
+              none,
+              "a camera that shook");
   expect_none({.steps = 3}, none, "three frames");
   const Scene three{.steps = 3};
   EXPECT_FALSE(find_light_bands(frames_of(three, bands)));

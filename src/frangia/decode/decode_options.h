@@ -80,8 +80,11 @@ struct DecodeOptions {
   /// Decodes with the shifts that fit the frames where those of scan.toml do not, if the same check
   /// then passes.
   bool accept_remedy = false;
-  SequenceCheckOptions sequence_check;     ///< comparison of the patterns with each other
-  ScanSurvey survey;                       ///< noise and gain error pooled over several views
+  SequenceCheckOptions sequence_check;  ///< comparison of the patterns with each other
+  ScanSurvey survey;                    ///< noise and gain error pooled over several views
+  /// Variance that the storage of the frames added to each pixel, counts squared. Empty: that of
+  /// `FrameStack::compression_counts2`, or of the traces that it left (`find_storage_loss`).
+  std::optional<double> storage_counts2{};
   WrapOptions wrap;                        ///< limit of the phase noise
   TemporalUnwrapOptions temporal;          ///< temporal unwrapping
   OrderJumpOptions order_jumps;            ///< correction of regions whose order is wrong

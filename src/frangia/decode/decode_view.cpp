@@ -12,6 +12,7 @@
 #include "frangia/decode/internal/decode_direction.h"
 #include "frangia/decode/internal/judge_direction.h"
 #include "frangia/decode/select_stacks.h"
+#include "frangia/frames/storage_loss.h"
 #include "frangia/phase/waveform/frame_mixing.h"
 #include "frangia/phase/waveform/light_bands.h"
 
@@ -163,6 +164,17 @@ std::vector<FrameStack> each_alone(std::span<const FrameStack> stacks,
   return out;
 }
 
+/// Variance that the storage of the frames added to each pixel, counts squared: as stated, else by
+/// its traces.
+double storage_counts2(std::span<const FrameStack> stacks, const Run& run) {
+  const double stated = stacks.empty() ? 0.0 : stacks.front().compression_counts2;
+  if (stated > 0.0) return stated;
+  const StorageLoss loss = find_storage_loss(stacks);
+  const std::string text = describe(loss);
+  if (!text.empty()) run.warn(text);
+  return loss.variance_counts2;
+}
+
 }  // namespace
 
 DecodedView decode_view(std::span<const FrameStack> captured,
@@ -172,9 +184,10 @@ DecodedView decode_view(std::span<const FrameStack> captured,
                         const DecodeOptions& options,
                         const Run& run) {
   const std::vector<FrameStack> alone = each_alone(captured, options, run);
-  DecodeOptions own_noise = options;  // that of the other views is of frames that hold others
-  if (!alone.empty()) own_noise.survey.noise.reset();
-  const ViewInput input{plan, rig, rays, own_noise};
+  DecodeOptions of_view = options;
+  if (!alone.empty()) of_view.survey.noise.reset();  // it is of frames that hold others
+  if (!of_view.storage_counts2) of_view.storage_counts2 = storage_counts2(captured, run);
+  const ViewInput input{plan, rig, rays, of_view};
   const std::span<const FrameStack> shown = alone.empty() ? captured : alone;
   const std::vector<FrameStack> evened = at_even_light(shown, options, run);
   const std::span<const FrameStack> stacks = evened.empty() ? shown : evened;

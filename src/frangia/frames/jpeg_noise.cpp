@@ -40,10 +40,20 @@ int jpeg_quality(const std::array<int, 64>& steps) {
   return best;
 }
 
+const std::array<int, 64>& jpeg_base_steps() {
+  return kBaseSteps;
+}
+
+double jpeg_quality_of_scale(double scale) {
+  return std::clamp(scale > 1.0 ? 50.0 / scale : 100.0 - 50.0 * scale, 1.0, 100.0);
+}
+
 double jpeg_noise_counts2(int quality) {
-  // The steps of the table are proportional to this scale. Rounding to whole counts is there at any
-  // quality.
-  const double scale = quality < 50 ? 50.0 / quality : (200.0 - 2.0 * quality) / 100.0;
+  return jpeg_noise_of_scale(quality < 50 ? 50.0 / quality : (200.0 - 2.0 * quality) / 100.0);
+}
+
+double jpeg_noise_of_scale(double scale) {
+  // Rounding to whole counts is there at any quality.
   constexpr double kRounding_counts2 = 0.05;
   constexpr double kAtScaleOne_counts2 = 12.0;
   return kRounding_counts2 + kAtScaleOne_counts2 * std::pow(scale, 1.5);

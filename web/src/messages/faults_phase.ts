@@ -258,6 +258,16 @@ export const FAULTS_PHASE = {
     'Muster „{0}“: das Licht ist von Zeile zu Zeile um {1} % rms verschieden, in Bändern, die von Bild zu Bild wandern, wie eine Kamera mit Rolling Shutter flackerndes Licht sieht; es ist ausgeglichen; ganze Perioden des Projektors oder der Lampe belichten',
     'pattern "{0}": la luce varia da riga a riga del {1} % rms, in bande che si spostano da un fotogramma all\'altro, come una camera con otturatore rolling vede una luce che sfarfalla; è compensata; esporre per periodi interi del proiettore o della lampada',
   ],
+  'fault.compressedFrames': [
+    'the frames were compressed with loss before they were stored, as JPEG or MJPEG of quality {0} does it; the noise of {1} counts that this adds is counted in sigma; store them as the camera takes them',
+    'die Bilder wurden vor dem Speichern mit Verlust komprimiert, wie JPEG oder MJPEG der Qualität {0} es tut; das Rauschen von {1} Stufen, das so hinzukommt, steckt in Sigma; so speichern, wie die Kamera sie aufnimmt',
+    'i fotogrammi sono stati compressi con perdita prima di essere salvati, come fa JPEG o MJPEG di qualità {0}; il rumore di {1} conteggi che ne deriva è contato in sigma; salvarli come li acquisisce la camera',
+  ],
+  'fault.fewLevels': [
+    'the frames hold few levels, {0} counts apart; the noise of {1} counts that this adds is counted in sigma; store them with all bits of the camera',
+    'die Bilder haben nur wenige Werte, im Abstand von {0} Stufen; das Rauschen von {1} Stufen, das so hinzukommt, steckt in Sigma; mit allen Bits der Kamera speichern',
+    'i fotogrammi hanno pochi livelli, distanti {0} conteggi; il rumore di {1} conteggi che ne deriva è contato in sigma; salvarli con tutti i bit della camera',
+  ],
   'fault.frameHoldsBefore': [
     'each frame holds {0} % of the one before it, as a camera delivers them that reduces noise over time; it is taken out; switch that off, or capture each frame several times and keep the last',
     'jedes Bild enthält {0} % des vorigen, wie sie eine Kamera liefert, die Rauschen über die Zeit mindert; es ist herausgerechnet; das abschalten, oder jedes Bild mehrmals aufnehmen und das letzte behalten',

@@ -204,7 +204,7 @@ DecodedDirection decode_from(const FromGrayCodeAlone& /*source*/, const Directio
   DecodedDirection out;
   out.noise = input.rig.reference().noise ? *input.rig.reference().noise
                                           : estimate_gray_noise(gray.front());
-  out.noise.floor_counts2 += input.stacks.front().compression_counts2;
+  out.noise.floor_counts2 += input.options.storage_counts2.value_or(0.0);
   Image<float> threshold;
   if (gray.front().pattern.inverted == InvertedFrames::None)
     threshold = gray_threshold(gray.front(), find(PatternKind::White), find(PatternKind::Ambient));

@@ -30,7 +30,7 @@ NoiseModel noise_of(const DirectionInput& input, std::span<const FrameStack> sta
                      : input.options.survey.noise
                          ? noise_of_view(stacks, *input.options.survey.noise)
                          : estimate_noise(stacks);
-  noise.floor_counts2 += stacks.front().compression_counts2;
+  noise.floor_counts2 += input.options.storage_counts2.value_or(0.0);
   return noise;
 }
 
@@ -66,7 +66,7 @@ NoiseModel noise_beside_cut(std::span<const FrameStack> stacks,
   const auto fringes = fringes_of(stacks, input.plan.direction);
   if (fringes.empty() || input.rig.reference().noise) return known;
   NoiseModel out = estimate_noise({fringes.front(), 1});
-  out.floor_counts2 += stacks.front().compression_counts2;
+  out.floor_counts2 += input.options.storage_counts2.value_or(0.0);
   const double bright = kBright * stacks.front().white_level;
   return out.variance(0.0) + out.variance(bright) < known.variance(0.0) + known.variance(bright)
              ? out

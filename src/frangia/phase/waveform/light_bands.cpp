@@ -10,6 +10,7 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
+#include <Eigen/LU>
 #include <fmt/format.h>
 
 #include "frangia/core/parallel.h"
@@ -30,13 +31,16 @@ constexpr double kOneSided = 0.6;
 constexpr double kPriorBand = 0.1;       ///< standard deviation of a gain before the data
 constexpr double kMostBand = 1.0 / 3.0;  ///< largest gain of bands
 constexpr double kLeastBand = 0.003;     ///< rms that is corrected
-/// What bands leave of the squared residuals, over what gains of whole frames leave.
+/// What bands leave of the squared residuals, over what gains of whole frames leave, and over what
+/// these and displacements leave.
 constexpr double kLeftByBands = 0.7;
 constexpr int kBandRounds = 3;  ///< of the fit, which is linear in small gains
 
 /// Sampled pixels of a fringe pattern.
 struct BandSamples {
   Eigen::MatrixXd counts;    ///< frames x pixels
+  Eigen::MatrixXd across;    ///< change of the counts from column to column, frames x pixels
+  Eigen::MatrixXd down;      ///< the same from row to row
   std::vector<int> block;    ///< of rows, by pixel
   std::vector<bool> is_odd;  ///< of the columns, by pixel
   int rows_per_block = 1;
@@ -57,56 +61,88 @@ struct FringeFit {
   }
 };
 
-/// Samples pixels with fringes. An odd number of columns from one to the next keeps both kinds.
-BandSamples sample_rows(const FrameStack& stack, const FringeFit& fringe) {
+/// Change of the counts from column to column and from row to row.
+Eigen::Vector2d slope_at(const Frame& frame, int x, int y) {
+  const auto at = [&](int dx, int dy) {
+    return static_cast<double>(counts_at(frame,
+                                         std::clamp(x + dx, 0, width_of(frame) - 1),
+                                         std::clamp(y + dy, 0, height_of(frame) - 1)));
+  };
+  return 0.5 * Eigen::Vector2d(at(1, 0) - at(-1, 0), at(0, 1) - at(0, -1));
+}
+
+/// The largest odd number up to this one: an odd number of pixels from one to the next keeps odd
+/// and even columns.
+int odd_up_to(double number) {
+  return 2 * static_cast<int>(0.5 * std::max(0.0, number - 0.5)) + 1;
+}
+
+/// Reads the counts of a pixel, one per frame; returns whether none is saturated.
+bool read_counts(const FrameStack& stack, int x, int y, Eigen::VectorXd& counts) {
+  bool saturated = false;
+  for (std::size_t k = 0; k < stack.frames.size(); ++k) {
+    const int found = counts_at(stack.frames[k], x, y);
+    counts(static_cast<Eigen::Index>(k)) = found;
+    saturated = saturated || found >= stack.white_level;
+  }
+  return !saturated;
+}
+
+/// A pixel with fringes.
+struct LitPixel {
+  int x = 0;
+  int y = 0;
+  double modulation = 0.0;
+};
+
+std::vector<LitPixel> lit_pixels(const FrameStack& stack, const FringeFit& fringe) {
   const int width = width_of(stack.frames.front());
   const int height = height_of(stack.frames.front());
-  const auto odd_at_least = [](double number) {
-    return 2 * static_cast<int>(0.5 * std::max(0.0, number - 0.5)) + 1;
-  };
   const int stride =
-      odd_at_least(static_cast<double>(width) * height / static_cast<double>(kGridPixels));
-  struct Lit {
-    int x;
-    int y;
-    double modulation;
-  };
-  std::vector<Lit> lit;
+      odd_up_to(static_cast<double>(width) * height / static_cast<double>(kGridPixels));
+  std::vector<LitPixel> out;
   std::vector<double> modulations;
   Eigen::VectorXd counts(fringe.model.rows());
-  const auto read = [&](int x, int y) {
-    bool saturated = false;
-    for (std::size_t k = 0; k < stack.frames.size(); ++k) {
-      const int found = counts_at(stack.frames[k], x, y);
-      counts(static_cast<Eigen::Index>(k)) = found;
-      saturated = saturated || found >= stack.white_level;
-    }
-    return !saturated;
-  };
   for (int y = 0; y < height; ++y) {
     for (int x = y % stride; x < width; x += stride) {
-      if (!read(x, y)) continue;
+      if (!read_counts(stack, x, y, counts)) continue;
       const double cosine = fringe.fit.row(1).dot(counts);
       const double sine = fringe.fit.row(2).dot(counts);
-      lit.push_back({x, y, std::hypot(cosine, sine)});
-      modulations.push_back(lit.back().modulation);
+      out.push_back({x, y, std::hypot(cosine, sine)});
+      modulations.push_back(out.back().modulation);
     }
   }
-  BandSamples out;
-  out.rows_per_block = std::max(1, height / kBlocks);
-  out.blocks = (height + out.rows_per_block - 1) / out.rows_per_block;
-  if (lit.empty()) return out;
+  if (out.empty()) return out;
   const auto bright = modulations.begin() + std::ssize(modulations) * 99 / 100;
   std::nth_element(modulations.begin(), bright, modulations.end());
   const double least = std::max(1.0, kLeastOfBright * *bright);
-  std::erase_if(lit, [&](const Lit& one) { return one.modulation < least; });
+  std::erase_if(out, [&](const LitPixel& one) { return one.modulation < least; });
+  return out;
+}
+
+BandSamples sample_rows(const FrameStack& stack, const FringeFit& fringe) {
+  const int height = height_of(stack.frames.front());
+  BandSamples out;
+  out.rows_per_block = std::max(1, height / kBlocks);
+  out.blocks = (height + out.rows_per_block - 1) / out.rows_per_block;
+  const std::vector<LitPixel> lit = lit_pixels(stack, fringe);
+  if (lit.empty()) return out;
   const auto every = static_cast<std::size_t>(
-      odd_at_least(static_cast<double>(lit.size()) / static_cast<double>(kBandPixels)));
+      odd_up_to(static_cast<double>(lit.size()) / static_cast<double>(kBandPixels)));
   out.counts.resize(fringe.model.rows(),
                     static_cast<Eigen::Index>((lit.size() + every - 1) / every));
+  out.across.resize(out.counts.rows(), out.counts.cols());
+  out.down.resize(out.counts.rows(), out.counts.cols());
+  Eigen::VectorXd counts(fringe.model.rows());
   for (std::size_t i = 0; i < lit.size(); i += every) {
-    static_cast<void>(read(lit[i].x, lit[i].y));
-    out.counts.col(static_cast<Eigen::Index>(i / every)) = counts;
+    const auto pixel = static_cast<Eigen::Index>(i / every);
+    static_cast<void>(read_counts(stack, lit[i].x, lit[i].y, counts));
+    out.counts.col(pixel) = counts;
+    for (std::size_t k = 0; k < stack.frames.size(); ++k) {
+      const Eigen::Vector2d slope = slope_at(stack.frames[k], lit[i].x, lit[i].y);
+      out.across(static_cast<Eigen::Index>(k), pixel) = slope.x();
+      out.down(static_cast<Eigen::Index>(k), pixel) = slope.y();
+    }
     out.block.push_back(lit[i].y / out.rows_per_block);
     out.is_odd.push_back(lit[i].x % 2 == 1);
   }
@@ -197,13 +233,50 @@ double left_by(const BandSamples& samples, const FringeFit& fringe, const BlockG
   return sum;
 }
 
+/// What is left of the residuals of the odd columns where each frame has a gain and is displaced,
+/// as by a camera that shook: frame k changes by its displacement along the slopes of its counts.
+/// At the upper and lower border of a part this looks like bands.
+double left_by_motion(const BandSamples& samples,
+                      const FringeFit& fringe,
+                      const BlockGains& gains) {
+  constexpr Eigen::Index kUnknowns = 3;  // of each frame: gain, displacement across and down
+  const Eigen::Index frames = fringe.model.rows();
+  const auto counted = [&](std::size_t pixel) { return !gains.col(samples.block[pixel]).hasNaN(); };
+  const auto design = [&](std::size_t pixel) {
+    const auto column = static_cast<Eigen::Index>(pixel);
+    const Eigen::VectorXd shown = fringe.model * (fringe.fit * samples.counts.col(column));
+    Eigen::MatrixXd out(frames, kUnknowns * frames);
+    out << fringe.rest * shown.asDiagonal(), fringe.rest * samples.across.col(column).asDiagonal(),
+        fringe.rest * samples.down.col(column).asDiagonal();
+    return out;
+  };
+  Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(kUnknowns * frames, kUnknowns * frames);
+  Eigen::VectorXd right = Eigen::VectorXd::Zero(kUnknowns * frames);
+  for (std::size_t pixel = 0; pixel < samples.block.size(); ++pixel) {
+    if (samples.is_odd[pixel] || !counted(pixel)) continue;
+    const Eigen::MatrixXd of_pixel = design(pixel);
+    normal += of_pixel.transpose() * of_pixel;
+    right +=
+        of_pixel.transpose() * fringe.rest * samples.counts.col(static_cast<Eigen::Index>(pixel));
+  }
+  normal.diagonal() *= 1.0 + 1e-6;  // what all frames share leaves no residual
+  const Eigen::VectorXd found = normal.ldlt().solve(right);
+  double sum = 0.0;
+  for (std::size_t pixel = 0; pixel < samples.block.size(); ++pixel) {
+    if (!samples.is_odd[pixel] || !counted(pixel)) continue;
+    sum +=
+        (fringe.rest * samples.counts.col(static_cast<Eigen::Index>(pixel)) - design(pixel) * found)
+            .squaredNorm();
+  }
+  return sum;
+}
+
 /// The gains of each row, between the middles of the blocks that have some.
 std::vector<float> by_rows(const Eigen::RowVectorXd& of_blocks, int rows_per_block, int height) {
   std::vector<std::pair<double, double>> known;  // middle of a block, gain
   for (Eigen::Index block = 0; block < of_blocks.size(); ++block) {
-    if (!std::isnan(of_blocks(block)))
-      known.emplace_back((static_cast<double>(block) + 0.5) * rows_per_block - 0.5,
-                         of_blocks(block));
+    if (std::isnan(of_blocks(block))) continue;
+    known.emplace_back((static_cast<double>(block) + 0.5) * rows_per_block - 0.5, of_blocks(block));
   }
   std::vector<float> out;
   std::size_t next = 0;
@@ -253,6 +326,7 @@ std::optional<LightBands> find_light_bands(const FrameStack& fringes) {
   const double by_bands = left_by(samples, fringe, tried);
   if (by_bands > kLeftByBands * left_by(samples, fringe, of_whole_frames(tried)))
     return std::nullopt;
+  if (by_bands > kLeftByBands * left_by_motion(samples, fringe, tried)) return std::nullopt;
   const BlockGains gains = fit_gains(samples, fringe, Columns::All, kBandRounds);
   const Eigen::ArrayXXd known = gains.array().isNaN().select(0.0, gains.array());
   LightBands out;

@@ -24,7 +24,7 @@ struct LightBands {
 /// the gains of the frames there: r = P (s g) with the fitted fringe s and the projector P onto
 /// what no fringe explains. Gains of blocks of rows are fitted to every other column. They are
 /// bands if they leave much less of the residuals of the columns between them, which they were not
-/// fitted to, than gains of whole frames do.
+/// fitted to, than gains and displacements of whole frames do.
 ///
 /// @missing  nothing without bands, for fewer than four frames, for fringes along the rows, whose
 ///           phases a row does not show, and for gains of more than a third: such frames are torn
