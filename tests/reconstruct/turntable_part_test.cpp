@@ -81,17 +81,6 @@ TEST(TurntablePart, TurnsTheFacesOfAPlateAgainstEachOther) {
   }
 }
 
-TEST(TurntablePart, IsNotTheNoiseOfNormalsOfFacesThatSlideAlongThemselves) {
-  SeenPlate plate;
-  for (std::size_t i = 0; i < plate.mesh.normals.size(); ++i)
-    plate.mesh.normals[i] =
-        (plate.mesh.normals[i] + Eigen::Vector3f(0.0F, i % 2 == 0 ? 0.01F : -0.01F, 0.0F))
-            .normalized();
-  ViewMotions slide(2, Eigen::Matrix<double, 6, Eigen::Dynamic>::Zero(6, 1));
-  slide[1](4, 0) = 25.0;
-  EXPECT_FALSE(add_turntable_part(plate.fused, slide, {}));
-}
-
 TEST(TurntablePart, OfAnExactTurntableLeavesSigmaAsItIs) {
   SeenPlate plate;
   EXPECT_FALSE(plate.add({.point_mm = 0.0005, .axis_rad = 0.0, .angle_rad = 0.0}));

@@ -252,7 +252,14 @@ SetupPoses find_part_poses(const std::vector<MeasuredSetup>& setups,
   for (std::size_t i = 0; i < groups.size(); ++i) {
     if (!found[i] || i == joined.reference) continue;
     setup_poses.setup_from_reference[i] = found[i];
-    settle(setup_poses, i, setups, groups, views, {.spacing_mm = spacing_mm}, run);
+    const GroupFit fit = compare_groups(others_of(groups, setup_poses, i),
+                                        groups[i],
+                                        found[i]->inverse(),
+                                        views,
+                                        kGate * spacing_mm);
+    const bool turns =
+        fit.smallest_eigenvalue < JoinByShapeOptions().well_constrained && fit.weakest_axis();
+    if (turns) settle(setup_poses, i, setups, groups, views, {.spacing_mm = spacing_mm}, run);
   }
   return with_fits(std::move(setup_poses));
 }
