@@ -125,6 +125,34 @@ TEST(RegisterSetups, FindsTheWayUpOfAPartWhoseWallsSlideOnEachOtherButForADent) 
   expect_near(joined.registration->part_poses[0], upside_down, 0.1);  // a dent alone
 }
 
+/// A turned part: a round bar with a collar, the same from all sides.
+double turned_bar(const Eigen::Vector3d& p) {
+  const double beside = std::hypot(p.x(), p.y());
+  const double bar = std::max(beside - 16.0, std::abs(p.z()) - 30.0);
+  const double collar = std::max(beside - 22.0, std::abs(p.z() + 12.0) - 6.0);
+  return 0.8 * std::min(bar, collar);
+}
+
+TEST(RegisterSetups, JoinsARoundPartOfWhichAnyTurnFitsAndSaysSo) {
+  Eigen::Isometry3d laid_down = Eigen::Isometry3d::Identity();
+  laid_down.rotate(Eigen::AngleAxisd(0.25 * kTwoPi, Eigen::Vector3d::UnitX()));
+  Setups all;
+  all.add_setup(turned_bar, Eigen::Isometry3d::Identity());
+  all.add_setup(turned_bar, laid_down);
+  const MeasuredSetup joined = register_setups(std::move(all.setups), all.rig, {}, all.run);
+  ASSERT_EQ(joined.joins.size(), 2U);
+  ASSERT_TRUE(joined.joins[1].joined);
+  EXPECT_EQ(joined.measured.reference().size(), 10U);
+  ASSERT_EQ(joined.joins[1].open.size(), 1U);
+  EXPECT_NE(joined.joins[1].open[0].find("its turn about the axis"), std::string::npos);
+  // The axis is where it belongs.
+  const Eigen::Isometry3d off = laid_down.inverse() * joined.joins[1].part_pose;
+  for (const double z : {-30.0, 30.0}) {
+    const Eigen::Vector3d on_axis(0.0, 0.0, z);
+    EXPECT_LT((off * on_axis - on_axis).norm(), 0.1) << z;
+  }
+}
+
 TEST(RegisterSetups, StartsFromARoughPartPoseThatIsGiven) {
   Setups all;
   all.add_setup(lumpy, Eigen::Isometry3d::Identity());

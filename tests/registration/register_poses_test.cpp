@@ -93,6 +93,48 @@ TEST(RegisterPoses, RestsOnGivenPosesWhereTheSurfacesSlide) {
     EXPECT_LT(moved_mm(truth[i], views.rig_from_object(i)), 0.02) << i;
 }
 
+/// Views of the sides of a box, of which some share one face only, so that the box may be longer.
+struct SidesOfBox {
+  CameraModel camera = small_camera_model(200, 1000.0);
+  ViewStore views;
+
+  explicit SidesOfBox(double off_mm) {
+    std::vector<Eigen::Isometry3d> truth = around_table(8, 0.4, 650.0);
+    views = testing::snapshots(testing::box({25.0, 25.0, 25.0}), camera, truth);
+    for (std::size_t i = 1; i < truth.size(); ++i) {
+      const auto at = static_cast<double>(i);
+      const Eigen::Vector3d way(std::cos(2.0 * at), std::sin(2.0 * at), std::cos(3.0 * at));
+      views.set_rig_from_object(i, truth[i] * Eigen::Translation3d(off_mm * way));
+    }
+  }
+  PosesReport refine(const RegisterPosesOptions& options = {}) {
+    return register_poses(views, make_surfel_maps(views, camera, 40000), camera, options);
+  }
+};
+
+/// The largest motion of a view by what is left open.
+double open_mm(const PosesReport& report) {
+  double most = 0.0;
+  for (const auto& motion : report.motions)
+    most = std::max(most, motion.bottomRows<3>().norm());
+  return most;
+}
+
+TEST(RegisterPoses, LeavesOpenByWhatGivenPosesAreOffWhereTheSurfacesShowIt) {
+  const PosesReport found = SidesOfBox(0.3).refine();
+  EXPECT_TRUE(found.shows_given_sigma);
+  EXPECT_GT(found.given_sigma_mm, 0.15);
+  EXPECT_LT(found.given_sigma_mm, 0.6);
+  EXPECT_LT(open_mm(found), 1.5);
+  // Poses that surfaces laid, or whose deviation is stated, say nothing of what slides.
+  const PosesReport laid = SidesOfBox(0.0).refine();
+  EXPECT_FALSE(laid.shows_given_sigma);
+  EXPECT_GT(laid.given_sigma_mm, 1.5);
+  RegisterPosesOptions stated;
+  stated.prior_mm = 2.0;
+  EXPECT_EQ(SidesOfBox(0.3).refine(stated).given_sigma_mm, 2.0);
+}
+
 TEST(RegisterPoses, ReportsTheResidualAfterTheLastStep) {
   DisplacedViews displaced;
   RegisterPosesOptions one_step;

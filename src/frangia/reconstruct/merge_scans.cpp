@@ -157,11 +157,11 @@ double register_and_settle(MergedScans& out,
   out.registration = register_poses(all.views, maps, all.model, options, run);
   const double rms_before_mm = out.registration->rms_before_mm;
   if (out.registration->iterations == 0) return rms_before_mm;
-  const double prior_mm = options.prior_mm > 0.0   ? options.prior_mm
-                          : options.reach_mm > 0.0 ? options.reach_mm
-                                                   : default_reach_mm(maps);
-  const SettledScans settled = settle_scans(all, maps, prior_mm, run);
-  if (settled.moved) out.registration = register_poses(all.views, maps, all.model, options, run);
+  // That of the first refinement, which starts from the given poses.
+  RegisterPosesOptions again = options;
+  again.prior_mm = out.registration->given_sigma_mm;
+  const SettledScans settled = settle_scans(all, maps, again.prior_mm, run);
+  if (settled.moved) out.registration = register_poses(all.views, maps, all.model, again, run);
   // Along what the distances do not show the poses have their prior, until contradictions tell
   // more.
   motions = out.registration->motions;

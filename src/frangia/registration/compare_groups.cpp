@@ -149,6 +149,17 @@ Eigen::Isometry3d GroupFit::motion(const Eigen::Matrix<double, 6, 1>& step) cons
   return move;
 }
 
+std::optional<Eigen::ParametrizedLine<double, 3>> GroupFit::weakest_axis() const {
+  constexpr double kSlides = 0.1;  // way along the axis, over that of the turn
+  const Eigen::Vector3d shift = weakest_directions.col(0).head<3>();
+  const Eigen::Vector3d arc = weakest_directions.col(0).tail<3>();
+  if (arc.norm() <= shift.norm() || std::abs(shift.dot(arc)) >= kSlides * arc.squaredNorm())
+    return std::nullopt;
+  const Eigen::Vector3d turn = arc / arm_mm;
+  return Eigen::ParametrizedLine<double, 3>(center_mm + turn.cross(shift) / turn.squaredNorm(),
+                                            turn.normalized());
+}
+
 GroupFit compare_groups(const ViewGroup& to,
                         const ViewGroup& from,
                         const Eigen::Isometry3d& to_from,
@@ -172,6 +183,7 @@ GroupFit compare_groups(const ViewGroup& to,
   if (all.weight > 0.0) {
     const auto eigen = symmetric_eigen(Eigen::MatrixXd(all.information / all.weight));
     fit.smallest_eigenvalue = std::max(0.0, eigen.values[0]);
+    fit.second_eigenvalue = std::max(0.0, eigen.values[1]);
     fit.weakest_directions = eigen.vectors.leftCols<2>();
   }
   return fit;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 
 #include <Eigen/Geometry>
 
@@ -19,6 +20,7 @@ struct GroupFit {
   double residual_mm = 0.0;    ///< median distance of the points that agree
   double smallest_eigenvalue = 0.0;  ///< of the information of a motion, a share of the points'
                                      ///< weight; 0 when one group slides or turns on the other
+  double second_eigenvalue = 0.0;    ///< the next larger one
   Eigen::Vector3d center_mm = Eigen::Vector3d::Zero();  ///< of `from`, in the frame of `to`
   double arm_mm = 1.0;  ///< root mean square distance of the points of `from` from their center
   /// Sum of w J^T J over the points that agree, w by Tukey's biweight.
@@ -30,6 +32,8 @@ struct GroupFit {
 
   /// `step` as a motion of `from`, in the frame of `to`.
   [[nodiscard]] Eigen::Isometry3d motion(const Eigen::Matrix<double, 6, 1>& step) const;
+  /// The axis, in the frame of `to`, if the worst determined motion is a turn about one.
+  [[nodiscard]] std::optional<Eigen::ParametrizedLine<double, 3>> weakest_axis() const;
   /// Share of the compared points that violate free space; 1 when none agrees.
   [[nodiscard]] double free_space_violation() const {
     return agree == 0 ? 1.0

@@ -22,10 +22,16 @@ struct JoinCandidate {
   PoseHypothesis hypothesis;
 };
 
+/// Whether distances determine a pose, or all of it but a turn where that may be open.
+bool is_determined(const GroupFit& fit, const JoinByShapeOptions& options, double slack) {
+  const double least = options.min_eigenvalue / slack;
+  return fit.smallest_eigenvalue >= least ||
+         (options.may_turn && fit.second_eigenvalue >= least && fit.weakest_axis());
+}
+
 bool may_be_valid(const GroupFit& fit, const JoinByShapeOptions& options) {
   return fit.overlap >= options.min_overlap &&
-         fit.free_space_violation() <= options.max_violation &&
-         fit.smallest_eigenvalue >= options.min_eigenvalue;
+         fit.free_space_violation() <= options.max_violation && is_determined(fit, options, 1.0);
 }
 
 /// The best pose hypotheses of every two groups, a few each.
@@ -199,17 +205,23 @@ class ClusterJoiner {
   /// Whether a fit passes the options' limits, widened by `slack`. The limit of free-space
   /// violations is never widened.
   [[nodiscard]] bool is_valid(const GroupFit& fit, double slack) const {
-    return fit.smallest_eigenvalue >= options_.min_eigenvalue / slack && fits(fit, slack);
+    return is_determined(fit, options_, slack) && fits(fit, slack);
   }
   [[nodiscard]] bool fits(const GroupFit& fit, double slack) const {
     return fit.overlap >= options_.min_overlap / slack &&
            fit.free_space_violation() <= options_.max_violation &&
            fit.residual_mm <= slack * options_.max_residual * typical_mm_;
   }
+  /// Whether distances hardly show the turn of a hypothesis about an axis, which may be open.
+  [[nodiscard]] bool may_turn(const PoseHypothesis& hypothesis) const {
+    return options_.may_turn && hypothesis.fit.smallest_eigenvalue < options_.well_constrained;
+  }
   /// Whether another pose fits nearly as well as the first, even if it slides.
   [[nodiscard]] bool is_ambiguous(const std::vector<PoseHypothesis>& hypotheses) const {
     return std::any_of(hypotheses.begin() + 1, hypotheses.end(), [&](const PoseHypothesis& other) {
-      return fits(other.fit, options_.runner_up_slack) &&
+      const bool turned = may_turn(hypotheses[0]) &&
+                          differs_by_turn(hypotheses[0], other.to_from, {options_.spacing_mm});
+      return !turned && fits(other.fit, options_.runner_up_slack) &&
              other.score(typical_mm_) > options_.max_runner_up * hypotheses[0].score(typical_mm_);
     });
   }
@@ -233,6 +245,11 @@ class ClusterJoiner {
     sort_hypotheses(hypotheses, typical_mm_);
     if (hypotheses[0].fit.smallest_eigenvalue < options_.well_constrained) {
       for (const Eigen::Isometry3d& start : neighboring_poses(hypotheses[0], scale))
+        starts.push_back(start);
+    }
+    // A small feature that is turned away contradicts the other group.
+    if (may_turn(hypotheses[0])) {
+      for (const Eigen::Isometry3d& start : turned_poses(hypotheses[0]))
         starts.push_back(start);
     }
     hypotheses = refine_pose_hypotheses(clusters_[to], clusters_[from], starts, views_, scale);

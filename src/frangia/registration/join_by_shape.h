@@ -29,6 +29,10 @@ struct JoinByShapeOptions {
   /// Joins only the first of two views that show the same surface from the same viewpoint: either
   /// the part was not moved, or it looks alike from two sides and the two cannot be told apart.
   bool leave_out_duplicates = false;
+  /// Joins groups whose shape determines all but a turn about one axis, as that of a round part:
+  /// every turn fits where both were measured, and the joined pose has any of them. For groups
+  /// that were measured all around; others could pile up on one side.
+  bool may_turn = false;
 
   /// @errors   Error(Input) that names the value which is out of its range
   void check() const;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -40,6 +41,20 @@ FreePoseBundle make_free_pose_bundle(const ViewStore& views,
   }
   bundle.pairs = choose_view_pairs(bundle.maps, bundle.model, bundle.rig_from_world);
   return bundle;
+}
+
+/// The standard deviation of given poses that the surfaces show, where they determine motions by
+/// which the poses are off; the motions that they do not determine are off as much. None where the
+/// poses are off by little more than noise: surfaces laid them, which says nothing of the others.
+std::optional<double> sigma_shown(const FreePoseBundle& bundle,
+                                  const FreePoseSums& sums,
+                                  std::span<const Eigen::Isometry3d> given) {
+  constexpr std::size_t kFewest = 6;  // motions: their root mean square is known to a third
+  constexpr double kOverNoise = 5.0;
+  const DeterminedOffsets offsets = determined_offsets(bundle, sums, given);
+  if (offsets.count < kFewest || offsets.rms_mm < kOverNoise * offsets.sigma_mm) return {};
+  // Of few motions the root mean square may be small by chance.
+  return offsets.rms_mm * (1.0 + 1.0 / std::sqrt(static_cast<double>(offsets.count)));
 }
 
 }  // namespace
@@ -114,7 +129,14 @@ PosesReport register_poses(ViewStore& views,
   report.iterations = result.iterations;
   for (std::size_t i = 0; i < views.size(); ++i)
     views.set_rig_from_object(i, bundle.rig_from_world[i]);
-  report.motions = motions_of_free_poses(bundle, sums, prior_mm);
+  report.given_sigma_mm = prior_mm;
+  const bool assumed = !(options.prior_mm > 0.0) && !(options.reach_mm > 0.0);
+  const auto shown = assumed ? sigma_shown(bundle, sums, given) : std::nullopt;
+  if (shown && *shown < prior_mm) {
+    report.given_sigma_mm = *shown;
+    report.shows_given_sigma = true;
+  }
+  report.motions = motions_of_free_poses(bundle, sums, report.given_sigma_mm);
   return report;
 }
 

@@ -20,7 +20,8 @@ struct RegisterPosesOptions {
   int max_iterations = 60;    ///< free poses converge more slowly than a turntable
   double tolerance = 0.1;     ///< of the last step, in standard deviations of the poses
   double min_overlap = 0.05;  ///< share of the points that match another view; fewer are chance
-  /// Standard deviation of the given poses, as the way of a view's points; 0 takes the reach.
+  /// Standard deviation of the given poses, as the way of a view's points; 0 takes the reach, and
+  /// where that is not stated either, what the surfaces show of it.
   double prior_mm = 0.0;
 
   /// @errors   Error(Input) that names the value which is out of its range
@@ -34,6 +35,9 @@ struct PosesReport {
   double overlap = 0.0;        ///< share of the points that lie on a surface of another view
   int iterations = 0;          ///< 0: the given poses are kept
   ViewMotions motions;         ///< of the views by what their overlap leaves open
+  /// Standard deviation of the given poses: stated, assumed, or what the surfaces show of it.
+  double given_sigma_mm = 0.0;
+  bool shows_given_sigma = false;  ///< it is what the surfaces show
 
   [[nodiscard]] std::string text() const;  ///< the result as a sentence
 };

@@ -21,6 +21,11 @@ struct TurntableStations;
 ///           rotation x p + translation; one column for each change
 using ViewMotions = std::vector<Eigen::Matrix<double, 6, Eigen::Dynamic>>;
 
+/// A motion that moves a surface along its normals by less than this share of the way, root mean
+/// square, leaves it where it is: the pairs do not determine it. Noise of normals and a part off
+/// the axis by a tenth of a millimetre stay far below, a keyway or a handle in the view is above.
+inline constexpr double kOpenMotion = 0.03;
+
 /// Standard deviations of the axis and the angles of a turntable.
 struct TurntableSigma {
   double point_mm = 0.0;   ///< of the place of the axis, in each direction across it

@@ -238,11 +238,28 @@ SetupPoses find_part_poses(const std::vector<MeasuredSetup>& setups,
   }
   if (auto given = refine_given_poses(setups, groups, views, options, spacing_mm, run))
     return with_fits(std::move(*given));
-  const JoinedGroups joined = join_by_shape(groups, views, {.spacing_mm = spacing_mm}, run);
+  const JoinedGroups joined =
+      join_by_shape(groups, views, {.spacing_mm = spacing_mm, .may_turn = true}, run);
   SetupPoses setup_poses{joined.reference, {}, joined.ambiguous, {}};
   for (const auto& pose : joined.reference_from_group) {
     setup_poses.setup_from_reference.push_back(pose ? std::optional(pose->inverse())
                                                     : std::nullopt);
+  }
+  // Each on those that are settled: two with any turn each contradict a third one.
+  std::vector<std::optional<Eigen::Isometry3d>> found(groups.size());
+  found.swap(setup_poses.setup_from_reference);
+  setup_poses.setup_from_reference[joined.reference] = found[joined.reference];
+  for (std::size_t i = 0; i < groups.size(); ++i) {
+    if (!found[i] || i == joined.reference) continue;
+    setup_poses.setup_from_reference[i] = found[i];
+    const GroupFit fit = compare_groups(others_of(groups, setup_poses, i),
+                                        groups[i],
+                                        found[i]->inverse(),
+                                        views,
+                                        kGate * spacing_mm);
+    const bool turns =
+        fit.smallest_eigenvalue < JoinByShapeOptions().well_constrained && fit.weakest_axis();
+    if (turns) settle(setup_poses, i, setups, groups, views, {.spacing_mm = spacing_mm}, run);
   }
   return with_fits(std::move(setup_poses));
 }

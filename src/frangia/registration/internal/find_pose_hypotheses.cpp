@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "frangia/core/angles.h"
 #include "frangia/registration/internal/find_motion_hypotheses.h"
 #include "frangia/registration/internal/surface_features.h"
 
@@ -69,6 +70,32 @@ std::vector<Eigen::Isometry3d> neighboring_poses(const PoseHypothesis& hypothesi
     }
   }
   return neighbors;
+}
+
+bool differs_by_turn(const PoseHypothesis& hypothesis,
+                     const Eigen::Isometry3d& other,
+                     const PoseSearchScale& scale) {
+  const auto axis = hypothesis.fit.weakest_axis();
+  if (!axis) return false;
+  const Eigen::Isometry3d between = other * hypothesis.to_from.inverse();
+  const auto stays = [&](const Eigen::Vector3d& point) {
+    return (between * point - point).norm() < scale.distinct_mm();
+  };
+  return stays(axis->pointAt(-hypothesis.fit.arm_mm)) &&
+         stays(axis->pointAt(hypothesis.fit.arm_mm));
+}
+
+std::vector<Eigen::Isometry3d> turned_poses(const PoseHypothesis& hypothesis) {
+  constexpr int kTurns = 36;  // a keyway draws the pose to it over some degrees
+  const auto axis = hypothesis.fit.weakest_axis();
+  std::vector<Eigen::Isometry3d> turned;
+  for (int i = 1; axis && i < kTurns; ++i) {
+    const Eigen::Isometry3d turn = Eigen::Translation3d(axis->origin()) *
+                                   Eigen::AngleAxisd(kTwoPi * i / kTurns, axis->direction()) *
+                                   Eigen::Translation3d(-axis->origin());
+    turned.push_back(turn * hypothesis.to_from);
+  }
+  return turned;
 }
 
 std::vector<PoseHypothesis> find_pose_hypotheses(const DescribedGroup& to,

@@ -59,6 +59,16 @@ struct DescribedGroup {
 [[nodiscard]] std::vector<Eigen::Isometry3d> neighboring_poses(const PoseHypothesis& hypothesis,
                                                                const PoseSearchScale& scale);
 
+/// Whether another pose differs from a hypothesis by a turn about its worst determined axis alone,
+/// by any angle: the axis stays where it is.
+[[nodiscard]] bool differs_by_turn(const PoseHypothesis& hypothesis,
+                                   const Eigen::Isometry3d& other,
+                                   const PoseSearchScale& scale);
+
+/// A hypothesis turned about that axis, all the way around; none where the worst determined motion
+/// is no turn.
+[[nodiscard]] std::vector<Eigen::Isometry3d> turned_poses(const PoseHypothesis& hypothesis);
+
 /// Sorts by `PoseHypothesis::score`, best first.
 void sort_hypotheses(std::vector<PoseHypothesis>& hypotheses, double typical_mm);
 

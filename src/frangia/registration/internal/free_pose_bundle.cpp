@@ -244,35 +244,57 @@ Eigen::MatrixXd about_centers(const std::vector<Place>& places) {
   return to;
 }
 
-/// Equations of the pairs about the centres of the views, without the motions that leave the
-/// surfaces where they are: of one view, or of several together. What moves surfaces along their
-/// normals by less than `kOpenMotion` of the way is noise of normals.
-RestedEquations without_open(const FreePoseSums& sums, Eigen::MatrixXd to) {
+/// Motions in units of the way by which they move the points of the pairs against each other, in
+/// which the equations of the pairs are diagonal.
+struct MotionsByShare {
+  Eigen::MatrixXd root;            ///< lower: its transpose turns unknowns into these units
+  Eigen::MatrixXd motions;         ///< orthonormal; no columns where there are no pairs
+  Eigen::VectorXd squared_shares;  ///< of the way that is along the normals, ascending
+  Eigen::Index open =
+      0;  ///< motions that leave the surfaces where they are: what moves them along
+          ///< their normals by less than `kOpenMotion` of the way is noise of normals
+};
+
+MotionsByShare motions_by_share(const Eigen::MatrixXd& hessian, Eigen::MatrixXd ways) {
   constexpr double kNothing = 1e-9;  // of the largest: a view without pairs moves freely
+  MotionsByShare out{{}, Eigen::MatrixXd(hessian.rows(), 0), {}};
+  const double most = ways.diagonal().maxCoeff();
+  if (!(most > 0.0)) return out;
+  ways.diagonal().array() += kNothing * most;
+  const Eigen::LLT<Eigen::MatrixXd> root(ways);
+  Eigen::MatrixXd shares = root.matrixL().solve(hessian);
+  shares = root.matrixL().solve(shares.transpose().eval());
+  const auto eigen = symmetric_eigen(Eigen::MatrixXd(0.5 * (shares + shares.transpose())));
+  while (out.open < eigen.values.size() && eigen.values[out.open] < kOpenMotion * kOpenMotion)
+    ++out.open;
+  out.root = root.matrixL();
+  out.motions = eigen.vectors;
+  out.squared_shares = eigen.values;
+  return out;
+}
+
+/// The equations of the pairs about the centres of the views.
+RestedEquations centered(const FreePoseSums& sums, Eigen::MatrixXd to) {
   RestedEquations out;
   out.hessian = congruence(to, sums.hessian);
   out.hessian = 0.5 * (out.hessian + out.hessian.transpose()).eval();
   out.gradient = transposed_product(to, sums.gradient);
   out.to = std::move(to);
-  Eigen::MatrixXd ways = congruence(out.to, sums.ways);
-  const double most = ways.diagonal().maxCoeff();
-  if (!(most > 0.0)) return out;
-  ways.diagonal().array() += kNothing * most;
-  // In units in which each motion has a way of 1, the eigenvalues are the squared shares.
-  const Eigen::LLT<Eigen::MatrixXd> root(ways);
-  Eigen::MatrixXd shares = root.matrixL().solve(out.hessian);
-  shares = root.matrixL().solve(shares.transpose().eval());
-  const auto eigen = symmetric_eigen(Eigen::MatrixXd(0.5 * (shares + shares.transpose())));
-  Eigen::Index open = 0;
-  while (open < eigen.values.size() && eigen.values[open] < kOpenMotion * kOpenMotion)
-    ++open;
-  const Eigen::MatrixXd lower = root.matrixL();
-  const Eigen::MatrixXd motions = eigen.vectors.leftCols(open);
-  const Eigen::MatrixXd rows = product(lower, motions);
-  const Eigen::VectorXd steps = root.matrixL().solve(out.gradient);
+  return out;
+}
+
+/// The same without the motions that leave the surfaces where they are: of one view, or of several
+/// together.
+RestedEquations without_open(const FreePoseSums& sums, Eigen::MatrixXd to) {
+  RestedEquations out = centered(sums, std::move(to));
+  const MotionsByShare by = motions_by_share(out.hessian, congruence(out.to, sums.ways));
+  if (by.open == 0) return out;
+  const Eigen::MatrixXd motions = by.motions.leftCols(by.open);
+  const Eigen::MatrixXd rows = product(by.root, motions);
+  const Eigen::VectorXd steps = by.root.triangularView<Eigen::Lower>().solve(out.gradient);
   out.gradient -= product(rows, transposed_product(motions, steps));
   out.hessian -= product_transposed(
-      product(rows, Eigen::MatrixXd(eigen.values.head(open).asDiagonal())), rows);
+      product(rows, Eigen::MatrixXd(by.squared_shares.head(by.open).asDiagonal())), rows);
   return out;
 }
 
@@ -290,6 +312,21 @@ double counted_share(const FreePoseBundle& bundle, const FreePoseSums& sums) {
   return counted / (excess * excess);
 }
 
+/// How far the poses of the bundle are from given ones, in the unknowns of `RestedEquations`.
+Eigen::VectorXd offsets_from(const FreePoseBundle& bundle,
+                             const std::vector<Place>& places,
+                             std::span<const Eigen::Isometry3d> given) {
+  Eigen::VectorXd offsets(static_cast<Eigen::Index>(6 * places.size()));
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const Eigen::Vector3d& center = places[i].center_mm;
+    const Eigen::Isometry3d moved = bundle.rig_from_world[i + 1].inverse() * given[i + 1];
+    const Eigen::AngleAxisd turn(moved.rotation());
+    offsets.segment<6>(static_cast<Eigen::Index>(6 * i)) << center - moved.inverse() * center,
+        places[i].arm_mm * turn.angle() * turn.axis();
+  }
+  return offsets;
+}
+
 }  // namespace
 
 RestedEquations rest_on_given(const FreePoseBundle& bundle,
@@ -301,15 +338,36 @@ RestedEquations rest_on_given(const FreePoseBundle& bundle,
   if (sums.over_sigma.empty() || !(prior_mm > 0.0)) return out;
   const double information = 1.0 / (prior_mm * prior_mm * counted_share(bundle, sums));
   out.hessian.diagonal().array() += information;
-  for (std::size_t i = 0; i < places.size(); ++i) {
-    const Eigen::Vector3d& center = places[i].center_mm;
-    const Eigen::Isometry3d moved = bundle.rig_from_world[i + 1].inverse() * given[i + 1];
-    const Eigen::AngleAxisd turn(moved.rotation());
-    Eigen::Matrix<double, 6, 1> off;
-    off << center - moved.inverse() * center, places[i].arm_mm * turn.angle() * turn.axis();
-    out.gradient.segment<6>(static_cast<Eigen::Index>(6 * i)) += information * off;
-  }
+  out.gradient += information * offsets_from(bundle, places, given);
   return out;
+}
+
+DeterminedOffsets determined_offsets(const FreePoseBundle& bundle,
+                                     const FreePoseSums& sums,
+                                     std::span<const Eigen::Isometry3d> given) {
+  const std::vector<Place> places = places_of(bundle, bundle.rig_from_world);
+  const RestedEquations all = centered(sums, about_centers(places));
+  const MotionsByShare by = motions_by_share(all.hessian, congruence(all.to, sums.ways));
+  const Eigen::Index count = by.motions.cols() - by.open;
+  if (count <= 0) return {};
+  // The offsets without the open motions, in unknowns.
+  const Eigen::VectorXd offsets = offsets_from(bundle, places, given);
+  const auto upper = by.root.transpose().triangularView<Eigen::Upper>();
+  const Eigen::MatrixXd determined = by.motions.rightCols(count);
+  const Eigen::VectorXd part = product(determined, transposed_product(determined, upper * offsets));
+  // The covariance of a motion that has a way of 1 is that of its distances over its share.
+  const Eigen::MatrixXd open = upper.solve(
+      determined *
+      by.squared_shares.tail(count).cwiseSqrt().cwiseInverse().asDiagonal().toDenseMatrix());
+  const auto motions = static_cast<double>(count);
+  const Eigen::VectorXd off = upper.solve(part);
+  double shifts = 0.0;
+  double turns = 0.0;
+  for (Eigen::Index i = 0; i < off.size(); ++i)
+    (i % 6 < 3 ? shifts : turns) += off[i] * off[i];
+  return {std::sqrt(2.0 * std::max(shifts, turns) / motions),
+          std::sqrt(open.squaredNorm() / motions / counted_share(bundle, sums)),
+          static_cast<std::size_t>(count)};
 }
 
 ViewMotions motions_of_free_poses(const FreePoseBundle& bundle,

@@ -67,6 +67,18 @@ struct RestedEquations {
                                             std::span<const Eigen::Isometry3d> given,
                                             double prior_mm);
 
+/// How far given poses are from those of the bundle by the motions that the pairs determine.
+struct DeterminedOffsets {
+  double rms_mm = 0.0;  ///< of the shifts of the views' centres or of the rotations at their arms,
+                        ///< whichever is larger
+  double sigma_mm = 0.0;  ///< what the pairs themselves leave of these motions, root mean square
+  std::size_t count = 0;  ///< of the motions
+};
+
+[[nodiscard]] DeterminedOffsets determined_offsets(const FreePoseBundle& bundle,
+                                                   const FreePoseSums& sums,
+                                                   std::span<const Eigen::Isometry3d> given);
+
 /// How the poses of free views may be wrong by what their pairs leave open, in independent changes
 /// of one standard deviation.
 ///

@@ -45,11 +45,6 @@ struct SurfelChunk {
 [[nodiscard]] std::vector<SurfelChunk> chunks_of(
     std::span<const std::vector<SurfelMap::Surfel>> surfels);
 
-/// A motion that moves a surface along its normals by less than this share of the way, root mean
-/// square, leaves it where it is: the pairs do not determine it. Noise of normals and a part off
-/// the axis by a tenth of a millimetre stay far below, a keyway or a handle in the view is above.
-inline constexpr double kOpenMotion = 0.03;
-
 /// Normal equations of all point-to-plane distances between views, in one state.
 ///
 /// @shape    unknowns: as `TableState` orders them
