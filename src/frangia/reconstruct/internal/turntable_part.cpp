@@ -60,8 +60,9 @@ Motion rigid_part(const Mesh& mesh,
                   const Eigen::MatrixXf& weights,
                   const ViewMotions& motions) {
   // Motions along the surface count, too, with a small weight: the normals of a prism do not
-  // determine its motion along the axis, and their noise of 0.001 must not.
-  constexpr double kAlong = 0.05;
+  // determine its motion along the axis, and their noise must not. More weight would move a round
+  // part along its normals to follow views that turn it by as much as a few millimetres.
+  constexpr double kAlong = kOpenMotion * kOpenMotion;
   Eigen::Matrix<double, 6, 6> squares = Eigen::Matrix<double, 6, 6>::Zero();
   Motion products = Motion::Zero(6, motions.front().cols());
   for (std::size_t i = 0; i < vertices.size(); ++i) {
