@@ -65,8 +65,9 @@ struct LitBlock {
   }
 };
 
-/// The blocks of the lit part of a frame.
+/// Blocks of the lit part of a frame, of some thousands that are spread over it.
 std::vector<LitBlock> lit_blocks(const Frame& frame) {
+  constexpr double kBlocks = 4000.0;
   constexpr double kBright = 0.99;
   constexpr float kLit = 0.3F;  // of the bright ones
   std::vector<LitBlock> out;
@@ -74,8 +75,11 @@ std::vector<LitBlock> lit_blocks(const Frame& frame) {
   const auto light_at = [&](const Place& at) {
     return static_cast<float>(counts_at(frame, at.x + kBlock_px / 2, at.y + kBlock_px / 2));
   };
-  for (int y = 0; y + 2 * kBlock_px <= height_of(frame); y += kBlock_px) {
-    for (int x = 0; x + 2 * kBlock_px <= width_of(frame); x += kBlock_px) {
+  const double all =
+      static_cast<double>(width_of(frame)) * height_of(frame) / std::pow(kBlock_px, 2);
+  const int step_px = kBlock_px * std::max(1, static_cast<int>(std::sqrt(all / kBlocks)));
+  for (int y = 0; y + 2 * kBlock_px <= height_of(frame); y += step_px) {
+    for (int x = 0; x + 2 * kBlock_px <= width_of(frame); x += step_px) {
       out.push_back({&frame, {x, y}});
       light.push_back(light_at({x, y}));
     }
