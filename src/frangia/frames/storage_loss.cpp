@@ -136,20 +136,23 @@ std::vector<Place> find_grids(const std::vector<LitBlock>& blocks) {
 /// The step of which these values are multiples, in whole counts; 0 where they are of none.
 int step_of(const std::vector<float>& values) {
   constexpr int kLargest = 120;
-  constexpr double kLeastPart = 0.7;  // of a step; what is less is zero
-  constexpr int kFewest = 25;
+  constexpr double kRounding = 1.3;   // counts; what is less is zero and the rounding of pixels
+  constexpr double kLeastPart = 0.7;  // of a step; what is less is no multiple
+  constexpr int kFewest = 25;         // multiples
   constexpr double kMultiples = 0.6;  // 1 for multiples, 0 for values by chance
   int best = 0;
   for (int step = 2; step <= kLargest; ++step) {
     double sum = 0.0;
     int count = 0;
+    int multiples = 0;
     for (const float value : values) {
+      if (std::abs(value) < kRounding) continue;
       const double steps = std::abs(static_cast<double>(value)) / step;
-      if (steps < kLeastPart) continue;
       sum += 1.0 - 4.0 * std::abs(steps - std::round(steps));
       ++count;
+      if (steps > kLeastPart) ++multiples;
     }
-    if (count >= kFewest && sum > kMultiples * count) best = step;
+    if (multiples >= kFewest && sum > kMultiples * count) best = step;
   }
   return best;
 }
@@ -180,7 +183,9 @@ double quality_scale(std::span<const FrameStack> stacks, double level_counts) {
   constexpr std::size_t kFrames = 12;
   constexpr std::size_t kForGrid = 128;   // blocks
   constexpr std::size_t kForSteps = 800;  // blocks
-  constexpr std::size_t kFewest = 4;      // frequencies
+  constexpr std::size_t kFewest = 6;      // frequencies
+  constexpr double kAlike = 1.6;          // a step over that of the standard table, over the median
+  constexpr double kMost = 0.7;           // of the frequencies
   std::vector<LitBlock> blocks;
   std::size_t frames = 0;
   for (const FrameStack& stack : stacks) {
@@ -195,7 +200,12 @@ double quality_scale(std::span<const FrameStack> stacks, double level_counts) {
     std::vector<double> scales = scales_of(measured, grid, level_counts);
     if (scales.size() > best.size()) best = std::move(scales);
   }
-  return best.size() < kFewest ? 0.0 : median(std::move(best));
+  if (best.size() < kFewest) return 0.0;
+  const double scale = median(best);
+  const auto alike = std::count_if(best.begin(), best.end(), [&](double one) {
+    return one < kAlike * scale && scale < kAlike * one;
+  });
+  return static_cast<double>(alike) < kMost * static_cast<double>(best.size()) ? 0.0 : scale;
 }
 
 /// Counts from one level to the next, 1 where all occur: the median over the samples of the frames.
