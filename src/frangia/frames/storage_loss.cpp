@@ -133,26 +133,27 @@ std::vector<Place> find_grids(const std::vector<LitBlock>& blocks) {
   return out;
 }
 
-/// The step of which these values are multiples, in whole counts; 0 where they are of none.
+/// The step of which these values are multiples but for the rounding of the pixels, in whole
+/// counts; 0 where they are of none.
 int step_of(const std::vector<float>& values) {
+  constexpr int kSmallest = 3;  // of less, all values are nearly multiples
   constexpr int kLargest = 120;
-  constexpr double kRounding = 1.3;   // counts; what is less is zero and the rounding of pixels
-  constexpr double kLeastPart = 0.7;  // of a step; what is less is no multiple
-  constexpr int kFewest = 25;         // multiples
-  constexpr double kMultiples = 0.6;  // 1 for multiples, 0 for values by chance
+  constexpr double kZero = 1.3;      // counts; what is less is no multiple but zero
+  constexpr double kRounding = 0.6;  // counts: twice the standard deviation of what rounding adds
+  constexpr int kFewest = 25;        // values that are not zero
+  constexpr double kMost = 0.7;  // of these, that are multiples; by chance it is 1.2 over the step
   int best = 0;
-  for (int step = 2; step <= kLargest; ++step) {
-    double sum = 0.0;
+  for (int step = kSmallest; step <= kLargest; ++step) {
     int count = 0;
     int multiples = 0;
     for (const float value : values) {
-      if (std::abs(value) < kRounding) continue;
-      const double steps = std::abs(static_cast<double>(value)) / step;
-      sum += 1.0 - 4.0 * std::abs(steps - std::round(steps));
+      const double size = std::abs(static_cast<double>(value));
+      if (size < kZero) continue;
       ++count;
-      if (steps > kLeastPart) ++multiples;
+      const double number = std::round(size / step);
+      if (number > 0.0 && std::abs(size - number * step) < kRounding) ++multiples;
     }
-    if (multiples >= kFewest && sum > kMultiples * count) best = step;
+    if (count >= kFewest && multiples > kMost * count) best = step;
   }
   return best;
 }
