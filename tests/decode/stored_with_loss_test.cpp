@@ -2,37 +2,27 @@
 // more than their levels do.
 #include <cmath>
 #include <cstdint>
-#include <random>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include <gtest/gtest.h>
 
-#include "frangia/core/angles.h"
 #include "frangia/decode/decode_view.h"
+
+#include "support/rendered_frames.h"
 
 namespace frangia {
 namespace {
 
-/// Four steps on a shaded surface, by a camera of 24 levels.
+/// Four steps by a camera of 24 levels.
 FrameStack few_levels() {
   constexpr double kStep = 255.0 / 23.0;
-  std::mt19937 random(5);
-  std::normal_distribution<double> noise(0.0, 1.0);
-  FrameStack stack;
-  stack.pattern = {.name = "f", .period_px = 20.0, .shifts_rad = {}};
-  for (int k = 0; k < 4; ++k) {
-    stack.pattern.shifts_rad.push_back(kTwoPi * k / 4);
-    Image<std::uint8_t> frame(240, 160);
-    for (int y = 0; y < frame.height(); ++y) {
-      for (int x = 0; x < frame.width(); ++x) {
-        const double phase = 0.4 * x + std::sin(0.05 * y) + stack.pattern.shifts_rad.back();
-        const double albedo = 0.5 + 0.5 * std::cos(0.01 * x - 0.02 * y);
-        const double light = 8.0 + albedo * (110.0 + 90.0 * std::cos(phase)) + noise(random);
-        frame(x, y) = static_cast<std::uint8_t>(std::lround(std::round(light / kStep) * kStep));
-      }
-    }
-    stack.frames.emplace_back(std::move(frame));
+  const testing::RenderedScene scene{.width = 240, .height = 160, .noise = 1.0, .seed = 5};
+  FrameStack stack = testing::RenderedFrames(scene, 4).stack();
+  for (Frame& frame : stack.frames) {
+    for (std::uint8_t& counts : std::get<Image<std::uint8_t>>(frame).pixels())
+      counts = static_cast<std::uint8_t>(std::lround(std::round(counts / kStep) * kStep));
   }
   return stack;
 }

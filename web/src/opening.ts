@@ -201,7 +201,7 @@ export class Opening {
     this.pending = null;
     if (job.state === 'done') {
       app.go(pending.step);
-      void pending.then();
+      void pending.then().catch((error) => app.say(error));
     } else void app.session.command('discard-project', { name: pending.name }).catch((error) => app.say(error));
   }
 }

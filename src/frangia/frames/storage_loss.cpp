@@ -92,7 +92,7 @@ std::vector<LitBlock> lit_blocks(const Frame& frame) {
   return out;
 }
 
-/// Evenly so many of the blocks, or all of them.
+/// At most so many of the blocks, spread evenly over all of them.
 std::vector<LitBlock> some_of(const std::vector<LitBlock>& blocks, std::size_t most) {
   if (blocks.size() <= most) return blocks;
   std::vector<LitBlock> out;
@@ -227,43 +227,37 @@ double level_step(std::span<const Frame> frames, int white_level) {
         frame);
   }
   struct Level {
-    double gap = 0.0;
+    std::size_t gap = 0;  ///< to the level below
     std::size_t samples = 0;
   };
   std::vector<Level> levels;
   std::size_t all = 0;
+  std::size_t seen_often = 0;
   std::size_t before = 0;
   for (std::size_t counts = 1; counts < histogram.size(); ++counts) {
     if (histogram[counts] == 0) continue;
     if (before > 0) {
-      levels.push_back({static_cast<double>(counts - before), histogram[counts]});
+      levels.push_back({counts - before, histogram[counts]});
       all += histogram[counts];
+      if (histogram[counts] >= kOften) seen_often += histogram[counts];
     }
     before = counts;
   }
-  if (levels.size() < kFewest) return 1.0;
-  const auto median_of = [&](auto less, auto value) {
-    std::sort(levels.begin(), levels.end(), less);
-    std::size_t sum = 0;
-    for (const Level& level : levels) {
-      sum += level.samples;
-      if (2 * sum >= all) return value(level);
-    }
-    return 0.0;
-  };
-  const double often =
-      median_of([](const Level& a, const Level& b) { return a.samples < b.samples; },
-                [](const Level& level) { return static_cast<double>(level.samples); });
-  const double gap = median_of([](const Level& a, const Level& b) { return a.gap < b.gap; },
-                               [](const Level& level) { return level.gap; });
-  return often >= kOften ? std::max(1.0, gap) : 1.0;
+  if (levels.size() < kFewest || 2 * seen_often < all) return 1.0;
+  std::sort(
+      levels.begin(), levels.end(), [](const Level& a, const Level& b) { return a.gap < b.gap; });
+  std::size_t below = 0;
+  for (const Level& level : levels) {
+    below += level.samples;
+    if (2 * below >= all) return static_cast<double>(level.gap);
+  }
+  return 1.0;
 }
 
 }  // namespace
 
 StorageLoss find_storage_loss(std::span<const FrameStack> stacks) {
-  constexpr double kFewLevels =
-      128.0;  // up to the white level; more add little to a camera's noise
+  constexpr double kFewLevels = 128.0;  // up to the white level; more add little noise
   StorageLoss out;
   if (stacks.empty()) return out;
   const auto fringes = std::find_if(stacks.rbegin(), stacks.rend(), [](const FrameStack& stack) {

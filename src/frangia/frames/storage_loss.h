@@ -17,9 +17,10 @@ struct StorageLoss {
 
 /// Looks for traces of a loss in the frames of one view.
 ///
-/// The blocks of 8 x 8 pixels of a compressed image have next to no high frequencies, which those
-/// beside them have. In the blocks, each frequency is a multiple of its quantization step. Frames
-/// of few levels hold some counts often, and none between them.
+/// A compression cuts an image into blocks of 8 x 8 pixels and stores the cosine transform of each,
+/// every coefficient as a multiple of a quantization step; most of those of high frequency become
+/// zero. Windows of the same size that lie across the borders of the blocks show neither. Frames of
+/// few levels hold some counts often, and none of the counts between them.
 ///
 /// @shape    all stacks of one view
 /// @source   ITU-T T.81 for the steps; `jpeg_noise_counts2` for what they cost

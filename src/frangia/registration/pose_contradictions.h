@@ -10,9 +10,6 @@
 
 namespace frangia {
 
-/// Natural logarithm of the odds from which on another pose is taken: 100 : 1.
-inline constexpr double kOtherPose = 4.605;
-
 /// Patches of the surfaces of two groups in one pose.
 struct PatchCount {
   std::size_t compared = 0;       ///< patches that the other group measured, too

@@ -132,10 +132,7 @@ PosesReport register_poses(ViewStore& views,
   report.given_sigma_mm = prior_mm;
   const bool assumed = !(options.prior_mm > 0.0) && !(options.reach_mm > 0.0);
   const auto shown = assumed ? sigma_shown(bundle, sums, given) : std::nullopt;
-  if (shown && *shown < prior_mm) {
-    report.given_sigma_mm = *shown;
-    report.shows_given_sigma = true;
-  }
+  if (shown) report.given_sigma_mm = std::min(prior_mm, *shown);
   report.motions = motions_of_free_poses(bundle, sums, report.given_sigma_mm);
   return report;
 }

@@ -37,7 +37,6 @@ struct PosesReport {
   ViewMotions motions;         ///< of the views by what their overlap leaves open
   /// Standard deviation of the given poses: stated, assumed, or what the surfaces show of it.
   double given_sigma_mm = 0.0;
-  bool shows_given_sigma = false;  ///< it is what the surfaces show
 
   [[nodiscard]] std::string text() const;  ///< the result as a sentence
 };

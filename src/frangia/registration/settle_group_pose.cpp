@@ -18,6 +18,8 @@ namespace {
 
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 
+/// Natural logarithm of the odds from which on another pose is taken: 100 : 1.
+constexpr double kDecided = 4.605;
 /// Information below which a motion hardly changes distances, over that of a motion along the
 /// normals: as `JoinByShapeOptions::well_constrained`. A keyway holds the turn of a shaft by 0.005.
 constexpr double kWeak = 0.02;
@@ -274,7 +276,7 @@ class PoseSettler {
         consider(way_.refined(at.motion(step) * least[i]->pose), *least[i]);
       }
     }
-    if (!best || log_odds(*best) < kOtherPose) return false;
+    if (!best || log_odds(*best) < kDecided) return false;
     const double shift_mm = best->way_mm;
     poses.push_back({settled_.to_from, 0.0, kStep * options_.spacing_mm, count_});
     for (PoseOnWay& pose : poses)

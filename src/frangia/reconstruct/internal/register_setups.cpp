@@ -238,8 +238,8 @@ SetupPoses find_part_poses(const std::vector<MeasuredSetup>& setups,
   }
   if (auto given = refine_given_poses(setups, groups, views, options, spacing_mm, run))
     return with_fits(std::move(*given));
-  const JoinedGroups joined =
-      join_by_shape(groups, views, {.spacing_mm = spacing_mm, .may_turn = true}, run);
+  const JoinByShapeOptions by_shape{.spacing_mm = spacing_mm, .may_turn = true};
+  const JoinedGroups joined = join_by_shape(groups, views, by_shape, run);
   SetupPoses setup_poses{joined.reference, {}, joined.ambiguous, {}};
   for (const auto& pose : joined.reference_from_group) {
     setup_poses.setup_from_reference.push_back(pose ? std::optional(pose->inverse())
@@ -257,8 +257,7 @@ SetupPoses find_part_poses(const std::vector<MeasuredSetup>& setups,
                                         found[i]->inverse(),
                                         views,
                                         kGate * spacing_mm);
-    const bool turns =
-        fit.smallest_eigenvalue < JoinByShapeOptions().well_constrained && fit.weakest_axis();
+    const bool turns = fit.smallest_eigenvalue < by_shape.well_constrained && fit.weakest_axis();
     if (turns) settle(setup_poses, i, setups, groups, views, {.spacing_mm = spacing_mm}, run);
   }
   return with_fits(std::move(setup_poses));

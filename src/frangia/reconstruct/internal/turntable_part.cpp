@@ -83,22 +83,6 @@ Motion rigid_part(const Mesh& mesh,
   return solve_symmetric_columns(squares, products);
 }
 
-/// Root of the sum of squares of the displacements of a point along its normal. Motions that move
-/// it along the surface by far more move it by the noise of the normal alone: that of a round part
-/// whose turn is not known would count by a hundredth of its arc.
-double along_normal(const Eigen::Vector3d& point,
-                    const Eigen::Vector3d& normal,
-                    const Motion& motion) {
-  double squares = 0.0;
-  for (Eigen::Index i = 0; i < motion.cols(); ++i) {
-    const Eigen::Vector3d turn = motion.col(i).head<3>();
-    const Eigen::Vector3d way = turn.cross(point) + motion.col(i).tail<3>();
-    const double along = normal.dot(way);
-    if (std::abs(along) > kOpenMotion * way.norm()) squares += along * along;
-  }
-  return std::sqrt(squares);
-}
-
 std::vector<float> parts_of(const Mesh& mesh,
                             const std::vector<std::size_t>& vertices,
                             const Eigen::MatrixXf& weights,
@@ -108,9 +92,9 @@ std::vector<float> parts_of(const Mesh& mesh,
   for (std::size_t i = 0; i < vertices.size(); ++i) {
     const auto column = static_cast<Eigen::Index>(i);
     if (!(weights.col(column).sum() > 0.0F)) continue;
-    parts[i] = static_cast<float>(along_normal(mesh.vertices_mm[vertices[i]].cast<double>(),
-                                               mesh.normals[vertices[i]].cast<double>(),
-                                               mean_motion(motions, weights, column) - rigid));
+    const Row row = row_of(mesh.vertices_mm[vertices[i]].cast<double>(),
+                           mesh.normals[vertices[i]].cast<double>());
+    parts[i] = static_cast<float>((row * (mean_motion(motions, weights, column) - rigid)).norm());
   }
   return parts;
 }

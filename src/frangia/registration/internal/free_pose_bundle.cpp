@@ -250,9 +250,9 @@ struct MotionsByShare {
   Eigen::MatrixXd root;            ///< lower: its transpose turns unknowns into these units
   Eigen::MatrixXd motions;         ///< orthonormal; no columns where there are no pairs
   Eigen::VectorXd squared_shares;  ///< of the way that is along the normals, ascending
-  Eigen::Index open =
-      0;  ///< motions that leave the surfaces where they are: what moves them along
-          ///< their normals by less than `kOpenMotion` of the way is noise of normals
+  /// How many motions, the first ones, leave the surfaces where they are: what moves them along
+  /// their normals by less than `kOpenMotion` of the way is noise of normals.
+  Eigen::Index open = 0;
 };
 
 MotionsByShare motions_by_share(const Eigen::MatrixXd& hessian, Eigen::MatrixXd ways) {
