@@ -1,6 +1,7 @@
 #include <cmath>
 #include <complex>
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <random>
 #include <vector>
@@ -115,7 +116,7 @@ WrappedPhase bands_of(const WrappedPhase& map) {
 }
 
 std::optional<ImageBlur> estimated(Light light, double sigma_px, double coarse = 0.125) {
-  return estimate_blur(bands_of(blurred(light, sigma_px, coarse, 1)),
+  return estimate_blur(whole_light(bands_of(blurred(light, sigma_px, coarse, 1))),
                        bands_of(blurred(light, sigma_px, 1.0, 2)));
 }
 
@@ -130,10 +131,47 @@ TEST(EstimateBlur, FindsTheBlurOfBrightAndOfPaintedSurfaces) {
   }
 }
 
+TEST(EstimateBlur, FindsTheBlurByAPartThatCoversFewColumns) {
+  WrappedPhase fine = blurred(bright, 0.7, 1.0, 2);
+  for (int y = 0; y < kDownPx; ++y) {
+    for (int x = 0; x < kAcrossPx; ++x)
+      if (x < 190 || x >= 290) fine.sigma_rad(x, y) = kMissing;
+  }
+  const auto blur =
+      estimate_blur(whole_light(bands_of(blurred(bright, 0.7, 0.125, 1))), bands_of(fine));
+  ASSERT_TRUE(blur);
+  EXPECT_NEAR(blur->sigma_px(), 0.7, 0.1);
+}
+
+TEST(EstimateBlur, FindsTheBlurByTheStripesOfAGrayCode) {
+  Image<std::uint8_t> first(kAcrossPx, kDownPx, 20);
+  for (int y = 0; y < kDownPx; ++y) {
+    for (int x = 0; x < kAcrossPx / 3; ++x)
+      first(x, y) = 220;
+  }
+  Image<std::uint8_t> inverse = first;
+  for (std::uint8_t& counts : inverse.pixels())
+    counts = static_cast<std::uint8_t>(240 - counts);
+  FrameStack gray{.pattern = {.name = "gray", .kind = PatternKind::Gray, .bits = 1}};
+  gray.pattern.inverted = InvertedFrames::After;
+  gray.frames = {first, inverse};
+  const auto blur = estimate_blur(whole_light(gray), blurred(bright, 0.7, 1.0, 2));
+  ASSERT_TRUE(blur);
+  EXPECT_NEAR(blur->sigma_px(), 0.7, 0.1);
+  gray.white_level = 220;
+  EXPECT_TRUE(std::isnan(whole_light(gray).counts(0, 0))) << "saturated";
+}
+
+TEST(EstimateBlur, FindsTheBlurByFringesThatDifferLittle) {
+  const auto blur = estimated(bright, 0.8, 0.7);
+  ASSERT_TRUE(blur);
+  EXPECT_NEAR(blur->sigma_px(), 0.8, 0.1);
+}
+
 TEST(EstimateBlur, FindsNoneInASharpImageAndWherePatternsAreAlike) {
   EXPECT_FALSE(estimated(bright, 0.0));
   EXPECT_FALSE(estimated(painted, 0.0));
-  EXPECT_FALSE(estimated(bright, 0.8, 0.7)) << "fringes too much alike";
+  EXPECT_FALSE(estimated(bright, 0.8, 0.97)) << "fringes too much alike";
 }
 
 AbsolutePhase unwrapped(const WrappedPhase& map) {

@@ -106,6 +106,15 @@ TEST(CheckGrayCode, TakesDepthEdgesForNoBorders) {
   EXPECT_TRUE(found.consistent) << describe(found);
 }
 
+TEST(CheckGrayCode, TakesDepthEdgesForNoMissingFrame) {
+  // A part between the borders of the second frame, which is dark all over it. At steps in depth by
+  // a whole fringe the number falls while the phase rises, as it would where that frame is wrong.
+  const auto stepped = [](int x, int /*y*/) { return 205.0 + x - 20.0 * ((x + 5) / 70); };
+  const SequenceCheck found = CodedScene(InvertedFrames::None, false, stepped).check();
+  EXPECT_TRUE(found.decided);
+  EXPECT_TRUE(found.consistent) << describe(found);
+}
+
 TEST(CheckGrayCode, NamesAStartBelowHalfAStripe) {
   CodedScene scene;
   for (double& shift : scene.fringes.pattern.shifts_rad)

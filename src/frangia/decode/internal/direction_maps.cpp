@@ -202,26 +202,59 @@ DirectionMaps wrap_maps(const DirectionInput& input, DirectionMaps fitted, Wrapp
   return out;
 }
 
+namespace {
+
+/// What of the frames of a direction blur weakens least, on all of their rows or on some bands;
+/// none where there is nothing but one pattern of fringes.
+class LeastBlurred {
+ public:
+  LeastBlurred(const DirectionInput& input, const DirectionMaps& maps)
+      : input_(input), maps_(maps) {
+    const auto gray = gray_of(input.stacks, input.plan.direction);
+    if (maps.fringes.size() > 1)
+      coarsest_ = maps.fringes.front();
+    else if (!gray.empty() && gray.front().pattern.inverted != InvertedFrames::None)
+      gray_ = &gray.front();
+  }
+  [[nodiscard]] bool is_there() const { return coarsest_ != nullptr || gray_ != nullptr; }
+  [[nodiscard]] WholeLight on_bands(std::size_t pixels) const {
+    if (gray_ != nullptr) return whole_light(sample_rows(*gray_, pixels, kBlurBandRows));
+    return whole_light(wrap_phase(sample_rows(*coarsest_, pixels, kBlurBandRows),
+                                  maps_.fits.front().algorithm,
+                                  maps_.view.noise,
+                                  input_.options.wrap));
+  }
+  [[nodiscard]] WholeLight everywhere() const {
+    if (gray_ != nullptr) return whole_light(*gray_);
+    const FittedAlgorithm& fit = maps_.fits.front();
+    const NoiseModel& noise = maps_.view.noise;
+    return whole_light(
+        coarsest_->pattern.exposure_count() > 1
+            ? merge_exposures(exposures_of(coarsest_), fit.shifts_rad, noise, input_.options.wrap)
+            : wrap_phase(*coarsest_, fit.algorithm, noise, input_.options.wrap));
+  }
+
+ private:
+  const DirectionInput& input_;
+  const DirectionMaps& maps_;
+  const FrameStack* coarsest_ = nullptr;
+  const FrameStack* gray_ = nullptr;
+};
+
+}  // namespace
+
 void undo_blur(const DirectionInput& input, DirectionMaps& maps) {
   constexpr std::size_t kSampledPixels = 200'000;
-  if (!input.options.undo_blur || input.options.own.any() || maps.fringes.size() < 2) return;
-  const auto bands_of = [&](std::size_t m) {
-    return wrap_phase(sample_rows(*maps.fringes[m], kSampledPixels, kBlurBandRows),
-                      maps.fits[m].algorithm,
-                      maps.view.noise,
-                      input.options.wrap);
-  };
-  maps.view.blur = estimate_blur(bands_of(0), bands_of(maps.fringes.size() - 1));
-  if (!maps.view.blur) return;
-  const FrameStack* coarsest = maps.fringes.front();
-  const WrappedPhase map =
-      coarsest->pattern.exposure_count() > 1
-          ? merge_exposures(exposures_of(coarsest),
-                            maps.fits.front().shifts_rad,
-                            maps.view.noise,
-                            input.options.wrap)
-          : wrap_phase(*coarsest, maps.fits.front().algorithm, maps.view.noise, input.options.wrap);
-  correct_blur(maps.view.phase, map.modulation_counts, *maps.view.blur);
+  if (!input.options.undo_blur || input.options.own.any()) return;
+  const LeastBlurred least(input, maps);
+  if (!least.is_there()) return;
+  const WrappedPhase fine =
+      wrap_phase(sample_rows(*maps.fringes.back(), kSampledPixels, kBlurBandRows),
+                 maps.fits.back().algorithm,
+                 maps.view.noise,
+                 input.options.wrap);
+  maps.view.blur = estimate_blur(least.on_bands(kSampledPixels), fine);
+  if (maps.view.blur) correct_blur(maps.view.phase, least.everywhere().counts, *maps.view.blur);
 }
 
 bool allow_one_pass(const DirectionInput& input, const DirectionMaps& fitted) {

@@ -12,6 +12,8 @@
 #include <fmt/format.h>
 
 #include "frangia/core/angles.h"
+#include "frangia/core/missing.h"
+#include "frangia/core/parallel.h"
 #include "frangia/core/statistics.h"
 
 namespace frangia {
@@ -21,11 +23,10 @@ namespace {
 struct Weakening {
   double x = 0.0;
   double log_ratio = 0.0;
-  std::size_t block = 0;  ///< of the image
+  int column = 0;  ///< of the image
 };
 
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
-constexpr std::size_t kSlopeBlocks = 8;  // columns of the image whose slopes give the uncertainty
 
 /// Change of a wrapped phase over one pixel, NaN where its neighbours disagree.
 double slope_of(float before, float here, float after) {
@@ -37,25 +38,22 @@ double slope_of(float before, float here, float after) {
   return 0.5 * (back + on);
 }
 
-std::vector<Weakening> weakenings(const WrappedPhase& coarse, const WrappedPhase& fine) {
+std::vector<Weakening> weakenings(const WholeLight& light, const WrappedPhase& fine) {
   // A phase this certain has a modulation whose logarithm has no bias by noise worth mentioning.
   constexpr float kCertain_rad = 0.05F;
-  const double ratio = coarse.pattern.fringes_per_unit() / fine.pattern.fringes_per_unit();
+  const double ratio = light.fringes / fine.pattern.fringes_per_unit();
   const Image<float>& phase = fine.phase_rad;
   std::vector<Weakening> out;
   for (int y = 1; y + 1 < phase.height(); y += kBlurBandRows) {
     for (int x = 1; x + 1 < phase.width(); ++x) {
-      if (!(fine.sigma_rad(x, y) < kCertain_rad && coarse.sigma_rad(x, y) < kCertain_rad)) continue;
+      const auto whole = static_cast<double>(light.counts(x, y));
+      if (!(fine.sigma_rad(x, y) < kCertain_rad && whole > 0.0)) continue;
       const double across = slope_of(phase(x - 1, y), phase(x, y), phase(x + 1, y));
       const double down = slope_of(phase(x, y - 1), phase(x, y), phase(x, y + 1));
       const double square = 0.5 * (across * across + down * down);  // 2 pi^2 f^2
       if (std::isnan(square)) continue;
       const auto weaker = static_cast<double>(fine.modulation_counts(x, y));
-      const auto whole = static_cast<double>(coarse.modulation_counts(x, y));
-      out.push_back(
-          {square * (1.0 - ratio * ratio),
-           std::log(weaker / whole),
-           static_cast<std::size_t>(x) * kSlopeBlocks / static_cast<std::size_t>(phase.width())});
+      out.push_back({square * (1.0 - ratio * ratio), std::log(weaker / whole), x});
     }
   }
   return out;
@@ -105,19 +103,24 @@ Line line_through(std::vector<Weakening> samples) {
   return line;
 }
 
-/// The standard uncertainty of the slope: how much it changes without each block of the image,
-/// whose samples have more in common than noise.
-double jackknifed(const std::vector<Weakening>& samples) {
+/// The standard uncertainty of the slope: how much it changes without each block of neighbouring
+/// columns, whose samples have more in common than noise. Blocks hold equally many samples, as a
+/// part may cover a few columns only.
+double jackknifed(std::vector<Weakening> samples) {
+  constexpr std::size_t kBlocks = 8;
+  std::stable_sort(samples.begin(), samples.end(), [](const auto& a, const auto& b) {
+    return a.column < b.column;
+  });
+  const auto at = [&](std::size_t block) {
+    return samples.begin() + static_cast<std::ptrdiff_t>(block * samples.size() / kBlocks);
+  };
   std::vector<double> slopes;
-  for (std::size_t left_out = 0; left_out < kSlopeBlocks; ++left_out) {
-    std::vector<Weakening> rest;
-    std::copy_if(samples.begin(), samples.end(), std::back_inserter(rest), [&](const auto& sample) {
-      return sample.block != left_out;
-    });
-    if (rest.size() < samples.size()) slopes.push_back(line_through(std::move(rest)).slope);
+  for (std::size_t left_out = 0; left_out < kBlocks; ++left_out) {
+    std::vector<Weakening> rest(samples.begin(), at(left_out));
+    rest.insert(rest.end(), at(left_out + 1), samples.end());
+    slopes.push_back(line_through(std::move(rest)).slope);
   }
-  const auto count = static_cast<double>(slopes.size());
-  if (slopes.size() < 2) return kUnknown;
+  constexpr auto count = static_cast<double>(kBlocks);
   const double mean = std::accumulate(slopes.begin(), slopes.end(), 0.0) / count;
   double square = 0.0;
   for (const double slope : slopes)
@@ -127,14 +130,38 @@ double jackknifed(const std::vector<Weakening>& samples) {
 
 }  // namespace
 
-std::optional<ImageBlur> estimate_blur(const WrappedPhase& coarse, const WrappedPhase& fine) {
-  constexpr double kLeastRatio = 2.0;   // of the numbers of fringes
-  constexpr double kLeast_px2 = 0.2;    // less than half a pixel shifts no phase noticeably
-  constexpr double kMost_px2 = 25.0;    // no fringes remain
-  constexpr double kStraight = 0.35;    // of the line's own spread
+WholeLight whole_light(const WrappedPhase& coarse) {
+  return {coarse.modulation_counts, coarse.pattern.fringes_per_unit()};
+}
+
+WholeLight whole_light(const FrameStack& gray) {
+  const int width = width_of(gray.frames.front());
+  const int height = height_of(gray.frames.front());
+  WholeLight light{Image<float>(width, height)};
+  parallel_rows(height, [&](int y) {
+    for (int x = 0; x < width; ++x) {
+      int darkest = gray.white_level;
+      int brightest = 0;
+      for (const Frame& frame : gray.frames) {
+        darkest = std::min(darkest, counts_at(frame, x, y));
+        brightest = std::max(brightest, counts_at(frame, x, y));
+      }
+      light.counts(x, y) =
+          brightest < gray.white_level ? 0.5F * static_cast<float>(brightest - darkest) : kMissing;
+    }
+  });
+  return light;
+}
+
+std::optional<ImageBlur> estimate_blur(const WholeLight& whole, const WrappedPhase& fine) {
+  constexpr double kMostFringes =
+      0.95;                           // of those of the fine pattern: else both are weakened alike
+  constexpr double kLeast_px2 = 0.1;  // the area of a pixel has 0.083
+  constexpr double kMost_px2 = 25.0;  // no fringes remain
+  constexpr double kStraight = 0.35;  // of the line's own spread
   constexpr double kSignificant = 5.0;  // times its uncertainty
-  if (fine.pattern.fringes_per_unit() < kLeastRatio * coarse.pattern.fringes_per_unit()) return {};
-  const std::vector<Weakening> samples = weakenings(coarse, fine);
+  if (whole.fringes > kMostFringes * fine.pattern.fringes_per_unit()) return {};
+  const std::vector<Weakening> samples = weakenings(whole, fine);
   const Line line = line_through(samples);
   ImageBlur blur{.variance_px2 = -line.slope};
   if (!(blur.variance_px2 > kLeast_px2 && blur.variance_px2 < kMost_px2)) return {};

@@ -4,6 +4,8 @@
 #include <optional>
 #include <string>
 
+#include "frangia/core/image.h"
+#include "frangia/frames/frame_stack.h"
 #include "frangia/phase/wrap/phase_map.h"
 
 namespace frangia {
@@ -20,15 +22,35 @@ struct ImageBlur {
 /// Rows that lie together in the maps from which `estimate_blur` takes the slope of a phase.
 inline constexpr int kBlurBandRows = 3;
 
-/// Estimates the blur of a camera by how it weakens two patterns of fringes. A blur of variance s^2
-/// leaves exp(-2 pi^2 s^2 f^2) of the modulation of fringes with f periods per pixel of the camera.
-/// f differs with the slope of the surface. Light, albedo and the blur of the projector do not, so
+/// The light of a pixel that a pattern modulates, where blur hardly weakens it.
+struct WholeLight {
+  /// The modulation of coarse fringes, or half the contrast of wide stripes.
+  ///
+  /// @units    counts
+  /// @missing  NaN or 0 where it is not known
+  Image<float> counts;
+  double fringes = 0.0;  ///< in the field; 0 for stripes
+};
+
+[[nodiscard]] WholeLight whole_light(const WrappedPhase& coarse);
+
+/// Half the difference between the brightest and the darkest frame of a Gray code at each pixel:
+/// its wide stripes are blurred at their borders only, where others are not.
+///
+/// @shape    one exposure; a code with inverted frames, so that each pixel is bright in one frame
+///           and dark in another
+/// @missing  NaN where the brightest frame is saturated
+[[nodiscard]] WholeLight whole_light(const FrameStack& gray);
+
+/// Estimates the blur of a camera by how it weakens fringes. A blur of variance s^2 leaves
+/// exp(-2 pi^2 s^2 f^2) of the modulation of fringes with f periods per pixel of the camera. f
+/// differs with the slope of the surface. Light, albedo and the blur of the projector do not, so
 /// that the logarithm of the ratio of both modulations lies on a line over f^2.
 ///
-/// @shape    both maps hold bands of `kBlurBandRows` rows, as `sample_rows` takes them
+/// @shape    both hold bands of `kBlurBandRows` rows, as `sample_rows` takes them
 /// @missing  none where slopes are too alike to tell, where the modulations lie on no line, and for
 ///           a blur that is hardly more than the area of a pixel
-[[nodiscard]] std::optional<ImageBlur> estimate_blur(const WrappedPhase& coarse,
+[[nodiscard]] std::optional<ImageBlur> estimate_blur(const WholeLight& whole,
                                                      const WrappedPhase& fine);
 
 /// One clause about the blur for which a phase is corrected.

@@ -100,12 +100,17 @@ class GrayCodeSample {
 
   /// Share of the pixels that contradict the fringes, or of the borders where the number falls
   /// while the phase rises, that fit if this frame showed the opposite there.
+  ///
+  /// Where a frame is wrong the number falls at all borders. One that falls between others that
+  /// rise is a depth edge.
   [[nodiscard]] double contradiction_of(const GrayTrial& declared, std::size_t frame) const {
     GrayTrial opposite = declared;
     opposite.inverted[frame] = !opposite.inverted[frame];
     double wrong = 0.0;
     double falling = 0.0;
     double borders = 0.0;
+    int line_of_last = -1;
+    int run = 0;  // borders of this line that fall, one after the other
     for (std::size_t i = 0; i < pixels.size(); ++i) {
       const bool agrees = agrees_with_fringes(declared, pixels[i], stripe_of(declared, pixels[i]));
       if (!agrees && agrees_with_fringes(opposite, pixels[i], stripe_of(opposite, pixels[i])))
@@ -116,7 +121,10 @@ class GrayCodeSample {
       const int step = step_along_phase(declared, i);
       if (step == 0) continue;
       borders += 1.0;
-      if (step < 0 && step_along_phase(opposite, i) > 0) falling += 1.0;
+      const bool falls = step < 0 && step_along_phase(opposite, i) > 0;
+      run = !falls ? 0 : pixels[i].line == line_of_last ? run + 1 : 1;
+      line_of_last = pixels[i].line;
+      if (run > 1) falling += run == 2 ? 2.0 : 1.0;
     }
     return std::max(wrong / static_cast<double>(std::max<std::size_t>(1, pixels.size())),
                     falling / std::max(borders, static_cast<double>(kGrayCodeLimits.min_borders)));
