@@ -202,6 +202,14 @@ tolerance_mm = [-0.1, 0.1]
 name = "equator"
 point_mm = [0, 0, 1]
 normal = [0, 0, 1]
+[[sections]]
+name = "x=1"
+point_mm = [1, 0, 0]
+normal = [1, 0, 0]
+[[sections]]
+name = "x/1"
+point_mm = [-1, 0, 0]
+normal = [1, 0, 0]
 )";
   const Answer answer = run_program(
       "--json inspect " + at("mesh.ply") + " --plan " + at("inspection.toml") + " --report " +
@@ -230,6 +238,9 @@ normal = [0, 0, 1]
   EXPECT_NE(text_of("report.csv").find("ball diameter"), std::string::npos);
   EXPECT_NE(text_of("report-equator.dxf").find("MEASURED"), std::string::npos);
   EXPECT_NE(text_of("report-equator.svg").find("<svg"), std::string::npos);
+  // Names that differ in a character which no file name holds are two files.
+  EXPECT_NE(text_of("report-x-1.svg").find("<svg"), std::string::npos);
+  EXPECT_NE(text_of("report-x-1-2.svg").find("<svg"), std::string::npos);
 
   const std::string asked = "inspect " + at("mesh.ply") + " --plan " + at("inspection.toml");
   const Answer failed = run_program(asked + " --fail-out-of-tolerance");

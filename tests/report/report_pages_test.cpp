@@ -303,6 +303,36 @@ TEST(ReportPages, ArePrintedWithTheVerdictOnTheFirstSheetAndRepeatedHeads) {
   }
 }
 
+/// However long the name of a part is, the first sheet ends with the rule of its decisions, and the
+/// heads of the others are one line.
+TEST(ReportPages, BeginWithOneSheetHoweverLongTheNameOfThePartIs) {
+  if (std::system("command -v weasyprint pdftotext > /dev/null") != 0)
+    GTEST_SKIP() << "needs weasyprint and pdftotext (packages weasyprint, poppler-utils)";
+  const testing::TemporaryFolder folder;
+  InspectionReport report;
+  for (int i = 0; i < 40; ++i)
+    report.part += "Flansch mit Ä&<b>";
+  report.part += " ENDE";
+  report.fields.customer = "a customer whose name fills a line and a half of the head";
+  for (int i = 0; i < 30; ++i)
+    report.characteristics.push_back(result("diameter " + std::to_string(i), 10.0 + 0.0005 * i));
+  ReportPicture picture = random_picture(4);
+  picture.picture = Image<Rgb>(72, 44, Rgb{90, 90, 90});
+  report.pictures = {picture};
+  write_text_file(folder.path() / "r.html", html_of(report));
+  const auto pdf = folder.path() / "r.pdf";
+  const std::string command =
+      "weasyprint " + (folder.path() / "r.html").string() + " " + pdf.string() + " 2> /dev/null";
+  ASSERT_EQ(std::system(command.c_str()), 0);
+  const std::string first = printed_sheet(pdf, 1);
+  for (const char* text : {"ENDE", "Decision rule", "its U95."})
+    EXPECT_NE(first.find(text), std::string::npos) << text << first;
+  const std::string second = printed_sheet(pdf, 2);
+  EXPECT_NE(second.find("Results, the worst first"), std::string::npos) << second;
+  EXPECT_EQ(second.find("ENDE"), std::string::npos) << second;
+  EXPECT_NE(second.find("…"), std::string::npos) << second;
+}
+
 /// Names of any language, and words of the widest, within the sheet.
 TEST(ReportPages, ArePrintedWithinTheMarginsInEveryLanguage) {
   if (std::system("command -v weasyprint pdftotext > /dev/null") != 0)

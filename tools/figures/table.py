@@ -46,6 +46,7 @@ SECTIONS = {
     "two_cameras": Inputs(SCAN, case_s=15),
     "app": Inputs("serve", files="web/src tests/app benchmarks/service_bench.cpp", case_s=300),
     "features": Inputs(SCAN, shared="balls", case_s=7),
+    "drawn_rig": Inputs(SCAN + " calibrate", case_s=12),
     "alignment": Inputs(SCAN, case_s=60),
     "deviation": Inputs("inspect", case_s=25),
     "blade": Inputs(SCAN, case_s=7),

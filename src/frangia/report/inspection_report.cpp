@@ -10,6 +10,20 @@
 #include "frangia/report/internal/report_sheets.h"
 
 namespace frangia {
+namespace {
+
+/// The first characters of a text in UTF-8, with "…" for what follows.
+std::string shortened(const std::string& text, std::size_t characters) {
+  if (report::characters_of(text) <= characters) return text;
+  std::size_t end = 0;
+  for (std::size_t count = 0; end < text.size(); ++end) {
+    const bool begins = (static_cast<unsigned char>(text[end]) & 0xC0U) != 0x80U;
+    if (begins && ++count == characters) break;  // one character less, for the dots
+  }
+  return text.substr(0, end) + "…";
+}
+
+}  // namespace
 
 Conformity verdict_of(const InspectionReport& report) {
   return verdict_of(report.surface ? &*report.surface : nullptr, report.characteristics);
@@ -31,8 +45,9 @@ std::string html_of(const InspectionReport& report) {
   const ReportWords words(report.fields.language);
   const std::string name = words("Inspection report");
   const std::string title = report.part.empty() ? name : name + ": " + report.part;
-  std::string head = title;
-  if (!report.fields.serial.empty()) head += ", " + report.fields.serial;
+  // The head is repeated on each sheet, in one line; the first sheet holds the whole name.
+  std::string head = report.part.empty() ? name : name + ": " + shortened(report.part, 60);
+  if (!report.fields.serial.empty()) head += ", " + shortened(report.fields.serial, 30);
   HtmlPage page(
       title,
       {report.fields.paper, head, report.version + ", " + report.created, words.language(), words},

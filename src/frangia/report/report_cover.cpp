@@ -16,9 +16,53 @@ constexpr const char* kDecisionRule =
     "when it lies inside of its limits by the guard band, and out when it lies beyond one by as "
     "much. The bar spans the tolerance; the dot is the value, the line its U95.";
 
-/// Lines that a text takes in a column of so many characters.
+/// Lines that a text takes in a column of so many characters, broken between words.
 std::size_t lines_of(const std::string& text, std::size_t characters) {
-  return 1 + (text.empty() ? 0 : (characters_of(text) - 1) / characters);
+  std::size_t lines = 1;
+  std::size_t used = 0;
+  for (std::size_t from = 0; from < text.size();) {
+    const std::size_t end = std::min(text.size(), text.find(' ', from));
+    const std::size_t word = characters_of(text.substr(from, end - from));
+    from = end + 1;
+    if (used > 0 && used + 1 + word > characters) {
+      ++lines;
+      used = 0;
+    }
+    used += word + (used > 0 ? 1 : 0);
+    lines += used > 0 ? (used - 1) / characters : 0;  // a long word is broken anywhere
+    used = used > 0 ? (used - 1) % characters + 1 : 0;
+  }
+  return lines;
+}
+
+/// What the head says about the part, in its order: names and texts.
+std::vector<std::pair<const char*, const std::string*>> facts_of(const InspectionReport& report) {
+  const ReportFields& fields = report.fields;
+  std::vector<std::pair<const char*, const std::string*>> facts;
+  const auto add = [&](const char* name, const std::string& text) {
+    if (!text.empty()) facts.emplace_back(name, &text);
+  };
+  add("part", report.part);
+  add("drawing", fields.drawing);
+  add("serial number", fields.serial);
+  add("order", fields.order);
+  add("customer", fields.customer);
+  add("operator", fields.inspector);
+  add("mesh", report.mesh);
+  return facts;
+}
+
+/// Lines of the head beyond one for each of its rows, which hold two facts.
+std::size_t more_lines_of_head(const InspectionReport& report) {
+  constexpr std::size_t kCharacters = 31;  // of a fact
+  const auto facts = facts_of(report);
+  std::size_t more = 0;
+  for (std::size_t i = 0; i < facts.size(); i += 2) {
+    std::size_t lines = lines_of(*facts[i].second, kCharacters);
+    if (i + 1 < facts.size()) lines = std::max(lines, lines_of(*facts[i + 1].second, kCharacters));
+    more += lines - 1;
+  }
+  return more;
 }
 
 /// The largest deviation with its place, and the extremes of single vertices; empty without a
@@ -53,6 +97,7 @@ std::size_t rows_on_cover(const InspectionReport& report,
   room_mm -= kWarning_mm * static_cast<double>(std::min(report.warnings.size(), kWarnings));
   for (const std::string& reason : reasons_of(report, words))
     room_mm -= kLine_mm * static_cast<double>(lines_of(reason, 102) - 1);
+  room_mm -= kLine_mm * static_cast<double>(more_lines_of_head(report));
   const std::string largest = largest_deviation(report, words);
   if (!largest.empty()) room_mm -= kLine_mm * static_cast<double>(lines_of(largest, 102));
   std::size_t count = 0;
@@ -101,17 +146,7 @@ void add_head(HtmlPage& page, const InspectionReport& report, const ReportWords&
                   mark,
                   page.word("Inspection report"),
                   html_escaped(fields.date.empty() ? report.created : fields.date)));
-  std::vector<std::pair<const char*, const std::string*>> facts;
-  const auto add = [&](const char* name, const std::string& text) {
-    if (!text.empty()) facts.emplace_back(name, &text);
-  };
-  add("part", report.part);
-  add("drawing", fields.drawing);
-  add("serial number", fields.serial);
-  add("order", fields.order);
-  add("customer", fields.customer);
-  add("operator", fields.inspector);
-  add("mesh", report.mesh);
+  const auto facts = facts_of(report);
   std::string html = "<table class=\"fields\">";
   for (std::size_t i = 0; i < facts.size(); i += 2) {
     html += "<tr>";
@@ -189,7 +224,7 @@ void add_cover(HtmlPage& page, const InspectionReport& report, const ReportWords
   const std::size_t shown = rows_on_cover(report, rows, words);
   if (shown > 0) page.html(result_table(rows, shown, words));
   const bool all_follow = report.fields.prints(ReportPage::Results);
-  if (rows.size() > shown && all_follow)
+  if (rows.size() > shown && shown > 0 && all_follow)
     page.paragraph(fmt::format("The {} worst of {} rows; all of them follow.", shown, rows.size()));
   if (rows.size() > shown && !all_follow) {
     page.paragraph(fmt::format(

@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cmath>
 #include <ctime>
+#include <set>
 #include <utility>
 
 #include <fmt/chrono.h>
@@ -138,11 +139,17 @@ NamedTexts alignment_rows(const Inspection& part, const ReportWords& words) {
   return rows;
 }
 
-std::string file_name_part(const std::string& name) {
+/// The name of a section as a part of the name of a file, other than those of the sections before
+/// it: characters that are replaced may make two names alike.
+std::string file_name_part(const std::string& name, std::set<std::string>& taken) {
+  constexpr std::size_t kMost = 100;  // a file system allows 255 with what stands around it
   std::string safe;
-  for (const char c : name)
+  for (const char c : name.substr(0, kMost))
     safe += std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '-' || c == '.' ? c : '-';
-  return safe;
+  std::string other = safe;
+  for (int i = 2; !taken.insert(other).second; ++i)
+    other = fmt::format("{}-{}", safe, i);
+  return other;
 }
 
 std::string created_now() {
@@ -211,9 +218,10 @@ InspectionReport report_of(const Inspection& part,
   report.characteristics = part.characteristics;
   add_features(report, part, run);
   report.sections = part.sections;
-  for (const SectionResult& section : part.sections)
+  for (const SectionResult& section : part.sections) {
     report.dimensions.push_back(
         section_dimensions(section.plane, part.named_features, part.characteristics));
+  }
   report.uncertainty_mm = uncertainty_terms_of(part);
   report.systematic_known = !part.mesh.sigma_systematic_mm.empty();
   report.correlation_known = part.knows_calibration;
@@ -240,10 +248,11 @@ std::vector<std::string> write_report(const std::filesystem::path& page,
     std::filesystem::path path = page;
     return path.replace_extension(ending);
   };
+  std::set<std::string> taken;
   for (std::size_t i = 0; i < part.sections.size(); ++i) {
     const SectionResult& section = part.sections[i];
     if (section.measured.empty()) continue;
-    const std::string stem = page.stem().string() + "-" + file_name_part(section.name);
+    const std::string stem = page.stem().string() + "-" + file_name_part(section.name, taken);
     write(page.parent_path() / (stem + ".svg"),
           svg_of(section, report.dimensions[i], ReportWords(plan.report.language)));
     write(page.parent_path() / (stem + ".dxf"), dxf_of(section));
