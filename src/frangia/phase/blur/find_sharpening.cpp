@@ -20,11 +20,19 @@
 namespace frangia {
 namespace {
 
-constexpr std::size_t kSharpnessPixels = 400'000;  // of each pattern
-constexpr int kSharpnessRows = 16;                 // that lie together in them
-constexpr std::size_t kMostPatterns = 6;
+constexpr int kSharpnessRows = 16;          // that lie together where some are looked at
 constexpr Eigen::Index kMostResiduals = 3;  // of a pattern
 constexpr int kFarthest_px = 4;
+
+/// How much of a view is looked at.
+struct NoiseExtent {
+  std::size_t pixels = 0;  ///< of each pattern
+  std::size_t patterns = 0;
+  int farthest_px = 0;  ///< distance of pixels whose products are summed
+};
+/// Tells a camera that sharpens from the others, in a hundredth of the time that decoding takes.
+constexpr NoiseExtent kFirstLook{50'000, 2, 1};
+constexpr NoiseExtent kWholeLook{400'000, 6, kFarthest_px};
 
 /// Mean products of the noise of two pixels, by their distances along rows and columns.
 struct LagProducts {
@@ -44,8 +52,8 @@ struct FringeRows {
   std::vector<bool> usable;             ///< neither saturated nor cut off at 0
 };
 
-FringeRows fringe_rows(const FrameStack& stack) {
-  const FrameStack some = sample_rows(stack, kSharpnessPixels, kSharpnessRows);
+FringeRows fringe_rows(const FrameStack& stack, std::size_t pixels) {
+  const FrameStack some = sample_rows(stack, pixels, kSharpnessRows);
   const std::vector<double>& shifts = stack.pattern.shifts_rad;
   const auto count = static_cast<Eigen::Index>(shifts.size());
   Eigen::MatrixX3f model(count, 3);
@@ -148,15 +156,15 @@ void keep_noise(const FringeRows& fringes, Image<float>& residual) {
     if (std::abs(left[n]) <= most) residual.pixels()[used[n]] = static_cast<float>(left[n]);
 }
 
-void add_products(const Image<float>& noise, LagProducts& products) {
+void add_products(const Image<float>& noise, int farthest_px, LagProducts& products) {
   const int width = noise.width();
   for (int y = 0; y < noise.height(); ++y) {
     const int rows = std::min(kSharpnessRows - y % kSharpnessRows, noise.height() - y);
     for (int x = 0; x < width; ++x) {
       const float here = noise(x, y);
       if (std::isnan(here)) continue;
-      for (int dy = 0; dy <= std::min(kFarthest_px, rows - 1); ++dy) {
-        for (int dx = dy == 0 ? 0 : -kFarthest_px; dx <= kFarthest_px; ++dx) {
+      for (int dy = 0; dy <= std::min(farthest_px, rows - 1); ++dy) {
+        for (int dx = dy == 0 ? 0 : -farthest_px; dx <= farthest_px; ++dx) {
           if (x + dx < 0 || x + dx >= width || std::isnan(noise(x + dx, y + dy))) continue;
           products.sum(std::abs(dx), dy) += static_cast<double>(here * noise(x + dx, y + dy));
           products.count(std::abs(dx), dy) += 1.0;
@@ -166,8 +174,8 @@ void add_products(const Image<float>& noise, LagProducts& products) {
   }
 }
 
-/// The products of the noise of all patterns.
-LagProducts products_of(std::span<const FrameStack> stacks) {
+/// The products of the noise of the patterns.
+LagProducts products_of(std::span<const FrameStack> stacks, const NoiseExtent& extent) {
   LagProducts products;
   std::optional<FringeRows> before;  // a pattern of three frames
   std::size_t patterns = 0;
@@ -175,8 +183,8 @@ LagProducts products_of(std::span<const FrameStack> stacks) {
     const bool is_usable = stack.pattern.kind == PatternKind::Fringe && stack.frames.size() >= 3 &&
                            stack.frames.size() == stack.pattern.shifts_rad.size() &&
                            stack.pattern.exposure_count() == 1;
-    if (!is_usable || ++patterns > kMostPatterns) continue;
-    FringeRows fringes = fringe_rows(stack);
+    if (!is_usable || ++patterns > extent.patterns) continue;
+    FringeRows fringes = fringe_rows(stack, extent.pixels);
     if (stack.frames.size() == 3) {
       if (before && before->usable.size() == fringes.usable.size()) {
         Image<float> difference = fringes.mean_counts;
@@ -194,7 +202,7 @@ LagProducts products_of(std::span<const FrameStack> stacks) {
     }
     for (Image<float>& residual : fringes.residuals) {
       keep_noise(fringes, residual);
-      add_products(residual, products);
+      add_products(residual, extent.farthest_px, products);
     }
   }
   return products;
@@ -301,26 +309,35 @@ std::vector<double> blur_weights(double radius_px) {
   return weights;
 }
 
-std::optional<CameraSharpening> find_sharpening(std::span<const FrameStack> stacks,
-                                                double storage_counts2) {
-  constexpr double kFewest = 3000.0;      // pairs of pixels
-  constexpr double kAboveRounding = 2.0;  // times its variance
-  constexpr double kLeast = -0.01;        // correlation of neighbours
-  constexpr double kSignificant = 2.5;    // standard deviations
-  constexpr double kAlike = 0.5;          // both directions
-  constexpr double kDecisive = 40.0;      // of chi squared, for three parameters
-  constexpr double kScatter = 40.0;       // of chi squared, twice the number of products
-  constexpr double kUnexplained = 0.1;    // of what a mask explains; a compression leaves more
-  const LagProducts products = products_of(stacks);
-  if (!(products.count.minCoeff() > kFewest)) return std::nullopt;
-  const double rounding = 1.0 / 12.0 + storage_counts2;
-  if (products.mean(0, 0) < kAboveRounding * rounding) return std::nullopt;
+namespace {
+
+/// Whether the pixels beside and below one both differ from it by more than those farther away.
+bool contradict_neighbours(const LagProducts& products) {
+  constexpr double kLeast = -0.01;      // correlation of neighbours
+  constexpr double kSignificant = 2.5;  // standard deviations
+  constexpr double kAlike = 0.5;        // both directions
   const double along = products.mean(1, 0) / products.mean(0, 0);
   const double across = products.mean(0, 1) / products.mean(0, 0);
   const double limit = std::min(
       kLeast, -kSignificant / std::sqrt(std::min(products.count(1, 0), products.count(0, 1))));
-  if (std::max(along, across) > limit) return std::nullopt;
-  if (std::max(along, across) > kAlike * std::min(along, across)) return std::nullopt;
+  return std::max(along, across) <= std::min(limit, kAlike * std::min(along, across));
+}
+
+}  // namespace
+
+std::optional<CameraSharpening> find_sharpening(std::span<const FrameStack> stacks,
+                                                double storage_counts2) {
+  constexpr double kFewest = 3000.0;      // pairs of pixels
+  constexpr double kAboveRounding = 2.0;  // times its variance
+  constexpr double kDecisive = 40.0;      // of chi squared, for three parameters
+  constexpr double kScatter = 40.0;       // of chi squared, twice the number of products
+  constexpr double kUnexplained = 0.1;    // of what a mask explains; a compression leaves more
+  if (!contradict_neighbours(products_of(stacks, kFirstLook))) return std::nullopt;
+  const LagProducts products = products_of(stacks, kWholeLook);
+  if (!(products.count.minCoeff() > kFewest)) return std::nullopt;
+  const double rounding = 1.0 / 12.0 + storage_counts2;
+  if (products.mean(0, 0) < kAboveRounding * rounding) return std::nullopt;
+  if (!contradict_neighbours(products)) return std::nullopt;
   const MaskTried best = best_mask(products, rounding);
   const double gained = chi2_of(products, products_of({1.0}), rounding) - best.chi2;
   if (gained < kDecisive || best.chi2 > kScatter + kUnexplained * gained) return std::nullopt;
