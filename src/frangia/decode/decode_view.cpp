@@ -13,6 +13,8 @@
 #include "frangia/decode/internal/judge_direction.h"
 #include "frangia/decode/select_stacks.h"
 #include "frangia/frames/storage_loss.h"
+#include "frangia/phase/blur/find_sharpening.h"
+#include "frangia/phase/blur/undo_sharpening.h"
 #include "frangia/phase/waveform/frame_mixing.h"
 #include "frangia/phase/waveform/light_bands.h"
 
@@ -175,6 +177,21 @@ double storage_counts2(std::span<const FrameStack> stacks, const Run& run) {
   return loss.variance_counts2;
 }
 
+/// The frames before the camera sharpened them; empty where it did not.
+std::vector<FrameStack> before_sharpening(std::span<const FrameStack> stacks,
+                                          const DecodeOptions& options,
+                                          const Run& run) {
+  if (options.own.wrap) return {};
+  const std::optional<CameraSharpening> sharpening =
+      find_sharpening(stacks, options.storage_counts2.value_or(0.0));
+  if (!sharpening) return {};
+  run.warn(describe(*sharpening));
+  std::vector<FrameStack> out;
+  for (const FrameStack& stack : stacks)
+    out.push_back(without_sharpening(stack, *sharpening));
+  return out;
+}
+
 }  // namespace
 
 DecodedView decode_view(std::span<const FrameStack> captured,
@@ -183,12 +200,15 @@ DecodedView decode_view(std::span<const FrameStack> captured,
                         const Image<Eigen::Vector2f>& rays,
                         const DecodeOptions& options,
                         const Run& run) {
-  const std::vector<FrameStack> alone = each_alone(captured, options, run);
   DecodeOptions of_view = options;
-  if (!alone.empty()) of_view.survey.noise.reset();  // it is of frames that hold others
   if (!of_view.storage_counts2) of_view.storage_counts2 = storage_counts2(captured, run);
+  const std::vector<FrameStack> unsharp = before_sharpening(captured, of_view, run);
+  const std::span<const FrameStack> seen = unsharp.empty() ? captured : unsharp;
+  const std::vector<FrameStack> alone = each_alone(seen, options, run);
+  // The noise of all views is of frames as they were captured.
+  if (!alone.empty() || !unsharp.empty()) of_view.survey.noise.reset();
   const ViewInput input{plan, rig, rays, of_view};
-  const std::span<const FrameStack> shown = alone.empty() ? captured : alone;
+  const std::span<const FrameStack> shown = alone.empty() ? seen : alone;
   const std::vector<FrameStack> evened = at_even_light(shown, options, run);
   const std::span<const FrameStack> stacks = evened.empty() ? shown : evened;
   if (!options.accept_inconsistent) {

@@ -58,6 +58,11 @@ export const FAULTS_PHASE = {
     'an Helligkeitskanten wird die Phase um die Unschärfe der Kamera berichtigt, {0} px',
     'ai bordi di luminosità la fase è corretta per la sfocatura della camera, {0} px',
   ],
+  'fault.cameraSharpensFrames': [
+    'the camera sharpens its frames, which shifts the phase at edges of brightness: their noise is that of an unsharp mask of amount {0} and radius {1} px, and the mask is taken out; switch the sharpness of the camera off',
+    'die Kamera schärft ihre Bilder nach, was die Phase an Helligkeitskanten verschiebt: ihr Rauschen ist das einer Unscharfmaskierung der Stärke {0} mit einem Radius von {1} px, und diese wird herausgerechnet; die Schärfe der Kamera ausschalten',
+    'la camera aumenta la nitidezza dei fotogrammi, il che sposta la fase ai bordi di luminosità: il loro rumore è quello di una maschera di contrasto di intensità {0} e raggio {1} px, che viene tolta; disattivare la nitidezza della camera',
+  ],
   'fault.patternComplementEach': [
     'pattern "{0}": {1} {2} and {3} not complement each other, so that one of them is lost, repeated, inverted or in another place; correct the order of the frames, or capture them again',
     'Muster „{0}“: {1} {2} und {3} sind keine Umkehrungen voneinander, also ist eines verloren, wiederholt, umgekehrt oder an anderer Stelle; die Reihenfolge der Bilder berichtigen oder sie neu aufnehmen',
