@@ -32,6 +32,7 @@ struct WholeLight {
   double fringes = 0.0;  ///< in the field; 0 for stripes
 };
 
+/// The modulation of a map of coarse fringes.
 [[nodiscard]] WholeLight whole_light(const WrappedPhase& coarse);
 
 /// Half the difference between the brightest and the darkest frame of a Gray code at each pixel:
