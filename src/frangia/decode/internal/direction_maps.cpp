@@ -211,10 +211,11 @@ class LeastBlurred {
   LeastBlurred(const DirectionInput& input, const DirectionMaps& maps)
       : input_(input), maps_(maps) {
     const auto gray = gray_of(input.stacks, input.plan.direction);
-    if (maps.fringes.size() > 1)
+    if (maps.fringes.size() > 1) {
       coarsest_ = maps.fringes.front();
-    else if (!gray.empty() && gray.front().pattern.inverted != InvertedFrames::None)
+    } else if (!gray.empty() && gray.front().pattern.inverted != InvertedFrames::None) {
       gray_ = &gray.front();
+    }
   }
   [[nodiscard]] bool is_there() const { return coarsest_ != nullptr || gray_ != nullptr; }
   [[nodiscard]] WholeLight on_bands(std::size_t pixels) const {

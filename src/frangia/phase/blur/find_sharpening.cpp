@@ -93,12 +93,8 @@ FringeRows fringe_rows(const FrameStack& stack, std::size_t pixels) {
   return out;
 }
 
-/// Leaves of a residual what repeats neither with the phase, as harmonics and flicker do, nor with
-/// the light. Pixels without noise become NaN: dark ones, and those that differ by more than it.
-void keep_noise(const FringeRows& fringes, Image<float>& residual) {
-  constexpr std::size_t kPhases = 64;
-  constexpr double kOutlier = 4.0;       // standard deviations
-  constexpr double kLeastSigma = 0.3;    // counts: that of the rounding
+/// The pixels that are bright enough to show the noise of a pattern; none where they are few.
+std::vector<std::size_t> bright_pixels(const FringeRows& fringes) {
   constexpr float kDark = 0.2F;          // of the modulation of a bright pixel
   constexpr float kLeastCounts = 5.0F;   // of the modulation
   constexpr std::size_t kFewest = 1000;  // pixels
@@ -106,54 +102,78 @@ void keep_noise(const FringeRows& fringes, Image<float>& residual) {
   std::vector<float> lit;
   for (std::size_t i = 0; i < modulation.size(); ++i)
     if (fringes.usable[i] && modulation[i] > kLeastCounts) lit.push_back(modulation[i]);
+  if (lit.size() < kFewest) return {};
   const auto high = lit.begin() + static_cast<std::ptrdiff_t>(lit.size() * 19 / 20);
-  if (lit.size() >= kFewest) std::nth_element(lit.begin(), high, lit.end());
-  std::vector<std::size_t> used;
-  for (std::size_t i = 0; i < modulation.size() && lit.size() >= kFewest; ++i)
-    if (fringes.usable[i] && modulation[i] > std::max(kLeastCounts, kDark * *high))
-      used.push_back(i);
-  std::vector<double> left(used.size());
-  for (std::size_t n = 0; n < used.size(); ++n)
-    left[n] = static_cast<double>(residual.pixels()[used[n]]);
-  const auto limit = [&] {
-    std::vector<double> sizes(left);
-    for (double& size : sizes)
-      size = std::abs(size);
-    return kOutlier * std::max(median(std::move(sizes)) / kMedianOfNormal, kLeastSigma);
-  };
+  std::nth_element(lit.begin(), high, lit.end());
+  const float least = std::max(kLeastCounts, kDark * *high);
+  std::vector<std::size_t> bright;
+  for (std::size_t i = 0; i < modulation.size(); ++i)
+    if (fringes.usable[i] && modulation[i] > least) bright.push_back(i);
+  return bright;
+}
+
+/// Values beyond four standard deviations, by the median of their sizes, are no noise.
+double largest_noise(const std::vector<double>& values) {
+  constexpr double kOutlier = 4.0;     // standard deviations
+  constexpr double kLeastSigma = 0.3;  // counts: that of the rounding
+  std::vector<double> sizes(values);
+  for (double& size : sizes)
+    size = std::abs(size);
+  return kOutlier * std::max(median(std::move(sizes)) / kMedianOfNormal, kLeastSigma);
+}
+
+/// Takes off the values of some pixels what repeats with the phase, as harmonics and flicker do,
+/// and with the light.
+void take_off_repeating(const FringeRows& fringes,
+                        const std::vector<std::size_t>& pixels,
+                        std::vector<double>& values) {
+  constexpr std::size_t kPhases = 64;
   const auto phase_of = [&](std::size_t i) {
     const double share = static_cast<double>(fringes.phase_rad.pixels()[i]) / kTwoPi + 0.5;
     return std::min(kPhases - 1, static_cast<std::size_t>(share * kPhases));
   };
-  constexpr int kRounds = 2;
-  for (int round = 0; round < kRounds; ++round) {
-    const double most = limit();
-    std::array<double, kPhases> product{};
-    std::array<double, kPhases> square{};
-    for (std::size_t n = 0; n < used.size(); ++n) {
-      if (std::abs(left[n]) > most) continue;
-      const auto b = static_cast<double>(modulation[used[n]]);
-      product[phase_of(used[n])] += b * left[n];
-      square[phase_of(used[n])] += b * b;
-    }
-    double by_light = 0.0;
-    double light2 = 0.0;
-    for (std::size_t n = 0; n < used.size(); ++n) {
-      const std::size_t phase = phase_of(used[n]);
-      if (square[phase] > 0.0)
-        left[n] -= static_cast<double>(modulation[used[n]]) * product[phase] / square[phase];
-      if (std::abs(left[n]) > most) continue;
-      const auto light = static_cast<double>(fringes.mean_counts.pixels()[used[n]]);
-      by_light += light * left[n];
-      light2 += light * light;
-    }
-    for (std::size_t n = 0; n < used.size() && light2 > 0.0; ++n)
-      left[n] -= by_light / light2 * static_cast<double>(fringes.mean_counts.pixels()[used[n]]);
+  const auto modulation = [&](std::size_t n) {
+    return static_cast<double>(fringes.modulation_counts.pixels()[pixels[n]]);
+  };
+  const auto light = [&](std::size_t n) {
+    return static_cast<double>(fringes.mean_counts.pixels()[pixels[n]]);
+  };
+  const double most = largest_noise(values);
+  std::array<double, kPhases> product{};
+  std::array<double, kPhases> square{};
+  for (std::size_t n = 0; n < pixels.size(); ++n) {
+    if (std::abs(values[n]) > most) continue;
+    product[phase_of(pixels[n])] += modulation(n) * values[n];
+    square[phase_of(pixels[n])] += modulation(n) * modulation(n);
   }
-  const double most = limit();
+  double by_light = 0.0;
+  double light2 = 0.0;
+  for (std::size_t n = 0; n < pixels.size(); ++n) {
+    const std::size_t phase = phase_of(pixels[n]);
+    if (square[phase] > 0.0) values[n] -= modulation(n) * product[phase] / square[phase];
+    if (std::abs(values[n]) > most) continue;
+    by_light += light(n) * values[n];
+    light2 += light(n) * light(n);
+  }
+  for (std::size_t n = 0; n < pixels.size() && light2 > 0.0; ++n)
+    values[n] -= by_light / light2 * light(n);
+}
+
+/// Leaves of a residual what repeats neither with the phase nor with the light. Pixels without
+/// noise become NaN: dark ones, and those that differ by more than it.
+void keep_noise(const FringeRows& fringes, Image<float>& residual) {
+  const std::vector<std::size_t> pixels = bright_pixels(fringes);
+  std::vector<double> left;
+  for (const std::size_t pixel : pixels)
+    left.push_back(static_cast<double>(residual.pixels()[pixel]));
   std::fill(residual.pixels().begin(), residual.pixels().end(), kMissing);
-  for (std::size_t n = 0; n < used.size(); ++n)
-    if (std::abs(left[n]) <= most) residual.pixels()[used[n]] = static_cast<float>(left[n]);
+  if (pixels.empty()) return;
+  constexpr int kRounds = 2;
+  for (int round = 0; round < kRounds; ++round)
+    take_off_repeating(fringes, pixels, left);
+  const double most = largest_noise(left);
+  for (std::size_t n = 0; n < pixels.size(); ++n)
+    if (std::abs(left[n]) <= most) residual.pixels()[pixels[n]] = static_cast<float>(left[n]);
 }
 
 void add_products(const Image<float>& noise, int farthest_px, LagProducts& products) {
@@ -216,9 +236,10 @@ std::vector<double> convolved(const std::vector<double>& a, const std::vector<do
   };
   std::vector<double> out(a.size() + b.size() - 1, 0.0);
   const auto reach = static_cast<std::ptrdiff_t>(b.size()) - 1;
-  for (std::size_t k = 0; k < out.size(); ++k)
+  for (std::size_t k = 0; k < out.size(); ++k) {
     for (std::ptrdiff_t j = -reach; j <= reach; ++j)
       out[k] += at(b, j) * at(a, static_cast<std::ptrdiff_t>(k) - j);
+  }
   return out;
 }
 
@@ -229,9 +250,10 @@ LagProducts::Table products_of(const std::vector<double>& weights) {
     const auto k = static_cast<std::size_t>(i);
     return k < weights.size() ? weights[k] : 0.0;
   };
-  for (Eigen::Index x = 0; x < out.rows(); ++x)
+  for (Eigen::Index x = 0; x < out.rows(); ++x) {
     for (Eigen::Index y = 0; y < out.cols(); ++y)
       out(x, y) = at(x) * at(y);
+  }
   return out;
 }
 
@@ -300,7 +322,7 @@ std::vector<double> blur_weights(double radius_px) {
   constexpr double kReach = 4.0;
   std::vector<double> weights;
   double sum = 0.0;
-  for (int k = 0; k <= static_cast<int>(kReach * radius_px + 0.5); ++k) {
+  for (int k = 0; k <= static_cast<int>(std::lround(kReach * radius_px)); ++k) {
     weights.push_back(std::exp(-0.5 * std::pow(k / radius_px, 2)));
     sum += (k == 0 ? 1.0 : 2.0) * weights.back();
   }

@@ -50,9 +50,10 @@ SeparableFilter inverse_of(const CameraSharpening& sharpening) {
     --reach;
   const int size = 2 * reach + 1;
   Eigen::MatrixXd whole(size, size);
-  for (int y = 0; y < size; ++y)
+  for (int y = 0; y < size; ++y) {
     for (int x = 0; x < size; ++x)
       whole(y, x) = quarter(std::abs(y - reach), std::abs(x - reach));
+  }
   whole *= a / (1.0 + a) / whole.sum();  // even light stays as it is
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(whole);
   std::vector<Eigen::Index> kept;
