@@ -92,7 +92,7 @@ std::vector<LitBlock> lit_blocks(const Frame& frame) {
   return out;
 }
 
-/// At most so many of the blocks, spread evenly over all of them.
+/// `most` of the blocks, spread evenly over all of them; all where there are fewer.
 std::vector<LitBlock> some_of(const std::vector<LitBlock>& blocks, std::size_t most) {
   if (blocks.size() <= most) return blocks;
   std::vector<LitBlock> out;

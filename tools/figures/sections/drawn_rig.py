@@ -129,7 +129,7 @@ def with_other_rig(study, scan, covariance, seed):
         section = line.strip("[]") if line.startswith("[") else section
         key = line.split("=")[0].strip()
         if section == "turntable" and "_sigma_" in key:
-            continue  # exact in the rig that renders; of a drawn one nobody knows it
+            continue  # the rendering rig states its turntable as exact, which that of a drawn rig is not
         lines.append(f"{key} = {json.dumps(drawn[section, key])}" if (section, key) in drawn else line)
     (folder / "rig.toml").unlink()
     calibration = '\n[calibration]\ndate = "2026-12-01"\ncovariance = "rig-covariance.csv"\n'

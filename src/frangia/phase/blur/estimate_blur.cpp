@@ -154,11 +154,11 @@ WholeLight whole_light(const FrameStack& gray) {
 }
 
 std::optional<ImageBlur> estimate_blur(const WholeLight& whole, const WrappedPhase& fine) {
-  constexpr double kMostFringes =
-      0.95;                           // of those of the fine pattern: else both are weakened alike
-  constexpr double kLeast_px2 = 0.1;  // the area of a pixel has 0.083
-  constexpr double kMost_px2 = 25.0;  // no fringes remain
-  constexpr double kStraight = 0.35;  // of the line's own spread
+  // Of those of the fine pattern: with more, both are weakened alike.
+  constexpr double kMostFringes = 0.95;
+  constexpr double kLeast_px2 = 0.1;    // the area of a pixel has 0.083
+  constexpr double kMost_px2 = 25.0;    // no fringes remain
+  constexpr double kStraight = 0.35;    // of the line's own spread
   constexpr double kSignificant = 5.0;  // times its uncertainty
   if (whole.fringes > kMostFringes * fine.pattern.fringes_per_unit()) return {};
   const std::vector<Weakening> samples = weakenings(whole, fine);
