@@ -14,6 +14,7 @@
 #include "frangia/decode/internal/wrap_pattern.h"
 #include "frangia/decode/select_stacks.h"
 #include "frangia/phase/blur/correct_blur.h"
+#include "frangia/phase/blur/correct_pixel_area.h"
 #include "frangia/phase/blur/estimate_blur.h"
 #include "frangia/phase/temporal/check_sequence.h"
 #include "frangia/phase/temporal/predict_frames.h"
@@ -22,6 +23,7 @@
 #include "frangia/phase/waveform/systematic_phase.h"
 #include "frangia/phase/wrap/decode_sequence.h"
 #include "frangia/phase/wrap/merge_exposures.h"
+#include "frangia/range/measured_volume.h"
 
 namespace frangia {
 namespace {
@@ -242,20 +244,52 @@ class LeastBlurred {
   const FrameStack* gray_ = nullptr;
 };
 
+/// The wrapped map of a pattern in a box, of all its exposures.
+WrappedPhase wrapped_in(const PixelBox& box,
+                        const FrameStack& pattern,
+                        const FittedAlgorithm& fit,
+                        const DirectionInput& input,
+                        const NoiseModel& noise) {
+  std::vector<FrameStack> cut;
+  for (const FrameStack& exposure : exposures_of(&pattern))
+    cut.push_back(sample_box(exposure, box));
+  return cut.size() > 1 ? merge_exposures(cut, fit.shifts_rad, noise, input.options.wrap)
+                        : wrap_phase(cut.front(), fit.algorithm, noise, input.options.wrap);
+}
+
+/// Corrects a phase for the area of the pixels alone.
+void undo_pixel_area(const DirectionInput& input, DirectionMaps& maps) {
+  const PixelBox box = measured_box(maps.view.phase.phase_rad);
+  if (box.empty()) return;
+  const WrappedPhase finest =
+      wrapped_in(box, *maps.fringes.back(), maps.fits.back(), input, maps.view.noise);
+  correct_pixel_area(maps.view.phase, finest.modulation_counts, box);
+}
+
+/// The blur of the camera, if two patterns, or fringes and a Gray code, show how wide it is.
+std::optional<ImageBlur> blur_of(const DirectionInput& input,
+                                 const DirectionMaps& maps,
+                                 const LeastBlurred& least) {
+  constexpr std::size_t kSampledPixels = 200'000;
+  if (!least.is_there()) return {};
+  return estimate_blur(least.on_bands(kSampledPixels),
+                       wrap_phase(sample_rows(*maps.fringes.back(), kSampledPixels, kBlurBandRows),
+                                  maps.fits.back().algorithm,
+                                  maps.view.noise,
+                                  input.options.wrap));
+}
+
 }  // namespace
 
 void undo_blur(const DirectionInput& input, DirectionMaps& maps) {
-  constexpr std::size_t kSampledPixels = 200'000;
   if (!input.options.undo_blur || input.options.own.any()) return;
   const LeastBlurred least(input, maps);
-  if (!least.is_there()) return;
-  const WrappedPhase fine =
-      wrap_phase(sample_rows(*maps.fringes.back(), kSampledPixels, kBlurBandRows),
-                 maps.fits.back().algorithm,
-                 maps.view.noise,
-                 input.options.wrap);
-  maps.view.blur = estimate_blur(least.on_bands(kSampledPixels), fine);
-  if (maps.view.blur) correct_blur(maps.view.phase, least.everywhere().counts, *maps.view.blur);
+  maps.view.blur = blur_of(input, maps, least);
+  if (maps.view.blur) {
+    correct_blur(maps.view.phase, least.everywhere().counts, *maps.view.blur);
+  } else {
+    undo_pixel_area(input, maps);
+  }
 }
 
 bool allow_one_pass(const DirectionInput& input, const DirectionMaps& fitted) {
