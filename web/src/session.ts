@@ -54,7 +54,8 @@ async function answerOf(response: Response): Promise<Response> {
 /** How tablets in the network of the scanner reach it. */
 export interface Lan {
   addresses: string[];
-  open: { url: string; link: string; password: string } | null;
+  /** `fingerprint` of the certificate; empty without encryption. */
+  open: { url: string; link: string; password: string; fingerprint: string } | null;
 }
 
 export type Link = 'connecting' | 'open' | 'lost' | 'refused';
@@ -205,8 +206,8 @@ export class Session {
     }
   }
   /** Lets tablets in at an address of the machine, or nobody any more. */
-  async changeLan(address?: string): Promise<Lan> {
-    return (await (await this.post('/api/lan', address ? { address } : {})).json()) as Lan;
+  async changeLan(wanted?: { address: string; encrypted: boolean }): Promise<Lan> {
+    return (await (await this.post('/api/lan', wanted ?? {})).json()) as Lan;
   }
 
   async bytes(path: string): Promise<ArrayBuffer> {

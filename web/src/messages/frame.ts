@@ -215,9 +215,27 @@ export const FRAME = {
   ],
   'lan.title': ['Let a tablet in', 'Ein Tablet einlassen', 'Fai entrare un tablet'],
   'lan.hint': [
-    'For a tablet or phone in the same network. It is not encrypted: whoever is in that network can read along.',
-    'Für ein Tablet oder Telefon im selben Netz. Unverschlüsselt: Wer in diesem Netz ist, kann mitlesen.',
-    'Per un tablet o telefono nella stessa rete. Senza cifratura: chi è in quella rete può leggere.',
+    'For a tablet or phone in the same network.',
+    'Für ein Tablet oder Telefon im selben Netz.',
+    'Per un tablet o telefono nella stessa rete.',
+  ],
+  'lan.way': ['Connection', 'Verbindung', 'Connessione'],
+  'lan.plain': ['Not encrypted', 'Unverschlüsselt', 'Senza cifratura'],
+  'lan.encrypted': ['Encrypted', 'Verschlüsselt', 'Con cifratura'],
+  'lan.plainHint': [
+    'Whoever is in that network can read along.',
+    'Wer in diesem Netz ist, kann mitlesen.',
+    'Chi è in quella rete può leggere.',
+  ],
+  'lan.encryptedHint': [
+    'By a certificate that this computer made itself. The tablet warns of it: go on only if it shows the fingerprint that stands here.',
+    'Mit einem Zertifikat, das dieser Rechner selbst gemacht hat. Das Tablet warnt davor: nur fortfahren, wenn es den Fingerabdruck zeigt, der hier steht.',
+    "Con un certificato creato da questo computer. Il tablet avverte: proseguire solo se mostra l'impronta che si legge qui.",
+  ],
+  'lan.fingerprint': [
+    'Fingerprint (SHA-256) of the certificate',
+    'Fingerabdruck (SHA-256) des Zertifikats',
+    'Impronta (SHA-256) del certificato',
   ],
   'lan.none': [
     'This computer is in no network. Connect it, then open this again.',
