@@ -250,6 +250,28 @@ export const FRAME = {
     'Leggere il codice con il tablet, o scrivervi indirizzo e password.',
   ],
   'lan.close': ['Let nobody in any more', 'Niemanden mehr einlassen', 'Non far entrare più nessuno'],
+  'app.sheet': ['Sheet of the step', 'Blatt des Schritts', 'Scheda del passo'],
+  'number.none': [
+    'This is no number: write one such as {example}.',
+    'Das ist keine Zahl: eine eingeben, etwa {example}.',
+    'Questo non è un numero: scriverne uno, per esempio {example}.',
+  ],
+  'number.noWhole': ['Write a whole number.', 'Eine ganze Zahl eingeben.', 'Scrivere un numero intero.'],
+  'number.between': [
+    'Write a number from {low} to {high}.',
+    'Eine Zahl von {low} bis {high} eingeben.',
+    'Scrivere un numero da {low} a {high}.',
+  ],
+  'number.least': [
+    'Write a number of at least {low}.',
+    'Eine Zahl von mindestens {low} eingeben.',
+    'Scrivere un numero non minore di {low}.',
+  ],
+  'number.most': [
+    'Write a number of at most {high}.',
+    'Eine Zahl von höchstens {high} eingeben.',
+    'Scrivere un numero non maggiore di {high}.',
+  ],
   'app.qr': ['QR code of the link', 'QR-Code des Links', 'Codice QR del collegamento'],
   'app.password': ['Password', 'Passwort', 'Password'],
   'app.enter': ['Enter', 'Anmelden', 'Entra'],
