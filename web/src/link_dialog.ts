@@ -21,8 +21,9 @@ function code(text: string): TemplateResult {
   </svg>`;
 }
 
-/** A fingerprint in four lines of eight bytes, as people compare it. */
-const inLines = (fingerprint: string): string => (fingerprint.match(/.{1,24}/g) ?? []).join('\n');
+/** A fingerprint in four parts of eight bytes, as people compare it. */
+const inParts = (fingerprint: string): TemplateResult[] =>
+  (fingerprint.match(/.{1,24}/g) ?? []).map((part) => html`<span>${part}</span>`);
 
 /** Makes a link and shows it. */
 export async function share(app: Store): Promise<void> {
@@ -52,23 +53,27 @@ function tablets(app: Store, lan: Lan): TemplateResult {
     void change(app, { address: String(chosen ?? lan.addresses[0]), encrypted: app.sharing.encrypted });
   };
   if (lan.open)
-    return html`${code(lan.open.link)}
-      <p>${t('lan.scan')}</p>
-      ${lan.open.fingerprint ? html`<p class="quiet">${t('lan.encryptedHint')}</p>` : ''}
-      <dl class="figures" id="lan">
-        <dt>${t('lan.address')}</dt>
-        <dd class="num">${lan.open.url}</dd>
-        <dt>${t('app.password')}</dt>
-        <dd class="num">${lan.open.password}</dd>
-      </dl>
-      ${
-        lan.open.fingerprint
-          ? html`<div class="fingerprint">
-              <span class="quiet">${t('lan.fingerprint')}</span>
-              <code id="fingerprint">${inLines(lan.open.fingerprint)}</code>
-            </div>`
-          : ''
-      }
+    return html`<div class="beside">
+        ${code(lan.open.link)}
+        <div>
+          <p>${t('lan.scan')}</p>
+          ${lan.open.fingerprint ? html`<p class="quiet">${t('lan.encryptedHint')}</p>` : ''}
+          <dl class="figures" id="lan">
+            <dt>${t('lan.address')}</dt>
+            <dd class="num">${lan.open.url}</dd>
+            <dt>${t('app.password')}</dt>
+            <dd class="num">${lan.open.password}</dd>
+          </dl>
+          ${
+            lan.open.fingerprint
+              ? html`<div class="fingerprint">
+                  <span class="quiet">${t('lan.fingerprint')}</span>
+                  <code id="fingerprint">${inParts(lan.open.fingerprint)}</code>
+                </div>`
+              : ''
+          }
+        </div>
+      </div>
       <button class="btn wide" id="close-lan" @click=${() => void change(app)}>${t('lan.close')}</button>`;
   const way = app.sharing.encrypted ? 'encrypted' : 'plain';
   if (lan.addresses.length === 0) return html`<p class="quiet">${t('lan.none')}</p>`;
