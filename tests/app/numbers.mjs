@@ -64,6 +64,11 @@ for (const [language, text, wanted] of [
   same(readNumbers(text), wanted, `"${text}" in ${language}`);
 }
 
+// The browser's own fields of numbers know the mark of its own language only.
+const web = path.join(import.meta.dirname, '../../web/src');
+for (const name of fs.readdirSync(web, { recursive: true }))
+  if (name.endsWith('.ts') && /type=["']?number\b/.test(fs.readFileSync(path.join(web, name), 'utf8'))) fail(`${name} has a field of type number; use \`numeric\` of number_field.ts`);
+
 for (const sentence of problems) console.log(`wrong: ${sentence}`);
 passed(problems.length === 0 ? 'numbers are read in every language' : 'some are not');
 process.exit(problems.length === 0 ? 0 : 1);

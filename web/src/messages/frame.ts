@@ -250,6 +250,11 @@ export const FRAME = {
     'Leggere il codice con il tablet, o scrivervi indirizzo e password.',
   ],
   'lan.close': ['Let nobody in any more', 'Niemanden mehr einlassen', 'Non far entrare più nessuno'],
+  'app.blocked': [
+    'The scanner answers, but this browser opens no live connection to it. It may not trust the certificate: let it in without encryption, or use another browser.',
+    'Der Scanner antwortet, aber dieser Browser öffnet keine Live-Verbindung zu ihm. Vielleicht traut er dem Zertifikat nicht: unverschlüsselt einlassen oder einen anderen Browser benutzen.',
+    'Lo scanner risponde, ma questo browser non apre la connessione dal vivo. Forse non si fida del certificato: farlo entrare senza cifratura o usare un altro browser.',
+  ],
   'app.sheet': ['Sheet of the step', 'Blatt des Schritts', 'Scheda del passo'],
   'number.none': [
     'This is no number: write one such as {example}.',
