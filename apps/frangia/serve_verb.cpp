@@ -70,6 +70,13 @@ std::filesystem::path password_file() {
   return user_folder("XDG_CONFIG_HOME", ".config") / "serve-password";
 }
 
+/// The certificate of this machine for tablets: $XDG_CONFIG_HOME/frangia/serve-certificate.pem.
+/// Empty without a home folder.
+std::filesystem::path certificate_file() {
+  const auto folder = user_folder("XDG_CONFIG_HOME", ".config");
+  return folder.empty() ? folder : folder / "serve-certificate.pem";
+}
+
 /// The sessions of a port, which pages name in their address:
 /// $XDG_STATE_HOME/frangia/serve-sessions-6328.json. Empty for a port that the system chose, to
 /// which no page returns.
@@ -140,7 +147,7 @@ void serve(ServeArguments& arguments, Terminal& terminal) {
   arguments.projects = std::filesystem::absolute(arguments.projects).lexically_normal();
   const Run run = terminal.run();
   const std::unique_ptr<HttpServer> server = listen(arguments);
-  LanDoor door;
+  LanDoor door(certificate_file());
   const auto announce = [&server, &door] {
     server->announce_change();
     door.announce_change();

@@ -179,7 +179,7 @@ await tell(home, async () => {
   expect(surfaced.status === 0, surfaced.stderr);
   await command('open-project', { name: 'Seed' });
   await opened('Seed', (project) => project.surface?.triangles === 12);
-  await page.waitForSelector('[data-step=surface][aria-current]');
+  await page.waitForFunction(() => document.querySelector('frangia-app').session.state.project?.name === 'Seed'); // it goes to the surface then
   for (let number = 1; number <= 8; number++) {
     await step(number);
     if (number === 3) await page.waitForSelector('#live-points');

@@ -83,8 +83,50 @@ TEST(ProjectLibrary, RenamesCopiesDeletesAndPutsBack) {
   EXPECT_EQ(library.take_back("Other"), "Other 2") << "the name was given to another one since";
   EXPECT_EQ(names(), (Names{"Other", "Other 2", "Part"}));
   EXPECT_NE(error_of([&] { static_cast<void>(library.take_back("../Part")); }), "");
-  const FolderLock open(library.find("Part").derived);
-  EXPECT_NE(error_of([&] { library.discard("Part"); }), "") << "somebody has it open";
+}
+
+TEST(ProjectLibrary, LeavesAProjectThatSomebodyHasOpen) {
+  const testing::TemporaryFolder folder;
+  const ProjectLibrary library(folder.path());
+  const ProjectFolder made = library.create("Part");
+  const auto refused = [&] {
+    std::vector<std::string> sentences;
+    sentences.push_back(error_of([&] { library.discard("Part"); }));
+    sentences.push_back(error_of([&] { library.rename("Part", "Other"); }));
+    sentences.push_back(error_of([&] { library.duplicate("Part", "Copy", {}); }));
+    return std::count_if(sentences.begin(), sentences.end(), [](const std::string& sentence) {
+      return sentence.find("is writing to this folder") != std::string::npos;
+    });
+  };
+  {
+    const FolderLock open(made.derived);
+    EXPECT_EQ(refused(), 3);
+    // The process itself that has it open may copy it.
+    library.duplicate("Part", "Mine", {}, true);
+    EXPECT_FALSE(std::filesystem::exists(folder.path() / "Mine" / FolderLock::kFileName));
+  }
+  std::filesystem::create_directory(made.scan);
+  {
+    const FolderLock captures(made.scan);
+    EXPECT_EQ(refused(), 3);
+  }
+  EXPECT_EQ(library.list().size(), 2U);
+  EXPECT_EQ(error_of([&] { library.discard("Part"); }), "");
+}
+
+TEST(ProjectLibrary, ThrowsNothingOverALinkInPlaceOfTheBin) {
+  const testing::TemporaryFolder folder;
+  const testing::TemporaryFolder outside;
+  const ProjectLibrary library(folder.path());
+  static_cast<void>(library.create("Part"));
+  std::filesystem::create_directories(outside.path() / "Secret");
+  std::ofstream(outside.path() / "Secret" / "project.json") << "{}";
+  std::filesystem::create_directory_symlink(outside.path(), folder.path() / ".bin");
+  EXPECT_NE(error_of([&] { library.discard("Part"); }), "");
+  EXPECT_EQ(library.list().size(), 1U);
+  EXPECT_FALSE(std::filesystem::exists(outside.path() / "Part"));
+  EXPECT_TRUE(library.discarded().empty());
+  EXPECT_NE(error_of([&] { static_cast<void>(library.take_back("Secret")); }), "");
 }
 
 TEST(CheckProjectName, RefusesWhatIsNoPlainFileName) {

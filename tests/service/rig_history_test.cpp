@@ -107,9 +107,13 @@ TEST_F(RigHistoryTest, KeepsRigsForOtherProjectsAndMakesNoPathFromTheirNames) {
     EXPECT_NE(error_of([&] { rigs.give(name, other); }), "") << name;
   static_cast<void>(library_.create("rigs"));
   library_.discard("rigs");
+  const auto bin = folder_.path() / ".rigs" / ".bin";
+  std::filesystem::create_directory_symlink(folder_.path(), bin);
+  EXPECT_NE(error_of([&] { rigs.discard("Bench"); }), "") << "the bin leads elsewhere";
+  std::filesystem::remove(bin);
   rigs.discard("Bench");
   EXPECT_TRUE(rigs.list().empty());
-  EXPECT_TRUE(std::filesystem::exists(folder_.path() / ".rigs" / ".bin" / "Bench" / "rig.toml"));
+  EXPECT_TRUE(std::filesystem::exists(bin / "Bench" / "rig.toml"));
   static_cast<void>(library_.take_back("rigs"));
   EXPECT_FALSE(std::filesystem::exists(folder_.path() / "rigs" / "Bench")) << "a rig of nobody";
 }

@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include "frangia/core/folder_lock.h"
 #include "frangia/core/read_file.h"
 #include "frangia/editor/edit_script.h"
 #include "frangia/files/read_mesh.h"
@@ -282,6 +283,18 @@ TEST_F(ServiceTest, OpensACloudOfPointsToBeLookedAt) {
   EXPECT_EQ(finish().at("state"), "done");
   EXPECT_EQ(state().at("project").at("surface").at("triangles"), 0);
   EXPECT_FALSE(service_->level(0).empty());
+}
+
+TEST_F(ServiceTest, CopiesTheProjectThatItHasOpenAndNoneThatAnotherOneHas) {
+  static_cast<void>(command("create-project", {{"name", "Part"}, {"devices", true}}));
+  static_cast<void>(finish());
+  static_cast<void>(command("duplicate-project", {{"name", "Part"}, {"copy", "Copy"}}));
+  EXPECT_EQ(finish().at("state"), "done");
+  const FolderLock other(folder_.path() / "projects" / "Copy");
+  static_cast<void>(command("duplicate-project", {{"name", "Copy"}, {"copy", "Third"}}));
+  EXPECT_EQ(finish().at("state"), "failed");
+  EXPECT_EQ(state().at("projects").size(), 2U);
+  EXPECT_EQ(state().at("project").at("name"), "Part");
 }
 
 TEST_F(ServiceTest, OpensAMeshInAProjectOfItsOwnAndLeavesNothingOfWhatItCannotRead) {

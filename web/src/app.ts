@@ -7,7 +7,7 @@ import type { StepName } from './step_names';
 import { dialogs, footer, header, picture } from './frame_parts';
 import { onKey } from './keyboard';
 import { MeshSource } from './mesh_source';
-import { type Language, setLanguage } from './messages';
+import { type Language, setLanguage, t } from './messages';
 import { App } from './parts';
 import { applyPreferences } from './preferences';
 import { blankPage, notices } from './shell';
@@ -26,6 +26,8 @@ export class FrangiaApp extends App {
   private begun = false; // a state has arrived
   private projectShown = '';
   private wantSurface = false;
+  /** Whether the sheet is folded away, on a small screen. */
+  private folded = false;
   /** What the panel shows; it begins at its top when this changes. */
   private panelKey = '';
 
@@ -149,12 +151,18 @@ export class FrangiaApp extends App {
   }
   override go(step: StepName): void {
     stepNamed(this.step).left?.(this, step);
+    this.folded = false; // what is to be done there is in the panel
     this.step = step;
     this.setTool('orbit');
     this.chooseClouds();
     this.viewer.showSurface(this.onSurface);
     stepNamed(step).entered?.(this);
     this.live.follow();
+    this.requestUpdate();
+  }
+  /** Folds the sheet of a small screen away, or brings it back. */
+  private fold(): void {
+    this.folded = !this.folded;
     this.requestUpdate();
   }
   protected override onPicture(picture: ArrayBuffer): void {
@@ -184,11 +192,18 @@ export class FrangiaApp extends App {
     if (this.session.link === 'refused' || !this.session.state) return blankPage(this);
     const { title, panel, acts: acting } = stepNamed(this.step);
     return html`${header(this)}
-      <div class="work">
+      <div class="work ${this.folded ? 'folded' : ''}">
         ${
           this.step === 'project' || !this.state.project
             ? stepNamed('project').panel(this)
             : html`${picture(this)}
+                <button
+                  class="sheet-handle"
+                  title=${t('app.sheet')}
+                  aria-label=${t('app.sheet')}
+                  aria-expanded=${this.folded ? 'false' : 'true'}
+                  @click=${() => this.fold()}
+                ></button>
                 <main class="panel" tabindex=${this.session.watches ? 0 : -1}>
                   <h1 class="sr">${title()}</h1>
                   ${acting ? acts(this, panel(this)) : panel(this)}

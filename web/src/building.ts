@@ -1,5 +1,7 @@
 import { html, type TemplateResult } from 'lit';
 import { t } from './messages';
+import { numeric } from './number_field';
+import { type Limits, readNumber } from './written_numbers';
 import type { Store } from './store';
 import { term } from './terms';
 
@@ -42,9 +44,8 @@ export class Building {
     this.wrong.clear();
     for (const name of ['voxel_mm', 'max_triangles'] as const) {
       const input = form.elements.namedItem(name) as HTMLInputElement;
-      // What is no number at all leaves the field without a value.
       if (!input.validity.valid) this.wrong.add(name);
-      else if (input.value) settings[name] = input.valueAsNumber;
+      else if (input.value) settings[name] = readNumber(input.value, name === 'max_triangles');
     }
     this.app.requestUpdate();
     if (this.wrong.size === 0) {
@@ -57,7 +58,7 @@ export class Building {
     input.focus();
   };
 
-  private number(name: NumberField, label: TemplateResult, least: number, most: string, step: string): TemplateResult {
+  private number(name: NumberField, label: TemplateResult, limits: Limits): TemplateResult {
     const wrong = this.wrong.has(name);
     const enter = (event: Event) => {
       this.entered[name] = (event.target as HTMLInputElement).value;
@@ -68,14 +69,11 @@ export class Building {
         ><input
           class="num"
           name=${name}
-          type="number"
-          min=${least}
-          max=${most}
-          step=${step}
           placeholder=${t(name === 'voxel_mm' ? 'build.voxelAuto' : 'build.trianglesAll')}
           aria-invalid=${wrong}
           aria-describedby=${wrong ? `wrong-${name}` : ''}
           .defaultValue=${this.entered[name]}
+          ${numeric(limits)}
           ?disabled=${this.app.busy || this.app.session.watches}
           @input=${enter}
       /></label>
@@ -90,8 +88,8 @@ export class Building {
 
   /** Resolution, largest number of triangles, and whether holes are closed. */
   fields(): TemplateResult {
-    return html`${this.number('voxel_mm', html`${t('build.voxel')}${term('voxel')}`, LEAST_VOXEL_MM, '', 'any')}
-      ${this.number('max_triangles', html`${t('build.triangles')}`, FEWEST_TRIANGLES, String(MOST_TRIANGLES), '1')}
+    return html`${this.number('voxel_mm', html`${t('build.voxel')}${term('voxel')}`, { min: LEAST_VOXEL_MM, step: 0.1 })}
+      ${this.number('max_triangles', html`${t('build.triangles')}`, { min: FEWEST_TRIANGLES, max: MOST_TRIANGLES, whole: true, step: 1000 })}
       <label class="switch"
         >${t('build.watertight')}<input
           type="checkbox"

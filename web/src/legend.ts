@@ -4,6 +4,8 @@ import { css, MARK_COLORS, type Rgb, SEVERAL_SETUPS, setupColor } from './colors
 import { icon } from './icons';
 import { number, t } from './messages';
 import { type Ends, type Legend, shade } from './mesh_colors';
+import { numeric } from './number_field';
+import { numberOf, shownNumber } from './written_numbers';
 
 /** A scale as it is shown: `factor` is from the unit of its values to that of the title. */
 interface Shown {
@@ -25,10 +27,10 @@ function end({ scale, factor, digits, setEnds }: Shown, at: 0 | 1): TemplateResu
   const name = at === 0 ? 'legend-low' : 'legend-high';
   const set = (event: Event) => {
     const input = event.target as HTMLInputElement;
-    const value = input.valueAsNumber / factor;
+    const value = (numberOf(input) ?? NaN) / factor;
     const wanted: [number, number] = at === 0 ? [value, ends[1]] : [ends[0], value];
     if (wanted[0] < wanted[1]) setEnds(wanted);
-    input.value = ((wanted[0] < wanted[1] ? value : ends[at]) * factor).toFixed(digits);
+    input.value = shownNumber((wanted[0] < wanted[1] ? value : ends[at]) * factor, digits);
   };
   // What is being written stays, although the usual ends of a live picture change.
   const focused = document.activeElement;
@@ -36,11 +38,10 @@ function end({ scale, factor, digits, setEnds }: Shown, at: 0 | 1): TemplateResu
   return html`<input
     class="num"
     name=${name}
-    type="number"
-    step="any"
     aria-label=${t(at === 0 ? 'legend.low' : 'legend.high')}
     title=${t(at === 0 ? 'legend.low' : 'legend.high')}
-    .value=${written ? noChange : (ends[at] * factor).toFixed(digits)}
+    .value=${written ? noChange : shownNumber(ends[at] * factor, digits)}
+    ${numeric({ step: 10 ** -digits })}
     @change=${set}
   />`;
 }

@@ -3,6 +3,7 @@ import { encode } from 'uqr';
 import type { Lan } from './session';
 import type { Store } from './store';
 import { t } from './messages';
+import { choice } from './ui';
 
 /** A QR code as one path of squares, with the quiet zone that readers need. */
 function code(text: string): TemplateResult {
@@ -20,10 +21,14 @@ function code(text: string): TemplateResult {
   </svg>`;
 }
 
+/** A fingerprint in four parts of eight bytes, as people compare it. */
+const inParts = (fingerprint: string): TemplateResult[] =>
+  (fingerprint.match(/.{1,24}/g) ?? []).map((part) => html`<span>${part}</span>`);
+
 /** Makes a link and shows it. */
 export async function share(app: Store): Promise<void> {
   try {
-    app.sharing = { link: await app.session.newLink(), lan: await app.session.lan() };
+    app.sharing = { ...app.sharing, link: await app.session.newLink(), lan: await app.session.lan() };
     app.requestUpdate();
     app.dialog('link').showModal();
   } catch (error) {
@@ -31,9 +36,9 @@ export async function share(app: Store): Promise<void> {
   }
 }
 
-async function change(app: Store, address?: string): Promise<void> {
+async function change(app: Store, wanted?: { address: string; encrypted: boolean }): Promise<void> {
   try {
-    app.sharing.lan = await app.session.changeLan(address);
+    app.sharing.lan = await app.session.changeLan(wanted);
   } catch (error) {
     app.dialog('link').close(); // it would hide the words
     app.say(error);
@@ -45,18 +50,32 @@ function tablets(app: Store, lan: Lan): TemplateResult {
   const letIn = (event: SubmitEvent) => {
     event.preventDefault();
     const chosen = new FormData(event.target as HTMLFormElement).get('address');
-    void change(app, String(chosen ?? lan.addresses[0]));
+    void change(app, { address: String(chosen ?? lan.addresses[0]), encrypted: app.sharing.encrypted });
   };
   if (lan.open)
-    return html`${code(lan.open.link)}
-      <p>${t('lan.scan')}</p>
-      <dl class="figures" id="lan">
-        <dt>${t('lan.address')}</dt>
-        <dd class="num">${lan.open.url}</dd>
-        <dt>${t('app.password')}</dt>
-        <dd class="num">${lan.open.password}</dd>
-      </dl>
+    return html`<div class="beside">
+        ${code(lan.open.link)}
+        <div>
+          <p>${t('lan.scan')}</p>
+          ${lan.open.fingerprint ? html`<p class="quiet">${t('lan.encryptedHint')}</p>` : ''}
+          <dl class="figures" id="lan">
+            <dt>${t('lan.address')}</dt>
+            <dd class="num">${lan.open.url}</dd>
+            <dt>${t('app.password')}</dt>
+            <dd class="num">${lan.open.password}</dd>
+          </dl>
+          ${
+            lan.open.fingerprint
+              ? html`<div class="fingerprint">
+                  <span class="quiet">${t('lan.fingerprint')}</span>
+                  <code id="fingerprint">${inParts(lan.open.fingerprint)}</code>
+                </div>`
+              : ''
+          }
+        </div>
+      </div>
       <button class="btn wide" id="close-lan" @click=${() => void change(app)}>${t('lan.close')}</button>`;
+  const way = app.sharing.encrypted ? 'encrypted' : 'plain';
   if (lan.addresses.length === 0) return html`<p class="quiet">${t('lan.none')}</p>`;
   return html`<form class="form-plain" @submit=${letIn}>
     <p class="quiet">${t('lan.hint')}</p>
@@ -70,6 +89,19 @@ function tablets(app: Store, lan: Lan): TemplateResult {
           >`
         : ''
     }
+    <div class="field">
+      <span>${t('lan.way')}</span>
+      ${choice(
+        t('lan.way'),
+        way,
+        (['plain', 'encrypted'] as const).map((one) => [one, t(`lan.${one}`)] as const),
+        (chosen) => {
+          app.sharing.encrypted = chosen === 'encrypted';
+          app.requestUpdate();
+        },
+      )}
+      <p class="quiet note" id="way">${t(`lan.${way}Hint`)}</p>
+    </div>
     <button class="btn wide" id="let-in">${t('lan.letIn')}</button>
   </form>`;
 }

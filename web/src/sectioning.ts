@@ -4,6 +4,8 @@ import type { Exporting } from './exporting';
 import type { Store } from './store';
 import { icon } from './icons';
 import { number, t } from './messages';
+import { numeric } from './number_field';
+import { numberOf, shownNumber } from './written_numbers';
 import type { Section, Triple } from './types';
 import { choice, repairButton } from './ui';
 import { roundLength } from './view_marks';
@@ -146,10 +148,9 @@ export class Sectioning {
                 <input
                   class="num"
                   name="section-at"
-                  type="number"
-                  step="any"
-                  .value=${String(Number(at.toFixed(4)))}
-                  @change=${(event: Event) => this.moveTo((event.target as HTMLInputElement).valueAsNumber)}
+                  .value=${shownNumber(Number(at.toFixed(4)))}
+                  ${numeric({})}
+                  @change=${(event: Event) => this.moveTo(numberOf(event.target as HTMLInputElement) ?? NaN)}
               /></label>
               <button
                 class="icon-btn"

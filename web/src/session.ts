@@ -9,6 +9,8 @@ const ID = 'frangia-id';
 const UNANSWERED = [502, 503, 504];
 const FORBIDDEN = 403;
 const ATTEMPTS = 6;
+/** Sockets that do not open before the page asks why. */
+const SOCKETS_TO_TRY = 3;
 
 const pause = (milliseconds: number): Promise<void> => new Promise((resolve) => setTimeout(resolve, milliseconds));
 
@@ -54,7 +56,8 @@ async function answerOf(response: Response): Promise<Response> {
 /** How tablets in the network of the scanner reach it. */
 export interface Lan {
   addresses: string[];
-  open: { url: string; link: string; password: string } | null;
+  /** `fingerprint` of the certificate; empty without encryption. */
+  open: { url: string; link: string; password: string; fingerprint: string } | null;
 }
 
 export type Link = 'connecting' | 'open' | 'lost' | 'refused';
@@ -74,6 +77,10 @@ export class Session {
   unanswered = 0;
   private patience = 500;
   private socket: WebSocket | null = null;
+  /** Sockets in a row that were never open. */
+  private unopened = 0;
+  /** Whether the server answers requests, and its socket does not open all the same. */
+  blocked = false;
   private layer: Layer = 'none';
 
   constructor(
@@ -205,8 +212,8 @@ export class Session {
     }
   }
   /** Lets tablets in at an address of the machine, or nobody any more. */
-  async changeLan(address?: string): Promise<Lan> {
-    return (await (await this.post('/api/lan', address ? { address } : {})).json()) as Lan;
+  async changeLan(wanted?: { address: string; encrypted: boolean }): Promise<Lan> {
+    return (await (await this.post('/api/lan', wanted ?? {})).json()) as Lan;
   }
 
   async bytes(path: string): Promise<ArrayBuffer> {
@@ -244,7 +251,13 @@ export class Session {
     socket.binaryType = 'arraybuffer';
     this.socket = socket;
     let refused = false;
-    socket.onopen = () => socket.send(JSON.stringify({ type: 'hello', key: this.key }));
+    let opened = false;
+    socket.onopen = () => {
+      opened = true;
+      this.unopened = 0;
+      this.blocked = false;
+      socket.send(JSON.stringify({ type: 'hello', key: this.key }));
+    };
     socket.onmessage = (event) => {
       if (event.data instanceof ArrayBuffer) return this.pictured(event.data);
       const message = JSON.parse(event.data as string) as { type: string; operator: string; state: State };
@@ -260,9 +273,20 @@ export class Session {
       refused = event.code === 1008;
       if (refused) return this.set('refused');
       this.set('lost');
+      if (!opened) void this.lookForBlock();
       setTimeout(() => this.listen(), this.patience);
       this.patience = Math.min(8000, this.patience * 1.6);
     };
+  }
+
+  /** Some browsers ask no one about the certificate of a socket, and some proxies do not pass it on. */
+  private async lookForBlock(): Promise<void> {
+    if (++this.unopened < SOCKETS_TO_TRY) return;
+    this.blocked = await this.request('/api/state', {}).then(
+      () => true,
+      () => false,
+    );
+    this.changed();
   }
 
   private set(link: Link): void {

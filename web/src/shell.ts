@@ -21,7 +21,7 @@ export function blankPage(app: App): TemplateResult {
   if (app.session.link !== 'refused')
     return html`<main class="blank">
       ${logo}
-      <p class="quiet">${t('app.connecting')}</p>
+      ${app.session.blocked ? html`<p role="alert">${t('app.blocked')}</p>` : html`<p class="quiet">${t('app.connecting')}</p>`}
     </main>`;
   return html`<main class="blank">
     ${logo}
@@ -78,7 +78,7 @@ export function notices(app: App): TemplateResult {
         ? html`<div class="notice warn" role="status"><span>${t('app.watching')}</span>${button}</div>`
         : ''
     }
-    ${lost ? html`<div class="notice warn" role="alert"><span>${t('app.lost')}</span></div>` : ''}
+    ${lost ? html`<div class="notice warn" role="alert"><span>${t(app.session.blocked ? 'app.blocked' : 'app.lost')}</span></div>` : ''}
     ${
       app.problem && !lost
         ? html`<div class="notice" role="alert">

@@ -17,6 +17,8 @@ interface Look extends SectionLook {
 export interface Sharing {
   link: string;
   lan: Lan | null;
+  /** Whether the next tablets are to be let in with encryption. */
+  encrypted: boolean;
 }
 
 /**
@@ -38,7 +40,7 @@ export abstract class Store extends LitElement {
   /** Whether `problem` is that another browser operates. */
   refused = false;
   copied = false;
-  sharing: Sharing = { link: '', lan: null };
+  sharing: Sharing = { link: '', lan: null, encrypted: false };
 
   /** A state has come, or the connection has changed. */
   protected abstract onState(): void;

@@ -4,6 +4,8 @@ import type { StepName } from './step_names';
 import { worded } from './faults';
 import { icon } from './icons';
 import { t } from './messages';
+import { numeric } from './number_field';
+import { type Limits, numberIn, shownNumber } from './written_numbers';
 
 /** A row of choices, of which one is chosen. */
 export function choice<T extends string>(
@@ -67,17 +69,18 @@ export const numberForm = (
   button: string,
   disabled: boolean,
   use: (value: number) => void,
+  limits: Limits = {},
 ): TemplateResult =>
   html`<form
     class="row"
     @submit=${(event: SubmitEvent) => {
       event.preventDefault();
-      use(Number(new FormData(event.target as HTMLFormElement).get('value')));
+      use(numberIn(new FormData(event.target as HTMLFormElement), 'value', limits.whole) ?? NaN);
     }}
   >
     <label class="field grow"
       ><span>${label}</span
-      ><input id=${id} class="num" name="value" type="number" step="any" required .defaultValue=${String(value)}
+      ><input id=${id} class="num" name="value" required .defaultValue=${shownNumber(value)} ${numeric(limits)}
     /></label>
     <button class="btn" ?disabled=${disabled}>${button}</button>
   </form>`;

@@ -1,5 +1,6 @@
 import * as THREE from 'three';
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
+import { listenToFingers } from './view_fingers';
 
 /** A lasso in space: the eye, then the corners, as `frangia edit --select-outline` takes them. */
 export type Outline = string;
@@ -40,6 +41,12 @@ export class ViewCamera {
     this.controls.addEventListener('change', changed);
     this.controls.addEventListener('start', () => held(true));
     this.controls.addEventListener('end', () => held(false));
+    const whole = 2 * Math.PI; // by the height of the picture, as one finger turns it
+    listenToFingers(
+      canvas,
+      (angle) => this.turn(this.away.z < 0 ? -angle : angle, 0),
+      (right, down) => this.turn(-whole * right, whole * down),
+    );
   }
 
   /** Puts a box in the middle of the picture, seen from a direction or from where the eye is. `close` is its distance. */
@@ -103,7 +110,7 @@ export class ViewCamera {
     this.place(this.controls.target.clone(), this.away, this.halfHeight * factor);
   }
 
-  /** Whether the left button and one finger draw; wheel, other buttons and two fingers move the view all the same. */
+  /** Whether the left button and one finger draw; wheel, other buttons and more fingers move the view all the same. */
   setDrawing(drawing: boolean): void {
     const { controls } = this;
     controls.mouseButtons = {

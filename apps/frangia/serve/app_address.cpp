@@ -40,11 +40,12 @@ AppAddress app_address(const NetworkAccess& access, std::uint16_t port) {
   address.behind_proxy = access.behind_proxy;
   for (const std::string& host : access.allowed_hosts)
     admit(host, access.behind_proxy, address);
-  if (access.plain_lan && access.listen != "0.0.0.0" && access.listen != "::")
-    admit(fmt::format("{}:{}", access.listen, port), false, address);
+  const bool in_lan = access.plain_lan || access.encrypted_lan;
+  if (in_lan && access.listen != "0.0.0.0" && access.listen != "::")
+    admit(fmt::format("{}:{}", access.listen, port), access.encrypted_lan, address);
   if (!address.origins.empty()) address.link_base = address.origins.front();
-  admit(fmt::format("127.0.0.1:{}", port), false, address);
-  admit(fmt::format("localhost:{}", port), false, address);
+  admit(fmt::format("127.0.0.1:{}", port), access.encrypted_lan, address);
+  admit(fmt::format("localhost:{}", port), access.encrypted_lan, address);
   if (address.link_base.empty()) address.link_base = address.origins.front();
   return address;
 }

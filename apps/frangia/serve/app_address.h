@@ -20,6 +20,7 @@ struct NetworkAccess {
   std::string listen;                      ///< IP address; empty: 127.0.0.1 only
   bool behind_proxy = false;               ///< a reverse proxy on this machine adds TLS
   bool plain_lan = false;                  ///< without encryption, by explicit wish
+  bool encrypted_lan = false;              ///< by a certificate of the machine's own
   std::vector<std::string> allowed_hosts;  ///< names of the machine, with a port where not usual
 
   /// @errors   Error(Input) that names the option which is missing or contradicts another one

@@ -334,8 +334,10 @@ HttpResponse AppRoutes::post_lan(const std::string& body) const {
   const bool has_address = json.is_object() && address != json.end();
   if (!json.is_object() || (has_address && !address->is_string()))
     return failure(kBadRequest, "address: is an IP address of this machine, or nothing to close");
+  const auto encrypted = json.value("encrypted", nlohmann::json(false));
+  if (!encrypted.is_boolean()) return failure(kBadRequest, "encrypted: is true or false");
   if (has_address) {
-    lan_.open(address->get<std::string>());
+    lan_.open(address->get<std::string>(), encrypted.get<bool>());
   } else {
     lan_.close();
   }

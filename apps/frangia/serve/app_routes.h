@@ -18,8 +18,9 @@ namespace frangia {
 /// How the operator lets browsers of other machines in. Empty functions: it is not offered, as to
 /// those browsers themselves.
 struct LanAccess {
-  std::function<std::string()> state;                    ///< as `GET /api/lan` answers
-  std::function<void(const std::string& address)> open;  ///< at an address of this machine
+  std::function<std::string()> state;  ///< as `GET /api/lan` answers
+  /// At an address of this machine, with TLS or without.
+  std::function<void(const std::string& address, bool encrypted)> open;
   std::function<void()> close;
 };
 

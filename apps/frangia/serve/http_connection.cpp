@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "client_stream.h"
 #include "live_connection.h"
 
 namespace frangia {
@@ -83,11 +84,11 @@ struct Sending {
 class HttpConnection : public Connection, public std::enable_shared_from_this<HttpConnection> {
  public:
   HttpConnection(tcp::socket socket, SharedPtr shared)
-      : stream_(std::move(socket)),
+      : stream_(std::move(socket), shared->tls.get()),
         shared_(std::move(shared)),
         counted_(shared_, &Shared::connections, 1) {
     ErrorCode error;
-    const tcp::endpoint peer = stream_.socket().remote_endpoint(error);
+    const tcp::endpoint peer = line().socket().remote_endpoint(error);
     if (!error) peer_ = peer.address().to_string();
   }
   HttpConnection(const HttpConnection&) = delete;
@@ -98,16 +99,29 @@ class HttpConnection : public Connection, public std::enable_shared_from_this<Ht
 
   void close() override {
     ErrorCode ignored;
-    stream_.socket().close(ignored);
+    line().socket().close(ignored);
   }
   [[nodiscard]] std::size_t answer_bytes() const override { return answer_bytes_; }
+
+  void begin() {
+    if (!stream_.is_encrypted()) return read();
+    place_.enter(shared_->idle, this);
+    line().expires_after(shared_->limits.request_time);
+    stream_.async_handshake([self = shared_from_this()](ErrorCode error) {
+      self->place_.leave();
+      if (!error) self->read();
+    });
+  }
+
+ private:
+  beast::tcp_stream& line() { return stream_.next_layer(); }
 
   void read() {
     parser_.emplace();
     parser_->header_limit(static_cast<std::uint32_t>(shared_->limits.header_bytes));
     parser_->body_limit(shared_->limits.body_bytes);
     place_.enter(shared_->idle, this);
-    stream_.expires_after(shared_->limits.request_time);  // for all of the request
+    line().expires_after(shared_->limits.request_time);  // for all of the request
     http::async_read_header(
         stream_, buffer_, *parser_, [self = shared_from_this()](ErrorCode error, std::size_t) {
           self->place_.leave();
@@ -115,7 +129,6 @@ class HttpConnection : public Connection, public std::enable_shared_from_this<Ht
         });
   }
 
- private:
   /// Whether a part of the request was read; answers it otherwise, or closes the connection.
   bool is_read(ErrorCode error) {
     if (!error) return true;
@@ -227,7 +240,7 @@ class HttpConnection : public Connection, public std::enable_shared_from_this<Ht
     sending->serializer.emplace(sending->message);
     taken_ = 0;
     place_.enter(shared_->sending, this);
-    stream_.expires_after(shared_->limits.response_time);
+    line().expires_after(shared_->limits.response_time);
     send(sending);
   }
 
@@ -248,7 +261,7 @@ class HttpConnection : public Connection, public std::enable_shared_from_this<Ht
     if (!sending->serializer->is_done()) {
       if (taken_ >= kTakenBytes) {
         taken_ = 0;
-        stream_.expires_after(shared_->limits.response_time);
+        line().expires_after(shared_->limits.response_time);
       }
       return send(sending);
     }
@@ -262,10 +275,10 @@ class HttpConnection : public Connection, public std::enable_shared_from_this<Ht
   /// connection would lose the answer.
   void end() {
     ErrorCode error;
-    stream_.socket().shutdown(tcp::socket::shutdown_send, error);
+    line().socket().shutdown(tcp::socket::shutdown_send, error);
     parser_.reset();
     dropped_ = 0;
-    stream_.expires_after(shared_->limits.request_time);
+    line().expires_after(shared_->limits.request_time);
     if (!error) drop();
   }
 
@@ -281,7 +294,7 @@ class HttpConnection : public Connection, public std::enable_shared_from_this<Ht
                             });
   }
 
-  beast::tcp_stream stream_;
+  ClientStream stream_;
   SharedPtr shared_;
   Claim counted_;
   std::string peer_;
@@ -297,7 +310,7 @@ class HttpConnection : public Connection, public std::enable_shared_from_this<Ht
 }  // namespace
 
 void serve_http(tcp::socket socket, const SharedPtr& shared) {
-  std::make_shared<HttpConnection>(std::move(socket), shared)->read();
+  std::make_shared<HttpConnection>(std::move(socket), shared)->begin();
 }
 
 }  // namespace frangia

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include <fmt/format.h>
+#include <openssl/ssl.h>
 
 #include "frangia/core/error.h"
 
@@ -106,10 +107,33 @@ struct HttpServer::Implementation {
   static constexpr std::size_t kReserve = 32;  // connections that are being closed
 };
 
-HttpServer::HttpServer(const std::string& address, std::uint16_t port, const HttpLimits& limits)
+namespace {
+
+/// TLS 1.2 or later, with a certificate and its key.
+std::unique_ptr<asio::ssl::context> tls_context(const std::string& pem) {
+  auto context = std::make_unique<asio::ssl::context>(asio::ssl::context::tls_server);
+  const asio::const_buffer text = asio::buffer(pem);
+  ErrorCode error;
+  context->set_options(asio::ssl::context::default_workarounds | asio::ssl::context::no_sslv2 |
+                           asio::ssl::context::no_sslv3 | asio::ssl::context::no_tlsv1 |
+                           asio::ssl::context::no_tlsv1_1 | SSL_OP_NO_RENEGOTIATION,
+                       error);
+  if (!error) context->use_certificate_chain(text, error);
+  if (!error) context->use_private_key(text, asio::ssl::context::pem, error);
+  require(!error, "the certificate of the server cannot be used");
+  return context;
+}
+
+}  // namespace
+
+HttpServer::HttpServer(const std::string& address,
+                       std::uint16_t port,
+                       const HttpLimits& limits,
+                       const std::string& tls_pem)
     : implementation_(std::make_shared<Implementation>()) {
   Implementation& server = *implementation_;
   server.shared->limits = limits;
+  if (!tls_pem.empty()) server.shared->tls = tls_context(tls_pem);
   ErrorCode error;
   const tcp::endpoint endpoint(asio::ip::make_address(address, error), port);
   require(!error, fmt::format("'{}' is no IP address to listen on", address).c_str());

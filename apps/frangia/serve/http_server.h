@@ -98,9 +98,13 @@ class HttpServer {
  public:
   /// Listens on a port of an IP address; 0: one that the system chooses.
   ///
-  /// @errors   Error(Input) for what is no address; Error(Device) that names the port when it
-  ///          cannot be used
-  HttpServer(const std::string& address, std::uint16_t port, const HttpLimits& limits);
+  /// `tls_pem`: certificate and private key; empty: without encryption
+  /// @errors   Error(Input) for what is no address or no certificate; Error(Device) that names the
+  ///          port when it cannot be used
+  HttpServer(const std::string& address,
+             std::uint16_t port,
+             const HttpLimits& limits,
+             const std::string& tls_pem = {});
   HttpServer(const HttpServer&) = delete;
   HttpServer& operator=(const HttpServer&) = delete;
   HttpServer(HttpServer&&) = delete;

@@ -14,6 +14,7 @@
 #include "frangia/service/access_guard.h"
 
 #include "http_server.h"
+#include "own_certificate.h"
 
 namespace frangia {
 namespace {
@@ -21,12 +22,12 @@ namespace {
 /// Beside that of this machine's own browser.
 constexpr std::uint16_t kUsualPort = 6329;
 
-std::unique_ptr<HttpServer> listen(const std::string& address) {
+std::unique_ptr<HttpServer> listen(const std::string& address, const std::string& tls_pem) {
   try {
-    return std::make_unique<HttpServer>(address, kUsualPort, HttpLimits{});
+    return std::make_unique<HttpServer>(address, kUsualPort, HttpLimits{}, tls_pem);
   } catch (const Error& error) {  // in use; any other one serves as well
     if (error.kind() != ErrorKind::Device) throw;
-    return std::make_unique<HttpServer>(address, std::uint16_t{0}, HttpLimits{});
+    return std::make_unique<HttpServer>(address, std::uint16_t{0}, HttpLimits{}, tls_pem);
   }
 }
 
@@ -70,18 +71,24 @@ std::vector<std::string> network_addresses() {
 }
 
 struct LanDoor::Open {
+  /// `certificate`: empty without encryption
   Open(const std::string& address,
+       const OwnCertificate& certificate,
        Service& service,
        SessionKeys& keys,
        std::function<void()> on_operator,
        const std::function<void(const std::string&)>& on_exception)
-      : server(listen(address)),
+      : server(listen(address, certificate.pem)),
+        fingerprint(certificate.fingerprint),
         password(readable_password()),
         guard(hash_password(password)),
         routes(service,
                keys,
                guard,
-               app_address({.listen = address, .plain_lan = true, .allowed_hosts = {}},
+               app_address({.listen = address,
+                            .plain_lan = certificate.pem.empty(),
+                            .encrypted_lan = !certificate.pem.empty(),
+                            .allowed_hosts = {}},
                            server->port()),
                std::move(on_operator)),
         thread([this, on_exception](const std::stop_token& stop) {
@@ -101,6 +108,7 @@ struct LanDoor::Open {
   }
 
   std::unique_ptr<HttpServer> server;
+  std::string fingerprint;  ///< of the certificate; empty without encryption
   std::string password;
   PasswordGuard guard;
   AppRoutes routes;
@@ -119,12 +127,14 @@ LanAccess LanDoor::access(Service& service,
   access.state = [this] { return state(); };
   access.open =
       [this, &service, &keys, operates = std::move(on_operator), says = std::move(on_exception)](
-          const std::string& address) {
+          const std::string& address, bool encrypted) {
         const auto known = network_addresses();
         require(std::find(known.begin(), known.end(), address) != known.end(),
                 "address: this machine has no such address in a network; choose one of the list");
+        const OwnCertificate certificate =
+            encrypted ? own_certificate(certificate_, known) : OwnCertificate{};
         close();
-        auto opened = std::make_shared<Open>(address, service, keys, operates, says);
+        auto opened = std::make_shared<Open>(address, certificate, service, keys, operates, says);
         const std::lock_guard lock(mutex_);
         open_ = std::move(opened);
       };
@@ -143,8 +153,10 @@ std::string LanDoor::state() const {
   const std::lock_guard lock(mutex_);
   if (open_) {
     const std::string link = open_->routes.new_link();
-    json["open"] = {
-        {"url", link.substr(0, link.find("/#"))}, {"link", link}, {"password", open_->password}};
+    json["open"] = {{"url", link.substr(0, link.find("/#"))},
+                    {"link", link},
+                    {"password", open_->password},
+                    {"fingerprint", open_->fingerprint}};
   }
   return json.dump();
 }

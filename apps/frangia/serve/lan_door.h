@@ -1,9 +1,11 @@
 #pragma once
 
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <mutex>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "app_routes.h"
@@ -11,11 +13,13 @@
 namespace frangia {
 
 /// A second address of the app, in the networks of this machine, while the operator wants it: for a
-/// tablet beside the scanner. Without encryption, with a password that is made for it. All
-/// functions may be called from any thread but those of the tablets.
+/// tablet beside the scanner. Without encryption or with a certificate of the machine's own, with a
+/// password that is made for it. All functions may be called from any thread but those of the
+/// tablets.
 class LanDoor {
  public:
-  LanDoor() = default;
+  /// `certificate`: file that keeps the certificate of this machine, see own_certificate
+  explicit LanDoor(std::filesystem::path certificate) : certificate_(std::move(certificate)) {}
   LanDoor(const LanDoor&) = delete;
   LanDoor& operator=(const LanDoor&) = delete;
   LanDoor(LanDoor&&) = delete;
@@ -36,6 +40,7 @@ class LanDoor {
   struct Open;
   [[nodiscard]] std::string state() const;
 
+  std::filesystem::path certificate_;
   mutable std::mutex mutex_;
   std::shared_ptr<Open> open_;  ///< null: closed
 };

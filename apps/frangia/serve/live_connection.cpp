@@ -12,7 +12,7 @@ namespace {
 /// asks for them, pictures.
 class LiveConnection : public Connection, public std::enable_shared_from_this<LiveConnection> {
  public:
-  LiveConnection(beast::tcp_stream stream, SharedPtr shared, Claim counted)
+  LiveConnection(ClientStream stream, SharedPtr shared, Claim counted)
       : socket_(std::move(stream)), shared_(std::move(shared)), counted_(std::move(counted)) {}
   LiveConnection(const LiveConnection&) = delete;
   LiveConnection& operator=(const LiveConnection&) = delete;
@@ -115,7 +115,7 @@ class LiveConnection : public Connection, public std::enable_shared_from_this<Li
                         });
   }
 
-  websocket::stream<beast::tcp_stream> socket_;
+  websocket::stream<ClientStream> socket_;
   SharedPtr shared_;
   Claim counted_;
   beast::flat_buffer buffer_;
@@ -134,7 +134,7 @@ class LiveConnection : public Connection, public std::enable_shared_from_this<Li
 
 }  // namespace
 
-void serve_live(beast::tcp_stream stream,
+void serve_live(ClientStream stream,
                 const http::request<http::string_body>& request,
                 const SharedPtr& shared,
                 Claim place) {

@@ -9,6 +9,7 @@
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/post.hpp>
+#include <boost/asio/ssl/context.hpp>
 #include <boost/asio/steady_timer.hpp>
 #include <boost/asio/strand.hpp>
 #include <boost/beast/core.hpp>
@@ -70,6 +71,7 @@ class ConnectionPlace {
 
 /// What connections share. One thread uses it, except for `changed`.
 struct Shared {
+  std::unique_ptr<asio::ssl::context> tls;  ///< null: without encryption
   HttpApp app;
   HttpLimits limits;
   Connections idle;     ///< that wait for a request or for a key, the longest first

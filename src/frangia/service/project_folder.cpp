@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <optional>
 #include <system_error>
 
 #include <fmt/format.h>
@@ -17,6 +18,7 @@ namespace frangia {
 namespace {
 
 constexpr const char* kProjectFile = "project.json";
+constexpr const char* kBin = ".bin";
 constexpr const char* kProjectText = "{\"format\": \"frangia-project\", \"version\": 1}\n";
 
 bool is_file(const std::filesystem::path& path) {
@@ -70,6 +72,21 @@ void copy_folder(const std::filesystem::path& from,
                 fmt::format("{}: cannot be copied: {}", from.string(), error.message()));
   }
 }
+
+/// Nobody else has a project open, or captures into its scan folder, while this lives.
+class Alone {
+ public:
+  /// @errors   as FolderLock
+  explicit Alone(const ProjectFolder& project) : project_(project.derived) {
+    std::error_code ignored;
+    if (project.scan != project.derived && std::filesystem::is_directory(project.scan, ignored))
+      scan_.emplace(project.scan);
+  }
+
+ private:
+  FolderLock project_;
+  std::optional<FolderLock> scan_;
+};
 
 /// A project that holds a link is listed by its name: opening it says which one.
 ProjectEntry entry_of(const std::filesystem::path& folder) {
@@ -185,7 +202,7 @@ void check_project_name(const std::string& name) {
 
 std::filesystem::path ProjectLibrary::free_folder(const std::string& name) const {
   check_project_name(name);
-  const auto folder = root_ / name;
+  auto folder = root_ / name;
   std::error_code ignored;
   if (std::filesystem::exists(std::filesystem::symlink_status(folder, ignored))) {
     throw Error(ErrorKind::Input,
@@ -197,15 +214,22 @@ std::filesystem::path ProjectLibrary::free_folder(const std::string& name) const
 void ProjectLibrary::rename(const std::string& name, const std::string& to) const {
   const ProjectFolder project = find(name);
   const auto folder = free_folder(to);
-  const FolderLock lock(project.derived);
+  const Alone alone(project);
   move_folder(project.folder, folder);
 }
 
 void ProjectLibrary::duplicate(const std::string& name,
                                const std::string& copy,
-                               const Run& run) const {
+                               const Run& run,
+                               bool open_here) const {
   const ProjectFolder project = find(name);
   const auto folder = free_folder(copy);
+  std::optional<Alone> alone;
+  try {
+    if (!open_here) alone.emplace(project);
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::File) throw;  // where nobody may write, nobody changes it
+  }
   const auto unfinished = root_ / ".copy";
   std::error_code ignored;
   std::filesystem::remove_all(unfinished, ignored);
@@ -220,17 +244,24 @@ void ProjectLibrary::duplicate(const std::string& name,
 
 void ProjectLibrary::discard(const std::string& name) const {
   const ProjectFolder project = find(name);
-  make_folder(bin());
-  const FolderLock lock(project.derived);
-  move_folder(project.folder, free_name(bin(), name));
+  const auto into = path_below(root_, kBin);  // a link would lead out
+  make_folder(into);
+  const Alone alone(project);
+  move_folder(project.folder, free_name(into, name));
+}
+
+std::filesystem::path ProjectLibrary::bin() const {
+  return root_ / kBin;
 }
 
 std::vector<std::string> ProjectLibrary::discarded() const {
   std::vector<std::string> names;
   std::error_code error;
-  for (const auto& entry : std::filesystem::directory_iterator(bin(), error))
+  if (std::filesystem::is_symlink(bin(), error)) return names;
+  for (const auto& entry : std::filesystem::directory_iterator(bin(), error)) {
     if (!entry.is_symlink() && is_project(entry.path()))
       names.push_back(entry.path().filename().string());
+  }
   std::sort(names.begin(), names.end());
   return names;
 }

@@ -110,18 +110,25 @@ class ProjectLibrary {
   [[nodiscard]] ProjectFolder create(const std::string& name) const;
   /// Gives a project another name.
   ///
-  /// @errors   as `find` and `create`; Error(Input) while another process has it open
+  /// @errors   as `find` and `create`; Error(Input) while another process has it open or captures
+  ///          its scan
   void rename(const std::string& name, const std::string& to) const;
   /// Copies a project, without links. The copy appears when it is complete.
   ///
-  /// @errors   as `find` and `create`; Error(File) when it cannot be written; Error(Cancelled)
-  void duplicate(const std::string& name, const std::string& copy, const Run& run) const;
+  /// `open_here`: this process has the project open and does not change it meanwhile
+  /// @errors   as `find` and `create`; Error(Input) while another process has it open; Error(File)
+  ///          when it cannot be written; Error(Cancelled)
+  void duplicate(const std::string& name,
+                 const std::string& copy,
+                 const Run& run,
+                 bool open_here = false) const;
   /// Moves a project into the bin.
   ///
-  /// @errors   as `find`; Error(Input) while another process has it open
+  /// @errors   as `find`; Error(Input) while another process has it open or captures its scan, or
+  ///          when the bin is a link
   void discard(const std::string& name) const;
   /// Folder of what was deleted.
-  [[nodiscard]] std::filesystem::path bin() const { return root_ / ".bin"; }
+  [[nodiscard]] std::filesystem::path bin() const;
   /// Names of the projects in the bin, sorted.
   [[nodiscard]] std::vector<std::string> discarded() const;
   /// Brings a project back from the bin. Returns its name, which has a number where that of the

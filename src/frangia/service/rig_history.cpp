@@ -16,6 +16,7 @@
 
 #include "frangia/core/durable_file.h"
 #include "frangia/core/error.h"
+#include "frangia/core/open_below.h"
 #include "frangia/core/read_file.h"
 #include "frangia/devices/device_settings.h"
 #include "frangia/rig/read_rig.h"
@@ -249,7 +250,7 @@ void RigLibrary::give(const std::string& name, const ProjectFolder& project) con
 
 void RigLibrary::discard(const std::string& name) const {
   const auto folder = find(name);
-  const auto bin = root_ / ".bin";
+  const auto bin = path_below(root_, ".bin");  // a link would lead out
   make_folder(bin);
   move_folder(folder, free_name(bin, name));
 }

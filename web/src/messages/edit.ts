@@ -111,6 +111,11 @@ export const EDIT = {
     'Umschalt fügt hinzu, Strg nimmt weg, beide schneiden. Rad, mittlere und rechte Taste bewegen die Ansicht.',
     'Maiusc aggiunge, Ctrl toglie, entrambi intersecano. Rotella, tasto centrale e destro muovono la vista.',
   ],
+  'edit.modeFingers': [
+    'Two fingers move, zoom and turn the view, three turn it freely.',
+    'Zwei Finger verschieben, zoomen und drehen die Ansicht, drei drehen sie frei.',
+    'Due dita spostano, ingrandiscono e ruotano la vista, tre la ruotano liberamente.',
+  ],
   'edit.nothingToTakeFrom': [
     'Nothing is selected yet: select something first.',
     'Noch ist nichts ausgewählt: Erst etwas auswählen.',

@@ -114,5 +114,11 @@ export const FAULTS_SERVER = {
     'dieser Rechner hat diese Adresse in keinem Netz; eine der Liste wählen',
     "questo computer non ha questo indirizzo in una rete; sceglierne uno dell'elenco",
   ],
+  'fault.encryptedOrNot': ['encrypted: is true or false', 'ist wahr oder falsch', 'è vero o falso'],
+  'fault.noCertificate': [
+    'no certificate can be made for this machine; connect without encryption',
+    'für diesen Rechner lässt sich kein Zertifikat erzeugen; unverschlüsselt verbinden',
+    'non si può creare un certificato per questo computer; connettersi senza cifratura',
+  ],
   'fault.noKey': ['no valid key', 'kein gültiger Schlüssel', 'nessuna chiave valida'],
 } as const satisfies Rows;

@@ -122,11 +122,15 @@ nlohmann::ordered_json Service::Implementation::duplicate_project(CommandArgumen
   const std::string copy = arguments.text("copy");
   arguments.check_all_read();
   check_project_name(copy);
-  static_cast<void>(library_.find(name));
+  const ProjectFolder project = library_.find(name);
   require_idle();
-  return started("copy", [this, name, copy](const Run& run) {
+  const bool open_here = [&] {
+    const std::lock_guard lock(mutex_);
+    return project_ && project_->folder.folder == project.folder;
+  }();
+  return started("copy", [this, name, copy, open_here](const Run& run) {
     run.stage("files");
-    library_.duplicate(name, copy, run);
+    library_.duplicate(name, copy, run, open_here);
     refresh_projects();
   });
 }

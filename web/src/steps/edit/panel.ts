@@ -3,6 +3,8 @@ import { type Combine, type Likeness, LIKENESSES } from '../../editing';
 import type { App } from '../../parts';
 import { icon, type IconName } from '../../icons';
 import { type MessageKey, number, t } from '../../messages';
+import { numeric } from '../../number_field';
+import { numberIn, shownNumber } from '../../written_numbers';
 import { choice, nextStep, numberForm } from '../../ui';
 import { stepWords } from '../../step_words';
 import type { Tool } from '../../viewer';
@@ -74,7 +76,8 @@ function selecting(app: App): TemplateResult {
       ],
       (combine) => app.editing.setCombine(combine),
     )}
-    <p class="quiet">${t('edit.modeKeys')}</p>
+    <p class="quiet for-mouse">${t('edit.modeKeys')}</p>
+    <p class="quiet for-fingers">${t('edit.modeFingers')}</p>
     <label class="switch"
       >${t('edit.through')}<input
         type="checkbox"
@@ -175,10 +178,7 @@ function repairing(app: App): TemplateResult {
         class="row"
         @submit=${(event: SubmitEvent) => {
           event.preventDefault();
-          app.editing.preview(
-            'decimate',
-            `${String(new FormData(event.target as HTMLFormElement).get('tolerance'))}mm`,
-          );
+          app.editing.preview('decimate', `${numberIn(new FormData(event.target as HTMLFormElement), 'tolerance')}mm`);
         }}
       >
         <label class="field grow"
@@ -187,11 +187,9 @@ function repairing(app: App): TemplateResult {
             class="num"
             id="tolerance"
             name="tolerance"
-            type="number"
-            min="0.0001"
-            step="any"
             required
-            .defaultValue=${String(tolerance)}
+            .defaultValue=${shownNumber(tolerance)}
+            ${numeric({ min: 0.0001, step: 0.01 })}
         /></label>
         <button class="btn" id="decimate" ?disabled=${app.busy}>${t('edit.decimate')}</button>
       </form>
@@ -201,8 +199,14 @@ function repairing(app: App): TemplateResult {
 
 /** Reduces the mesh to at most a number of triangles, as other programs ask for. */
 const reducing = (app: App, triangles: number): TemplateResult =>
-  numberForm('decimate-to', t('edit.mostTriangles'), Math.ceil(triangles / 2), t('edit.decimate'), app.busy, (value) =>
-    app.editing.preview('decimate-to', String(Math.max(4, Math.round(value)))),
+  numberForm(
+    'decimate-to',
+    t('edit.mostTriangles'),
+    Math.ceil(triangles / 2),
+    t('edit.decimate'),
+    app.busy,
+    (value) => app.editing.preview('decimate-to', String(Math.max(4, value))),
+    { min: 1, whole: true, step: 1000 },
   );
 
 export function editStep(app: App): TemplateResult {

@@ -5,6 +5,8 @@ import { worded } from '../../faults';
 import { icon } from '../../icons';
 import type { Acceptance } from '../../types';
 import { number, t } from '../../messages';
+import { numeric } from '../../number_field';
+import { numberIn, shownNumber } from '../../written_numbers';
 
 const DOTS = { in: 'done', out: 'bad', undecided: 'poor' } as const;
 const LIMITS = {
@@ -28,7 +30,7 @@ export function openArrangements({ artifact, arrangements }: Acceptance): string
 /** What a form states, as acceptance.toml has it; empty fields are left out. */
 export function acceptancePlan(form: FormData): object {
   const text = (name: string) => String(form.get(name) ?? '').trim();
-  const of = (name: string) => (text(name) === '' ? null : Number(text(name)));
+  const of = (name: string) => numberIn(form, name);
   const volume = ['volume_x', 'volume_y', 'volume_z'].map(of);
   return {
     artifact: {
@@ -63,11 +65,10 @@ function artifactForm(app: App, test: Acceptance | null): TemplateResult {
       ><input
         class="num"
         name=${name}
-        type="number"
-        step="any"
         ?required=${required}
         ?disabled=${off}
-        .defaultValue=${value == null ? '' : String(value)}
+        .defaultValue=${shownNumber(value)}
+        ${numeric({})}
     /></label>`;
   const words = (name: 'certificate' | 'operator', value: string | undefined) =>
     html`<label class="field"
@@ -101,11 +102,10 @@ function artifactForm(app: App, test: Acceptance | null): TemplateResult {
               html`<input
                 class="num"
                 name="volume_${axis}"
-                type="number"
-                step="any"
                 aria-label="${t('accept.volume')} ${axis.toUpperCase()}"
                 ?disabled=${off}
-                .defaultValue=${String(test?.volume_mm?.[i] ?? '')}
+                .defaultValue=${shownNumber(test?.volume_mm?.[i])}
+                ${numeric({})}
               />`,
           )}
         </div>

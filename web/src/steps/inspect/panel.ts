@@ -4,6 +4,8 @@ import type { App } from '../../parts';
 import { accepted, REFERENCE_FORMATS } from '../../file_formats';
 import { icon } from '../../icons';
 import { number, t } from '../../messages';
+import { numeric } from '../../number_field';
+import { numberIn, shownNumber } from '../../written_numbers';
 import type { Plan } from '../../inspection_types';
 import type { Comparison, Inspection, MeasuredRow } from '../../types';
 import { choice, nextStep } from '../../ui';
@@ -230,7 +232,7 @@ function reference(app: App): TemplateResult {
   const run = (event: SubmitEvent) => {
     event.preventDefault();
     const form = new FormData(event.target as HTMLFormElement);
-    void inspecting.change({ tolerance_mm: [Number(form.get('lower')), Number(form.get('upper'))] });
+    void inspecting.change({ tolerance_mm: [numberIn(form, 'lower') ?? NaN, numberIn(form, 'upper') ?? NaN] });
   };
   const [lower, upper] = plan.tolerance_mm ?? [-0.1, 0.1];
   const align = (how: NonNullable<Plan['align']>) => {
@@ -273,11 +275,21 @@ function reference(app: App): TemplateResult {
             <form class="row" @submit=${run}>
               <label class="field grow"
                 ><span>${t('inspect.lower')}</span
-                ><input class="num" name="lower" type="number" step="any" required .defaultValue=${String(lower)}
+                ><input
+                  class="num"
+                  name="lower"
+                  required
+                  .defaultValue=${shownNumber(lower)}
+                  ${numeric({ step: 0.01 })}
               /></label>
               <label class="field grow"
                 ><span>${t('inspect.upper')}</span
-                ><input class="num" name="upper" type="number" step="any" required .defaultValue=${String(upper)}
+                ><input
+                  class="num"
+                  name="upper"
+                  required
+                  .defaultValue=${shownNumber(upper)}
+                  ${numeric({ step: 0.01 })}
               /></label>
               <button class="btn" id="inspect" ?disabled=${off}>${t('inspect.run')}</button>
             </form>`
@@ -295,7 +307,7 @@ function rule(app: App): TemplateResult {
   const change = (event: SubmitEvent) => {
     event.preventDefault();
     const form = new FormData(event.target as HTMLFormElement);
-    const of = (name: string) => (form.get(name) === '' ? null : Number(form.get(name)));
+    const of = (name: string) => numberIn(form, name);
     void inspecting.change({
       min_feature_mm: of('patch'),
       edge_mm: of('edge'),
@@ -309,13 +321,10 @@ function rule(app: App): TemplateResult {
       ><input
         class="num"
         name=${name}
-        type="number"
-        step="any"
-        min="0"
-        max=${name === 'coverage' ? 100 : 10_000}
         placeholder=${usual}
         ?disabled=${off}
-        .defaultValue=${value ? String(value) : ''}
+        .defaultValue=${shownNumber(value || null)}
+        ${numeric({ min: 0, max: name === 'coverage' ? 100 : 10_000 })}
     /></label>`;
   return html`<section class="group" id="rule-group">
     <label class="switch"

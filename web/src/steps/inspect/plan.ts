@@ -3,6 +3,8 @@ import { html, type TemplateResult } from 'lit';
 import type { App } from '../../parts';
 import { icon } from '../../icons';
 import { number, t } from '../../messages';
+import { numeric } from '../../number_field';
+import { numberIn, shownNumber } from '../../written_numbers';
 import type { CharacteristicKind, PlannedCharacteristic, PlannedFeature } from '../../inspection_types';
 import type { FoundFeature, Inspection } from '../../types';
 
@@ -114,8 +116,11 @@ function feature(app: App, one: PlannedFeature): TemplateResult {
   const change = (event: SubmitEvent) => {
     event.preventDefault();
     const form = new FormData(event.target as HTMLFormElement);
-    const of = (name: string) => (form.get(name) === '' || form.get(name) === null ? null : Number(form.get(name)));
-    const [lower, upper, nominal] = [of('lower'), of('upper'), of('nominal')];
+    const [lower, upper, nominal] = ['lower', 'upper', 'nominal'].map((name) => numberIn(form, name)) as [
+      number | null,
+      number | null,
+      number | null,
+    ];
     inspecting.changeFeature(one.name, {
       diameter_mm: nominal,
       tolerance_mm: nominal !== null && lower !== null && upper !== null ? [lower, upper] : null,
@@ -124,13 +129,7 @@ function feature(app: App, one: PlannedFeature): TemplateResult {
   const input = (name: string, label: string, value: number | null | undefined) =>
     html`<label class="field grow"
       ><span>${label}</span
-      ><input
-        class="num"
-        name=${name}
-        type="number"
-        step="any"
-        ?disabled=${off}
-        .defaultValue=${value == null ? '' : String(value)}
+      ><input class="num" name=${name} ?disabled=${off} .defaultValue=${shownNumber(value)} ${numeric({})}
     /></label>`;
   return html`<div class="planned" data-planned=${one.name}>
     <div class="row">
@@ -180,12 +179,11 @@ function adding(app: App, features: readonly PlannedFeature[]): TemplateResult |
     const two = TWO_SIDED.includes(kind);
     const wanted: Omit<PlannedCharacteristic, 'name'> = { kind, feature: text('feature') };
     if (!OF_ONE.includes(kind)) wanted.datum = text('datum');
-    const nominal = text('nominal');
-    const limit = text('limit');
+    const [nominal, limit] = [numberIn(form, 'nominal'), numberIn(form, 'limit')];
     if (kind === 'position') wanted.position_mm = nominalPlace(app, features, wanted.feature);
-    if (two && nominal !== '') wanted.nominal = Number(nominal);
-    if (two && nominal !== '' && limit !== '') wanted.tolerance = [-Number(limit), Number(limit)];
-    if (!two && limit !== '') wanted.limit = Number(limit);
+    if (two && nominal !== null) wanted.nominal = nominal;
+    if (two && nominal !== null && limit !== null) wanted.tolerance = [-limit, limit];
+    if (!two && limit !== null) wanted.limit = limit;
     app.inspecting.addCharacteristic(wanted);
   };
   const names = features.map(({ name }, i) => html`<option ?selected=${i === features.length - 1}>${name}</option>`);
@@ -224,14 +222,13 @@ function adding(app: App, features: readonly PlannedFeature[]): TemplateResult |
       ${
         TWO_SIDED.includes(adds)
           ? html`<label class="field grow"
-              ><span>${t('inspect.nominalOf')}</span
-              ><input class="num" name="nominal" type="number" step="any" ?disabled=${off}
+              ><span>${t('inspect.nominalOf')}</span><input class="num" name="nominal" ?disabled=${off} ${numeric({})}
             /></label>`
           : ''
       }
       <label class="field grow"
         ><span>${t(TWO_SIDED.includes(adds) ? 'inspect.plusMinus' : 'inspect.limit')}</span
-        ><input class="num" name="limit" type="number" step="any" min="0" ?disabled=${off}
+        ><input class="num" name="limit" ?disabled=${off} ${numeric({ min: 0 })}
       /></label>
       <button class="btn" ?disabled=${off}>${t('inspect.add')}</button>
     </div>

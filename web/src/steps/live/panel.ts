@@ -8,6 +8,8 @@ import { cyclic, STATUS_COLORS } from '../../live_view';
 import { legend } from '../../legend';
 import { type Ends, heightColor } from '../../mesh_colors';
 import { number, t } from '../../messages';
+import { numeric } from '../../number_field';
+import { numberOf, readNumbers, shownNumber } from '../../written_numbers';
 import type { LivePattern } from '../../types';
 import { term } from '../../terms';
 import { choice, nextStep, plain } from '../../ui';
@@ -224,13 +226,10 @@ function exposure(app: App): TemplateResult {
 /** The exposures of each frame of the scan; what several of them measure is merged. */
 function exposures(app: App, several: boolean, fixed: boolean): TemplateResult {
   const { exposures_ms } = app.project.capture;
-  const shown = several ? exposures_ms.map((value) => Number(value.toPrecision(3))).join(' ') : '';
+  const shown = several ? exposures_ms.map((value) => shownNumber(Number(value.toPrecision(3)))).join(' ') : '';
   const enter = (event: Event) => {
     const input = event.target as HTMLInputElement;
-    const values = input.value
-      .split(/[;\s]+|,(?=\s)|,(?=\d+(?:[.;,\s]|$))/)
-      .filter(Boolean)
-      .map((text) => Number(text.replace(',', '.')));
+    const values = readNumbers(input.value);
     if (!values.every((value) => value > 0 && Number.isFinite(value))) {
       app.say(t('live.badExposures', { text: input.value }));
       input.value = shown;
@@ -303,12 +302,13 @@ function fringes(app: App): TemplateResult {
       ><input
         id="stations"
         class="num"
-        type="number"
-        min="1"
-        max="360"
         ?disabled=${scan_begun}
         .value=${String(app.project.stations.length)}
-        @change=${(event: Event) => void app.command('set-capture', { stations: Number((event.target as HTMLInputElement).value) })}
+        ${numeric({ min: 1, max: 360, whole: true })}
+        @change=${(event: Event) => {
+          const stations = numberOf(event.target as HTMLInputElement, true);
+          if (stations !== null) void app.command('set-capture', { stations });
+        }}
     /></label>
     <label class="slider"
       ><span>${t('live.table')}</span><b class="num">${number(live?.table_deg ?? 0, 0)}°</b>

@@ -3,6 +3,8 @@ import type { App } from '../../parts';
 import { fringePaths } from '../../fringes';
 import { icon } from '../../icons';
 import { isMessage, type MessageKey, moment, number, t } from '../../messages';
+import { numeric } from '../../number_field';
+import { numberIn } from '../../written_numbers';
 import { freeName, type Source, SOURCES } from '../../projects';
 import type { ProjectEntry } from '../../types';
 import { acts, choice } from '../../ui';
@@ -96,7 +98,7 @@ function newProject(app: App): TemplateResult {
   const create = async (event: SubmitEvent) => {
     event.preventDefault();
     const form = new FormData(event.target as HTMLFormElement);
-    const common = { name: String(form.get('name')).trim(), stations: Number(form.get('stations')) };
+    const common = { name: String(form.get('name')).trim(), stations: numberIn(form, 'stations', true) ?? NaN };
     const files = (event.target as HTMLFormElement).querySelector<HTMLInputElement>('input[type=file]')?.files;
     if (app.projects.source === 'simulated') await app.projects.create({ ...common, part: String(form.get('part')) });
     else if (app.projects.source === 'kept')
@@ -113,7 +115,7 @@ function newProject(app: App): TemplateResult {
       /></label>
       <label class="field"
         ><span>${t('home.stations')}${term('station')}</span
-        ><input name="stations" class="num" type="number" min="2" max="360" value="8" required
+        ><input name="stations" class="num" value="8" required ${numeric({ min: 2, max: 360, whole: true })}
       /></label>
     </div>
     <div class="field">

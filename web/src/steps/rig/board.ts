@@ -3,6 +3,8 @@ import type { BoardKind } from '../../arranging';
 import type { App } from '../../parts';
 import { icon } from '../../icons';
 import { t } from '../../messages';
+import { numeric } from '../../number_field';
+import { numberIn, shownNumber } from '../../written_numbers';
 import { choice } from '../../ui';
 
 const PAPERS = [
@@ -25,12 +27,9 @@ export const boardField = (name: string, label: string, value: number | null, st
     ><input
       class="num"
       name=${name}
-      type="number"
-      min=${step < 1 ? 0.1 : 3}
-      max=${name === 'ruler_mm' ? 199 : 100}
-      step=${step}
       required
-      .defaultValue=${value === null ? '' : String(value)}
+      .defaultValue=${shownNumber(value)}
+      ${numeric({ min: step < 1 ? 0.1 : 3, max: name === 'ruler_mm' ? 199 : 100, step, whole: step === 1 })}
   /></label>`;
 
 /** What describes a checkerboard. Nothing is filled in: it is counted and measured. */
@@ -60,7 +59,7 @@ export const calibrationFields = (app: App): TemplateResult =>
 /** The numbers of a form with such fields. */
 export function boardOf(form: FormData): Record<string, number> {
   const fields = ['columns', 'rows', 'square_mm', 'ruler_mm', 'poses'].filter((name) => form.has(name));
-  return Object.fromEntries(fields.map((name) => [name, Number(form.get(name))]));
+  return Object.fromEntries(fields.map((name) => [name, numberIn(form, name) ?? NaN]));
 }
 
 /** Boards to print. */

@@ -1,6 +1,8 @@
 import { html, type TemplateResult } from 'lit';
 
 import { isMessage, t } from '../../messages';
+import { numeric } from '../../number_field';
+import { numberOf, shownNumber } from '../../written_numbers';
 
 type Value = string | number | boolean;
 /** A line of the settings of a device; with a key where it is "key = value" with a plain value. */
@@ -61,23 +63,27 @@ function field({ key, value }: Line, among: string[], change: (value: Value) => 
         .checked=${value}
         @change=${(event: Event) => change((event.target as HTMLInputElement).checked)}
     /></label>`;
-  const number = typeof value === 'number';
+  if (typeof value === 'number')
+    return html`<label class="field"
+      ><span>${labelOf(key)}</span
+      ><input
+        class="num"
+        data-setting=${key}
+        .value=${shownNumber(value)}
+        ${numeric({})}
+        @change=${(event: Event) => {
+          const entered = numberOf(event.target as HTMLInputElement);
+          if (entered !== null) change(entered);
+        }}
+    /></label>`;
   return html`<label class="field"
     ><span>${labelOf(key)}</span
     ><input
-      class=${number ? 'num' : ''}
       data-setting=${key}
-      type=${number ? 'number' : 'text'}
-      step="any"
       maxlength="200"
-      .value=${String(value)}
-      @change=${(event: Event) => {
-        const input = event.target as HTMLInputElement;
-        // A quote or a backslash would end the text in the file.
-        if (!number) change(input.value.replace(/["\\]/g, ''));
-        else if (Number.isFinite(input.valueAsNumber)) change(input.valueAsNumber);
-      }}
-  /></label>`;
+      .value=${value}
+      @change=${(event: Event) => change((event.target as HTMLInputElement).value.replace(/["\\]/g, ''))}
+  /></label>`; // a quote or a backslash would end the text in the file
 }
 
 /** The settings of a device as a form; as text, too, for what has no field. */
