@@ -40,9 +40,6 @@ void crop(SurfelMap& map) {
 /// over 5 pixels leaves of a ball grows with the inverse sixth power of the cosine.
 constexpr float kSteepCosine = 0.342F;
 
-/// Noise of a pixel over that of its value smoothed over 5 x 5 pixels: 1 / sqrt(27 / 175).
-constexpr float kMeasuredNoise = 2.546F;
-
 }  // namespace
 
 int surfel_stride(int width, int height, std::size_t pixels) {
@@ -69,11 +66,9 @@ SurfelMap make_surfel_map(const LocalPlanes& view,
       const Eigen::Vector3f ray = camera.rays(x, y).homogeneous();
       const Eigen::Vector3f smoothed = ray / view.inverse_depth(x, y);
       const float cosine = -plane.normal.dot(smoothed.normalized());
-      const float sigma = cosine * cosine / std::sqrt(quad.weight);
-      map.surfels(column, row) =
-          cosine > kSteepCosine
-              ? SurfelMap::Surfel{smoothed, plane.normal, sigma}
-              : SurfelMap::Surfel{ray * depth_mm(x, y), plane.normal, kMeasuredNoise * sigma};
+      map.surfels(column, row) = {cosine > kSteepCosine ? smoothed : ray * depth_mm(x, y),
+                                  plane.normal,
+                                  cosine * cosine / std::sqrt(quad.weight)};
     }
   });
   crop(map);

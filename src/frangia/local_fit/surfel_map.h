@@ -44,7 +44,8 @@ struct SurfelMap {
 ///
 /// Near the limb of a round part a quadratic is off by less than the noise of a pixel, but alike in
 /// all surfels, and an axis that is found by them by several times its uncertainty. Steeper than 70
-/// degrees, points are therefore those measured, with their larger noise.
+/// degrees, points are therefore those measured. Their sigma is that of smoothed ones: neighbouring
+/// surfels share their windows, so that many together have no less noise than measured points.
 ///
 /// @units    mm, rig frame
 /// @shape    `view` needs the planes of every `surfel_stride`-th pixel, see `LocalPlanesOptions`;
