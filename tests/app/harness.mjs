@@ -28,6 +28,9 @@ export function requireChromium() {
   process.exit(77);
 }
 
+/** A draft: what is drawn and simulated needs no more pixels than the checks do. Not where people look at the pictures. */
+export const isDraft = process.env.FRANGIA_DRAFT === '1';
+
 let ajv;
 /** Checks a message against a definition of docs/service-schema.json. */
 export function check(name, value) {
@@ -48,11 +51,20 @@ export function coarsenCamera(project, factor = 2) {
     if (!fs.existsSync(file)) continue;
     const scale = (text, key, change) => text.replace(new RegExp(`^${key} = \\[(.*)\\]$`, 'm'), (_, numbers) => `${key} = [${numbers.split(',').map(Number).map(change).join(', ')}]`);
     let text = fs.readFileSync(file, 'utf8');
-    text = scale(text, 'size_px', (value) => value / factor);
+    text = scale(text, 'size_px', (value) => Math.floor(value / factor));
     text = scale(text, 'focal_px', (value) => value / factor);
     text = scale(text, 'principal_point_px', (value) => (value + 0.5) / factor - 0.5);
+    text = text.replace(/^samples = \d+$/m, 'samples = 1');
     fs.writeFileSync(file, text);
   }
+}
+
+/** From here on, a project's display shows each picture at once, which no frame has to wait for. */
+export function makeDisplayPrompt(project) {
+  const rig = path.join(project, 'rig.toml');
+  const text = fs.readFileSync(rig, 'utf8');
+  expect(/^latency_ms = /m.test(text) && /^delay_s = /m.test(text), 'the display is prompt already');
+  fs.writeFileSync(rig, text.replace(/^(latency_ms|delay_s) = [\d.]+/gm, '$1 = 0'));
 }
 
 /** Opens a project again, as its files are now. */
@@ -169,7 +181,9 @@ const STAGES = new Set([...fs.readFileSync(path.join(here, '../../web/src/messag
 
 /** A page all of whose messages are checked. `expected` matches what the console may say beside what it always may. */
 export async function openPage(browser, url, viewport = { width: 1440, height: 900 }, { expected = /^$/, ...more } = {}) {
-  const context = await browser.newContext({ viewport, colorScheme: 'dark', locale: 'en-GB', ...more });
+  // A processor draws here, for each pixel of the screen; boxes, words and clicks are measured in those of CSS.
+  const deviceScaleFactor = isDraft ? 0.5 : 1;
+  const context = await browser.newContext({ viewport, deviceScaleFactor, colorScheme: 'dark', locale: 'en-GB', ...more });
   const page = await context.newPage();
   page.setDefaultTimeout(PATIENCE);
   // Not by the page's own policy, which forbids it.

@@ -30,9 +30,9 @@ function ball([x, y, z], radius, rings) {
   return triangles;
 }
 // Measured: the small ball is 0.05 mm too large and 0.1 mm too far away.
-const third = ball([18, 30, 6], 6, 30); // beside the others, so that the part fits in one pose only
-const nominal = [...ball([0, 0, 0], 15, 60), ...ball([50, 0, 0], 10, 40), ...third];
-const measured = [...ball([0, 0, 0], 15, 60), ...ball([50.1, 0, 0], 10.025, 40), ...third];
+const third = ball([18, 30, 6], 6, 20); // beside the others, so that the part fits in one pose only
+const nominal = [...ball([0, 0, 0], 15, 40), ...ball([50, 0, 0], 10, 28), ...third];
+const measured = [...ball([0, 0, 0], 15, 40), ...ball([50.1, 0, 0], 10.025, 28), ...third];
 const folder = newProject(program, home, 'balls', measured);
 const reference = path.join(home, 'balls as designed.stl');
 fs.writeFileSync(reference, stlOf(nominal));

@@ -6,7 +6,7 @@
 import { spawnSync } from 'node:child_process';
 import fs from 'node:fs';
 import path from 'node:path';
-import { coarsenCamera, expect, idle, launch, look as lookAt, newHome, openPage, passed, reopen, requireChromium, startServer, stateOf, tell, waitForProject } from './harness.mjs';
+import { coarsenCamera, expect, idle, launch, look as lookAt, makeDisplayPrompt, newHome, openPage, passed, reopen, requireChromium, startServer, stateOf, tell, waitForProject } from './harness.mjs';
 
 const [program, shots] = process.argv.slice(2).map((name) => path.resolve(name));
 requireChromium();
@@ -62,6 +62,8 @@ await tell(home, async () => {
   await idle(page);
   await look('calibrated');
 
+  // From here on, no frame waits for the display: the next ones would take minutes.
+  makeDisplayPrompt(path.join(home, 'projects', 'Maker'));
   await page.click('#find-axis:not([disabled])');
   await waitForProject(page, 'the axis', (project) => project.axis !== null);
   await idle(page);

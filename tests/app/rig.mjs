@@ -4,7 +4,7 @@
 //   node rig.mjs PROGRAM FOLDER      FOLDER receives the screenshots
 import fs from 'node:fs';
 import path from 'node:path';
-import { coarsenCamera, expect, idle, launch, look, newHome, newLink, openPage, passed, reopen, requireChromium, startServer, stateOf, tell, waitForState } from './harness.mjs';
+import { coarsenCamera, expect, idle, launch, look, makeDisplayPrompt, newHome, newLink, openPage, passed, reopen, requireChromium, startServer, stateOf, tell, waitForState } from './harness.mjs';
 
 const [program, shots] = process.argv.slice(2).map((name) => path.resolve(name));
 const here = import.meta.dirname ?? path.dirname(new URL(import.meta.url).pathname);
@@ -96,6 +96,7 @@ await tell(home, async () => {
   await page.locator('#measure-display').scrollIntoViewIfNeeded();
   await look(page, shots, 'display-measured');
   passed(`the latency of the display is ${(1000 * latency).toFixed(0)} ms`);
+  makeDisplayPrompt(path.join(home, 'projects', 'Uploaded'));
 
   // Without the axis of its turntable the rig scans no stations, and the page leads to where it is found.
   const rig = path.join(home, 'projects', 'Uploaded', 'rig.toml');
@@ -231,7 +232,7 @@ await tell(home, async () => {
   await page.fill('input[name=stations]', '3');
   await page.getByText('Create', { exact: true }).click();
   await page.waitForSelector('[data-next=live]');
-  coarsenCamera(path.join(home, 'projects', 'Plate'));
+  coarsenCamera(path.join(home, 'projects', 'Plate'), 4);
   await reopen(page, 'Plate');
   await page.context().close();
 

@@ -16,7 +16,7 @@ await tell(home, async () => {
   const browser = await launch();
   const page = await openPage(browser, server.url, { width: 1280, height: 800 });
   await createProject(page, 'Bust', 'bust', STATIONS);
-  coarsenCamera(path.join(home, 'projects', 'Bust'));
+  coarsenCamera(path.join(home, 'projects', 'Bust'), 3);
   await page.keyboard.press('4');
   await page.click('#scan:not([disabled])');
   await page.waitForSelector('#build:not([disabled])');

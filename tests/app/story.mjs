@@ -2,12 +2,13 @@
 //
 //   node story.mjs PROGRAM FOLDER      FOLDER receives the screenshots
 //
+// With FRANGIA_DRAFT=1 there are fewer pixels.
 // FRANGIA_WEB names the folder whose node_modules holds playwright-core, ajv and axe-core. Every message of the page and of
 // the server is checked against docs/service-schema.json, and every page by axe. Ends with 77 where Chromium is missing.
 import { spawnSync } from 'node:child_process';
 import fs from 'node:fs';
 import path from 'node:path';
-import { check, expect, idle as allDone, launch, look as lookAt, newHome, openPage, passed, requireChromium, settled, startServer, stateOf, tell, waitForProject, waitForState } from './harness.mjs';
+import { check, coarsenCamera, expect, idle as allDone, isDraft, launch, look as lookAt, newHome, openPage, passed, reopen, requireChromium, settled, startServer, stateOf, tell, waitForProject, waitForState } from './harness.mjs';
 
 const [program, shots] = process.argv.slice(2).map((name) => path.resolve(name));
 requireChromium();
@@ -31,6 +32,11 @@ await tell(home, async () => {
 
   // The rig: its devices, its geometry, and a calibration by a board that the simulated rig shows.
   await page.waitForSelector('#test-devices');
+  if (isDraft) {
+    const { name } = (await stateOf(page)).project;
+    coarsenCamera(path.join(home, 'projects', name), 1.5);
+    await reopen(page, name);
+  }
   await page.click('#test-devices');
   await page.waitForFunction(() => document.querySelectorAll('.device .dot.done').length === 3);
   await idle();

@@ -29,7 +29,7 @@ class CalibrateCameras : public ::testing::Test {
     folder_ = new testing::TemporaryFolder;  // NOLINT(*-owning-memory) deleted below
     CalibrationPlan plan;
     plan.folder = poses();
-    plan.rig = testing::small_rig("binocular");
+    plan.rig = testing::small_rig("binocular", 3);
     plan.poses = 6;
     static_cast<void>(simulate_calibration(plan, {.samples_per_px = 4}));
   }
@@ -138,7 +138,7 @@ TEST_F(CalibrateCameras, AreNamedByTheDoctor) {
   for (const auto& file : std::filesystem::recursive_directory_iterator(copy)) {
     const bool left = file.path().parent_path().filename() == "left";
     if (left && file.path().extension() == ".png")
-      write_png(file.path(), Frame(Image<std::uint8_t>(480, 384, 3)));
+      write_png(file.path(), Frame(Image<std::uint8_t>(320, 256, 3)));
   }
   const std::string fault = testing::error_of(
       [&] { static_cast<void>(calibrate_rig(read_scan(copy, {}, RigContent::StartValues))); });

@@ -41,7 +41,7 @@ Scan scan_before_wall(const std::filesystem::path& folder, const std::string& pa
   Scan all;
   all.folder = folder;
   all.name = part;
-  all.rig = testing::small_rig("digital", 3);
+  all.rig = testing::small_rig("digital", 4);
   all.patterns = default_patterns(all.rig);
   for (int i = 0; i < views; ++i) {
     Scan one = all;

@@ -26,7 +26,7 @@ double form_error_mm(const Mesh& mesh) {
 
 TEST(RefineScanRig, RestoresTheShapeOfABallBarAfterTheProjectorMoved) {
   const testing::TemporaryFolder folder;
-  Scan scan = testing::small_scan(folder.path() / "scan", "ball-bar", "digital", 6, {}, 3);
+  Scan scan = testing::small_scan(folder.path() / "scan", "ball-bar", "digital", 6, {}, 4);
   ReconstructOptions options;
   const double exact_mm = form_error_mm(reconstruct(scan, options).mesh);
   Projector& projector = scan.rig.projector;

@@ -209,7 +209,7 @@ TEST(Reconstruct, SaysOnceThatThePartSlidInOneOfTwoSetups) {
   const Mesh part = make_part("bust");
   Scan plan;
   plan.folder = folder.path();
-  plan.rig = testing::small_rig("digital", 3);
+  plan.rig = testing::small_rig("digital", 4);
   plan.patterns = default_patterns(plan.rig);
   for (int i = 0; i < 12; ++i)
     plan.views.push_back({kTwoPi * (i % 6) / 6, "views/" + std::to_string(i), i / 6});

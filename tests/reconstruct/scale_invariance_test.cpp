@@ -62,7 +62,8 @@ void expect_same_findings(const Reconstruction& found, const Reconstruction& wan
   EXPECT_EQ(std::isnan(found.turntable_top_height_mm), std::isnan(wanted.turntable_top_height_mm));
 }
 
-void expect_scales(const Scan& scan) {
+/// `any_scale`: also factors that change the rounding of every number.
+void expect_scales(const Scan& scan, bool any_scale = false) {
   const Reconstruction wanted = reconstruct(scan);
   ASSERT_GT(wanted.mesh.triangles.size(), 1000U);
   for (const double scale : {0.125, 8.0}) {  // powers of two scale floating-point numbers exactly
@@ -87,6 +88,7 @@ void expect_scales(const Scan& scan) {
     EXPECT_TRUE(sigma_mm == wanted.mesh.sigma_mm);
     expect_same_findings(found, wanted);
   }
+  if (!any_scale) return;
   const double voxel_mm = voxel_of(wanted.mesh);
   for (const double scale : {0.1, 10.0}) {
     SCOPED_TRACE(scale);
@@ -110,7 +112,7 @@ TEST(ScaleInvariance, HoldsForAMisalignedTurntable) {
   faults.axis_offset_mm = 0.5;
   faults.axis_tilt_rad = rad_from_deg(0.3);
   faults.angle_error_rad = rad_from_deg(0.15);
-  expect_scales(small_scan(folder.path(), "bracket", "digital", 6, faults, 4));
+  expect_scales(small_scan(folder.path(), "bracket", "digital", 6, faults, 4), true);
 }
 
 TEST(ScaleInvariance, HoldsWithTheTurntableTopInView) {

@@ -32,7 +32,7 @@ using testing::TemporaryFolder;
 
 TEST(Reconstruct, MarksAMeshOfViewsThatContradictEachOther) {
   const TemporaryFolder folder;
-  const Scan scan = small_scan(folder.path(), "bracket", "digital", 6, {}, 3);
+  const Scan scan = small_scan(folder.path(), "bracket", "digital", 6, {}, 4);
   displace_every_other_view(scan);
   std::vector<std::string> notes;
   frangia::Run run;

@@ -138,24 +138,31 @@ std::vector<Place> find_grids(const std::vector<LitBlock>& blocks) {
 int step_of(const std::vector<float>& values) {
   constexpr int kSmallest = 3;  // of less, all values are nearly multiples
   constexpr int kLargest = 120;
-  constexpr double kZero = 1.3;      // counts; what is less is no multiple but zero
-  constexpr double kRounding = 0.6;  // counts: twice the standard deviation of what rounding adds
-  constexpr int kFewest = 25;        // values that are not zero
+  constexpr double kZero = 1.3;        // counts; what is less is no multiple but zero
+  constexpr double kRounding = 0.6;    // counts: twice the standard deviation of what rounding adds
+  constexpr std::size_t kFewest = 25;  // values that are not zero
   constexpr double kMost = 0.7;  // of these, that are multiples; by chance it is 1.2 over the step
-  int best = 0;
-  for (int step = kSmallest; step <= kLargest; ++step) {
-    int count = 0;
-    int multiples = 0;
-    for (const float value : values) {
-      const double size = std::abs(static_cast<double>(value));
-      if (size < kZero) continue;
-      ++count;
-      const double number = std::round(size / step);
-      if (number > 0.0 && std::abs(size - number * step) < kRounding) ++multiples;
-    }
-    if (count >= kFewest && multiples > kMost * count) best = step;
+  std::vector<double> sizes;
+  for (const float value : values) {
+    const double size = std::abs(static_cast<double>(value));
+    if (size >= kZero) sizes.push_back(size);
   }
-  return best;
+  if (sizes.size() < kFewest) return 0;
+  const auto fewest = static_cast<std::size_t>(kMost * static_cast<double>(sizes.size())) + 1;
+  const std::size_t most_others = sizes.size() - fewest;
+  // More values than that lie below every larger step, and are no multiples of it.
+  const auto low = sizes.begin() + static_cast<std::ptrdiff_t>(most_others);
+  std::nth_element(sizes.begin(), low, sizes.end());
+  const int largest = std::min(kLargest, static_cast<int>(*low + kRounding));
+  for (int step = largest; step >= kSmallest; --step) {
+    std::size_t others = 0;
+    for (std::size_t i = 0; i < sizes.size() && others <= most_others; ++i) {
+      const double number = std::round(sizes[i] / step);
+      if (number == 0.0 || std::abs(sizes[i] - number * step) >= kRounding) ++others;
+    }
+    if (others <= most_others) return step;
+  }
+  return 0;
 }
 
 /// The quantization steps of each frequency over those of quality 50, for a grid; of those whose
