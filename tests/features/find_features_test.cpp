@@ -164,6 +164,31 @@ TEST(FindFeatures, TakesANarrowChamferWithRoundedEdgesForACone) {
   EXPECT_NEAR(std::abs(chamfer->fit.shape.axis.z()), 1.0, 1e-4);
 }
 
+TEST(FindFeatures, PrefersAWantedKindWhereItFitsNearlyAllPoints) {
+  const auto cone_of = [](double taper_mm) {
+    Mesh mesh;
+    testing::add_patch(mesh, 120, 40, 0.01, 7, [&](double u, double v) {
+      const double angle = kTwoPi * u;
+      const double radius = 14.0 + taper_mm * v;
+      return Eigen::Vector3d(radius * std::cos(angle), radius * std::sin(angle), 20.0 * v);
+    });
+    return mesh;
+  };
+  FindFeaturesOptions wanting{.edges = false};
+  wanting.wanted = [](const Shape& shape) { return shape.kind == ShapeKind::Cylinder; };
+  const Mesh hardly = cone_of(0.02);
+  const auto as_it_is = find_features(hardly, {.edges = false});
+  ASSERT_EQ(as_it_is.size(), 1U);
+  EXPECT_EQ(as_it_is.front().fit.shape.kind, ShapeKind::Cone);
+  const auto wanted = find_features(hardly, wanting);
+  ASSERT_EQ(wanted.size(), 1U);
+  EXPECT_EQ(wanted.front().fit.shape.kind, ShapeKind::Cylinder);
+  EXPECT_NEAR(wanted.front().fit.shape.radius_mm, 14.01, 0.001);
+  const auto clearly = find_features(cone_of(2.0), wanting);
+  ASSERT_EQ(clearly.size(), 1U);
+  EXPECT_EQ(clearly.front().fit.shape.kind, ShapeKind::Cone);
+}
+
 TEST(FindFeatures, IgnoresSynthesizedTriangles) {
   Mesh mesh = noisy_cylinder(8, 20, 0.005, 1);
   mesh.triangle_marks.assign(mesh.triangles.size(), Mark::Synthesized);

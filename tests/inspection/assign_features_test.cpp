@@ -34,6 +34,23 @@ MeasuredFeature hole(double x_mm, double diameter_mm) {
   return measured;
 }
 
+TEST(PlannedShapes, AreThoseOfTheKindAtThePlaceAndOfTheSize) {
+  Mesh part;  // with a diagonal of 100 mm
+  part.vertices_mm = {{0, 0, 0}, {60, 80, 0}};
+  const auto is_planned = inspection::planned_shapes({planned("bore", {10, 0, 5}, 6)}, part);
+  Shape shape = hole(10.0, 6.0).feature.fit.shape;
+  EXPECT_TRUE(is_planned(shape));
+  shape.center_mm.z() += 4.0;  // along its axis
+  EXPECT_TRUE(is_planned(shape));
+  shape.center_mm.x() += 1.1;
+  EXPECT_FALSE(is_planned(shape));
+  EXPECT_FALSE(is_planned(hole(10.0, 7.1).feature.fit.shape));
+  shape = hole(10.0, 6.0).feature.fit.shape;
+  shape.kind = ShapeKind::Cone;
+  EXPECT_FALSE(is_planned(shape));
+  EXPECT_FALSE(inspection::planned_shapes({}, part));
+}
+
 TEST(AssignFeatures, LeavesAHoleThatIsMissingWithoutTheOneBesideIt) {
   const std::vector<MeasuredFeature> found{hole(0.0, 6.0), hole(20.0, 6.0)};
   const std::vector<PlannedFeature> plan{

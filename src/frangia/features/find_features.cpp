@@ -182,7 +182,8 @@ std::vector<Feature> find_features(const Mesh& mesh,
   const FoundRegions found = search_regions(points, cells, options, run);
   std::vector<FoundSurface> surfaces;
   for (const ShapeRegion& region : found.regions) {
-    std::optional<Feature> feature = refine_feature(points, cells, region, found.gate_mm, run);
+    std::optional<Feature> feature =
+        refine_feature(points, cells, region, found.gate_mm, options, run);
     if (feature) surfaces.push_back({std::move(*feature), region});
   }
   std::vector<Feature> edges;
@@ -208,7 +209,7 @@ std::vector<std::optional<Feature>> features_at(const Mesh& mesh,
   for (const ShapeRegion& region : found.regions) {
     features.push_back(region.cells.empty()
                            ? std::nullopt
-                           : refine_feature(points, cells, region, found.gate_mm, run));
+                           : refine_feature(points, cells, region, found.gate_mm, options, run));
   }
   return features;
 }

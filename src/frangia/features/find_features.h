@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <vector>
@@ -39,6 +40,10 @@ struct FindFeaturesOptions {
   /// it; null: not known. Without it the systematic part of sigma counts as alike along the
   /// normals.
   const Eigen::MatrixXf* calibration_mm = nullptr;
+  /// Whether a shape is one of those that are looked for. It is then preferred to one of another
+  /// kind that fits the same points better, as a cone does a cylinder that tapers a little. Null:
+  /// none is.
+  std::function<bool(const Shape&)> wanted = {};
 
   /// @errors   Error(Input) that names the value which is out of its range
   void check() const;

@@ -8,6 +8,7 @@
 #include "frangia/core/error.h"
 #include "frangia/features/find_features.h"
 #include "frangia/geometry/transform_mesh.h"
+#include "frangia/inspection/internal/assign_features.h"
 #include "frangia/inspection/measured_characteristics.h"
 #include "frangia/inspection/planned_nominals.h"
 
@@ -67,7 +68,8 @@ PartAlignment align_by_datums(const Mesh& mesh,
   PartAlignment fit{best_fit(mesh, reference, plan, run), {}, {}};
   const Mesh aligned = transform_mesh(mesh, fit.alignment.pose.reference_from_mesh);
   run.stage("datums");
-  const std::vector<Feature> measured = find_features(aligned, {.edges = false}, run);
+  const std::vector<Feature> measured = find_features(
+      aligned, {.edges = false, .wanted = inspection::planned_shapes(features, aligned)}, run);
   std::vector<Feature> nominal;  // searched where a datum names no face
   std::vector<Datum> datums;
   for (const std::string& name : plan.datums) {
@@ -79,7 +81,11 @@ PartAlignment align_by_datums(const Mesh& mesh,
     if (planned->face > 0) {
       datum.nominal = reference.cad->faces()[planned->face - 1].shape.value();
     } else {
-      if (nominal.empty()) nominal = find_features(reference.scene.mesh(), {.edges = false}, run);
+      if (nominal.empty()) {
+        const Mesh& model = reference.scene.mesh();
+        nominal = find_features(
+            model, {.edges = false, .wanted = inspection::planned_shapes(features, model)}, run);
+      }
       datum.nominal =
           found_datum(*planned, nominal, reference.scene.mesh(), reference_name).fit.shape;
     }

@@ -11,6 +11,7 @@
 #include "frangia/geometry/transform_mesh.h"
 #include "frangia/inspection/align_part.h"
 #include "frangia/inspection/calibration_displacements.h"
+#include "frangia/inspection/internal/assign_features.h"
 #include "frangia/inspection/internal/view_poses.h"
 #include "frangia/inspection/measure_on_surface.h"
 
@@ -54,7 +55,11 @@ void measure_features(Inspection& found,
   }
   run.stage("features");
   found.searched = true;
-  found.features = find_features(found.mesh, {.calibration_mm = &shared_mm}, run);
+  found.features =
+      find_features(found.mesh,
+                    {.calibration_mm = &shared_mm,
+                     .wanted = inspection::planned_shapes(stated.features, found.mesh)},
+                    run);
   const bool has_cad = reference != nullptr && reference->cad;
   std::vector<MeasuredFeature> measured;
   if (!stated.features.empty() || has_cad) measured = with_points(found.mesh, found.features, run);

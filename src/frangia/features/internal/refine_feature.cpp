@@ -85,12 +85,26 @@ bool is_determined(const ShapeFit& fit, const ShapeUncertainty& uncertainty) {
   return uncertainty.u95_mm < kMostUncertain * 2.0 * fit.shape.radius_mm;
 }
 
+/// The fit of a shape that is wanted and fits nearly all points; null: none does.
+const ShapeFit* wanted_fit(const std::vector<ShapeFit>& fits,
+                           std::size_t points,
+                           const FindFeaturesOptions& options) {
+  constexpr double kNearlyAll = 0.9;
+  if (!options.wanted) return nullptr;
+  const auto found = std::find_if(fits.begin(), fits.end(), [&](const ShapeFit& fit) {
+    return static_cast<double>(fit.points) >= kNearlyAll * static_cast<double>(points) &&
+           options.wanted(fit.shape);
+  });
+  return found == fits.end() ? nullptr : &*found;
+}
+
 }  // namespace
 
 std::optional<Feature> refine_feature(const FeaturePoints& points,
                                       const SurfaceCells& cells,
                                       const ShapeRegion& region,
                                       double gate_mm,
+                                      const FindFeaturesOptions& options,
                                       const Run& run) {
   // The rounded edges of a narrow chamfer look like the curvature of a sphere: a further curvature
   // must make the sum of squares smaller by a third.
@@ -126,6 +140,7 @@ std::optional<Feature> refine_feature(const FeaturePoints& points,
     best = &fit;
     best_cost = cost;
   }
+  if (const ShapeFit* wanted = wanted_fit(fits, chosen.size(), options)) best = wanted;
   Feature feature;
   feature.fit = *best;
   feature.uncertainty = shape_uncertainty(points, chosen, *best);

@@ -1,6 +1,8 @@
 #include "frangia/inspection/internal/assign_features.h"
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <Eigen/Geometry>
 
@@ -31,6 +33,21 @@ bool is_meant(const PlannedFeature& planned, const MeasuredFeature& measured, do
 }
 
 }  // namespace
+
+std::function<bool(const Shape&)> planned_shapes(std::vector<PlannedFeature> planned,
+                                                 const Mesh& mesh) {
+  constexpr double kSlack = 0.01;  // of the diagonal of the part
+  Eigen::AlignedBox3d box;
+  for (const Eigen::Vector3f& vertex : mesh.vertices_mm)
+    if (vertex.allFinite()) box.extend(vertex.cast<double>());
+  if (planned.empty() || box.isEmpty()) return {};
+  const double slack_mm = kSlack * box.diagonal().norm();
+  return [planned = std::move(planned), slack_mm](const Shape& shape) {
+    return std::any_of(planned.begin(), planned.end(), [&](const PlannedFeature& one) {
+      return one.kind == shape.kind && shape_mismatch_mm(one, shape) <= slack_mm;
+    });
+  };
+}
 
 std::vector<AssignedFeature> assign_features(const std::vector<PlannedFeature>& planned,
                                              const std::vector<MeasuredFeature>& measured,

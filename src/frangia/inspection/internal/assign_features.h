@@ -1,8 +1,11 @@
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "frangia/features/geometric_tolerance.h"
+#include "frangia/features/shape.h"
+#include "frangia/geometry/mesh.h"
 #include "frangia/inspection/inspection_plan.h"
 
 namespace frangia::inspection {
@@ -14,6 +17,11 @@ struct AssignedFeature {
   double off_mm = 0.0;                         ///< of the place of `measured` from the planned
                                                ///< one, where that does not lie on it; or 0
 };
+
+/// Whether a shape is one that a plan names: of its kind, with its place and its diameter within
+/// 1 % of the diagonal of the part.
+[[nodiscard]] std::function<bool(const Shape&)> planned_shapes(std::vector<PlannedFeature> planned,
+                                                               const Mesh& mesh);
 
 /// The measured feature of each planned one: that of its kind whose place and diameter come
 /// nearest, within `farthest_mm`.
