@@ -96,7 +96,7 @@ class FuzzServer {
       tcp::socket socket(context_);
       socket.assign(tcp::v4(), ends[0]);
       if (live) {
-        serve_live(beast::tcp_stream(std::move(socket)),
+        serve_live(ClientStream(std::move(socket), nullptr),
                    upgrade(),
                    shared_,
                    Claim(shared_, &Shared::connections, 1));
