@@ -98,13 +98,30 @@ TEST(CorrectPixelArea, LeavesATenthOfTheErrorOnABall) {
 
 TEST(CorrectPixelArea, CountsWhatMayBeLeft) {
   SeenByPixels ball = seen(phase_on_ball, light_on_ball);
+  ball.phase.systematic_rad = Image<float>(kAreaSide, kAreaSide, 0.0F);
   const SeenByPixels before = ball;
   correct_pixel_area(ball.phase, ball.modulation, kWholeArea);
   for (int x = 35; x < 85; ++x) {
     const float error = before.phase.phase_rad(x, 70) - ball.phase.phase_rad(x, 70);
     EXPECT_NEAR(ball.phase.systematic_rad(x, 70), 0.3F * std::abs(error), 1e-5F) << x;
   }
-  EXPECT_TRUE(std::isnan(ball.phase.systematic_rad(0, 0)));
+}
+
+TEST(CorrectPixelArea, AddsNoSystematicPartWhereNoneIsKnown) {
+  SeenByPixels ball = seen(phase_on_ball, light_on_ball);
+  correct_pixel_area(ball.phase, ball.modulation, kWholeArea);
+  EXPECT_TRUE(ball.phase.systematic_rad.empty());
+}
+
+TEST(CorrectPixelArea, TakesTheVarianceThatIsGiven) {
+  SeenByPixels half = seen(phase_on_ball, light_on_ball);
+  SeenByPixels whole = half;
+  const float before = half.phase.phase_rad(70, 70);
+  correct_pixel_area(half.phase, half.modulation, kWholeArea, 0.5 * kPixelAreaVariance);
+  correct_pixel_area(whole.phase, whole.modulation, kWholeArea);
+  EXPECT_NEAR(half.phase.phase_rad(70, 70) - before,
+              0.5F * (whole.phase.phase_rad(70, 70) - before),
+              2e-5F);
 }
 
 TEST(CorrectPixelArea, AddsItsPartToOneThatIsKnown) {

@@ -36,10 +36,6 @@ void crop(SurfelMap& map) {
   map.surfels = std::move(cropped);
 }
 
-/// Cosine of the incidence from which on points are those measured: 70 degrees. What a quadratic
-/// over 5 pixels leaves of a ball grows with the inverse sixth power of the cosine.
-constexpr float kSteepCosine = 0.342F;
-
 }  // namespace
 
 int surfel_stride(int width, int height, std::size_t pixels) {
@@ -47,10 +43,7 @@ int surfel_stride(int width, int height, std::size_t pixels) {
   return std::max(1, static_cast<int>(std::ceil(std::sqrt(all / static_cast<double>(pixels)))));
 }
 
-SurfelMap make_surfel_map(const LocalPlanes& view,
-                          const Image<float>& depth_mm,
-                          const CameraRays& camera,
-                          std::size_t pixels) {
+SurfelMap make_surfel_map(const LocalPlanes& view, const CameraRays& camera, std::size_t pixels) {
   SurfelMap map;
   map.stride = surfel_stride(view.planes.width(), view.planes.height(), pixels);
   map.surfels = Image<SurfelMap::Surfel>(view.quads.width() / map.stride + 1,
@@ -64,11 +57,9 @@ SurfelMap make_surfel_map(const LocalPlanes& view,
       const LocalPlanes::Plane& plane = view.planes(x, y);
       if (quad.kind != LocalPlanes::Kind::Smooth || plane.window != WindowKind::Centered) continue;
       const Eigen::Vector3f ray = camera.rays(x, y).homogeneous();
-      const Eigen::Vector3f smoothed = ray / view.inverse_depth(x, y);
-      const float cosine = -plane.normal.dot(smoothed.normalized());
-      map.surfels(column, row) = {cosine > kSteepCosine ? smoothed : ray * depth_mm(x, y),
-                                  plane.normal,
-                                  cosine * cosine / std::sqrt(quad.weight)};
+      const Eigen::Vector3f point = ray / view.inverse_depth(x, y);
+      const float cosine = -plane.normal.dot(point) / point.norm();
+      map.surfels(column, row) = {point, plane.normal, cosine * cosine / std::sqrt(quad.weight)};
     }
   });
   crop(map);
@@ -109,7 +100,7 @@ std::vector<SurfelMap> make_surfel_maps(const ViewStore& views,
   load_each_view(views, [&](std::size_t i, const View& view) {
     run.report(static_cast<double>(i) / static_cast<double>(views.size()));
     planes = local_planes(view, rays, options, std::move(planes));
-    maps.push_back(make_surfel_map(planes, view.range.depth_mm, rays, most));
+    maps.push_back(make_surfel_map(planes, rays, most));
   });
   return maps;
 }

@@ -258,37 +258,32 @@ WrappedPhase wrapped_in(const PixelBox& box,
 }
 
 /// Corrects a phase for the area of the pixels alone.
-void undo_pixel_area(const DirectionInput& input, DirectionMaps& maps) {
+void undo_pixel_area(const DirectionInput& input, DirectionMaps& maps, double variance_px2) {
   const PixelBox box = measured_box(maps.view.phase.phase_rad);
-  if (box.empty()) return;
+  if (box.empty() || variance_px2 == 0.0) return;
   const WrappedPhase finest =
       wrapped_in(box, *maps.fringes.back(), maps.fits.back(), input, maps.view.noise);
-  correct_pixel_area(maps.view.phase, finest.modulation_counts, box);
-}
-
-/// The blur of the camera, if two patterns, or fringes and a Gray code, show how wide it is.
-std::optional<ImageBlur> blur_of(const DirectionInput& input,
-                                 const DirectionMaps& maps,
-                                 const LeastBlurred& least) {
-  constexpr std::size_t kSampledPixels = 200'000;
-  if (!least.is_there()) return {};
-  return estimate_blur(least.on_bands(kSampledPixels),
-                       wrap_phase(sample_rows(*maps.fringes.back(), kSampledPixels, kBlurBandRows),
-                                  maps.fits.back().algorithm,
-                                  maps.view.noise,
-                                  input.options.wrap));
+  correct_pixel_area(maps.view.phase, finest.modulation_counts, box, variance_px2);
 }
 
 }  // namespace
 
 void undo_blur(const DirectionInput& input, DirectionMaps& maps) {
+  constexpr std::size_t kSampledPixels = 200'000;
   if (!input.options.undo_blur || input.options.own.any()) return;
   const LeastBlurred least(input, maps);
-  maps.view.blur = blur_of(input, maps, least);
+  if (!least.is_there()) return;
+  const WholeLight whole = least.on_bands(kSampledPixels);
+  const WrappedPhase fine =
+      wrap_phase(sample_rows(*maps.fringes.back(), kSampledPixels, kBlurBandRows),
+                 maps.fits.back().algorithm,
+                 maps.view.noise,
+                 input.options.wrap);
+  maps.view.blur = estimate_blur(whole, fine);
   if (maps.view.blur) {
     correct_blur(maps.view.phase, least.everywhere().counts, *maps.view.blur);
   } else {
-    undo_pixel_area(input, maps);
+    undo_pixel_area(input, maps, averaged_variance(whole, fine));
   }
 }
 

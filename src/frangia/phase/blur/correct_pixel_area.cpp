@@ -58,8 +58,8 @@ float bend_along(const std::array<float, 5>& mean, float noise) {
   return (2.0F * (mean[0] + mean[4]) - mean[1] - mean[3] - 2.0F * mean[2]) / 7.0F;
 }
 
-/// What the area of a pixel adds to its phase; NaN where a neighbour is missing, on another surface
-/// or on a border. `sigma_rad`: noise of the phase.
+/// What the area of a pixel adds to its phase, over its variance; NaN where a neighbour is missing,
+/// on another surface or on a border. `sigma_rad`: noise of the phase.
 float area_error(
     const Image<float>& phase, const Image<float>& brightness, float sigma_rad, int x, int y) {
   const PhaseNeighbours neighbours(phase, nullptr, x, y);
@@ -77,41 +77,37 @@ float area_error(
     }
   }
   if (!slope.allFinite()) return kMissing;
-  constexpr auto kVariance = static_cast<float>(kPixelAreaVariance);
   // The relative noise of the modulation of N frames is the noise of their phase.
   const float by_brightness =
       brightness_slope(brightness, x, y, sigma_rad * brightness(x, y)).dot(slope);
   const float bend = bend_along(columns, sigma_rad) + bend_along(rows, sigma_rad);
-  return kVariance * (by_brightness / brightness(x, y) + 0.5F * bend);
+  return by_brightness / brightness(x, y) + 0.5F * bend;
 }
 
 }  // namespace
 
 void correct_pixel_area(AbsolutePhase& phase,
                         const Image<float>& modulation_counts,
-                        const PixelBox& box) {
+                        const PixelBox& box,
+                        double variance_px2) {
   // Share by which the variance may be off: pixels do not use all of their area, and a blur that is
   // not noticed adds to it.
   constexpr float kOwn = 0.3F;
+  const auto variance = static_cast<float>(variance_px2);
   require(modulation_counts.width() == box.width() && modulation_counts.height() == box.height(),
           "correct_pixel_area: the modulation does not cover the box");
   Image<float> before(box.width(), box.height(), Uninitialized{});
   for (int y = 0; y < box.height(); ++y)
     std::copy_n(&phase.phase_rad(box.left, box.top + y), box.width(), &before(0, y));
-  if (phase.systematic_rad.empty()) {
-    phase.systematic_rad =
-        Image<float>(phase.phase_rad.width(), phase.phase_rad.height(), kMissing);
-    for (std::size_t i = 0; i < phase.phase_rad.pixels().size(); ++i)
-      if (std::isfinite(phase.phase_rad.pixels()[i])) phase.systematic_rad.pixels()[i] = 0.0F;
-  }
   parallel_rows(box.height(), [&](int y) {
     if (y < kBlurReach || y + kBlurReach >= box.height()) return;
     for (int x = kBlurReach; x + kBlurReach < box.width(); ++x) {
       if (std::isnan(before(x, y)) || !(modulation_counts(x, y) > 0.0F)) continue;
       const float sigma_rad = phase.sigma_rad(box.left + x, box.top + y);
-      const float error = area_error(before, modulation_counts, sigma_rad, x, y);
+      const float error = variance * area_error(before, modulation_counts, sigma_rad, x, y);
       if (std::isnan(error)) continue;
       phase.phase_rad(box.left + x, box.top + y) -= error;
+      if (phase.systematic_rad.empty()) continue;
       float& systematic = phase.systematic_rad(box.left + x, box.top + y);
       systematic = std::hypot(systematic, kOwn * error);
     }
