@@ -223,7 +223,7 @@ export const FRAME = {
   'lan.plain': ['Not encrypted', 'Unverschlüsselt', 'Senza cifratura'],
   'lan.encrypted': ['Encrypted', 'Verschlüsselt', 'Con cifratura'],
   'lan.plainHint': [
-    'Whoever is in that network can read along.',
+    'Anyone in that network can read what is sent.',
     'Wer in diesem Netz ist, kann mitlesen.',
     'Chi è in quella rete può leggere.',
   ],
