@@ -53,7 +53,8 @@ inline void add_decode_options(CLI::App& verb, DecodeOptions& options) {
   verb.add_flag_callback(
       "--ignore-blur",
       [&options] { options.undo_blur = false; },
-      "leave what the blur of the camera does to the phase where the brightness changes");
+      "leave what the blur of the camera and the area of its pixels do to the phase where the "
+      "brightness changes or the surface bends");
   CLI::Option* phase = verb.add_option_function<std::string>(
       "--phase",
       [&options](const std::string& folder) {

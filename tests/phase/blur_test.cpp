@@ -131,6 +131,23 @@ TEST(EstimateBlur, FindsTheBlurOfBrightAndOfPaintedSurfaces) {
   }
 }
 
+double averaged_px2(double sigma_px, double coarse = 0.125) {
+  return averaged_variance(whole_light(bands_of(blurred(bright, sigma_px, coarse, 1))),
+                           bands_of(blurred(bright, sigma_px, 1.0, 2)));
+}
+
+TEST(AveragedVariance, IsThatOfTheAreaOfAPixel) {
+  EXPECT_EQ(averaged_px2(std::sqrt(kPixelAreaVariance)), kPixelAreaVariance);
+}
+
+TEST(AveragedVariance, IsThatOfTheAreaWhereNothingTells) {
+  EXPECT_EQ(averaged_px2(0.0, 0.98), kPixelAreaVariance);
+}
+
+TEST(AveragedVariance, IsLessWhereTheFringesAreHardlyWeakened) {
+  EXPECT_LT(averaged_px2(0.0), 0.2 * kPixelAreaVariance);
+}
+
 TEST(EstimateBlur, FindsTheBlurByAPartThatCoversFewColumns) {
   WrappedPhase fine = blurred(bright, 0.7, 1.0, 2);
   for (int y = 0; y < kDownPx; ++y) {

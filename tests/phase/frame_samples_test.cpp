@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "frangia/core/error.h"
 #include "frangia/phase/internal/sample_columns.h"
 
 namespace frangia {
@@ -45,6 +46,20 @@ TEST(SampleFrames, LeavesOutPixelsThatAreSaturatedInAnyFrame) {
   FrameStack stack = numbered_frames();
   stack.white_level = 500;  // the second frame reaches it from pixel 250
   EXPECT_EQ(sample_frames(stack, 24 * 16).rows(), 250);
+}
+
+TEST(SampleBox, CutsTheSamePixelsOutOfAllFrames) {
+  const FrameStack cut = sample_box(numbered_frames(), {3, 2, 8, 16});
+  ASSERT_EQ(cut.frames.size(), 2U);
+  ASSERT_EQ(width_of(cut.frames[1]), 5);
+  ASSERT_EQ(height_of(cut.frames[1]), 14);
+  EXPECT_EQ(counts_at(cut.frames[1], 0, 0), 2 * (3 + 24 * 2));
+  EXPECT_EQ(counts_at(cut.frames[0], 4, 13), 7 + 24 * 15);
+  EXPECT_EQ(cut.white_level, 1000);
+}
+
+TEST(SampleBox, RefusesABoxThatLeavesTheFrames) {
+  EXPECT_THROW(static_cast<void>(sample_box(numbered_frames(), {0, 0, 25, 3})), Error);
 }
 
 TEST(SampleRows, TakesEvenlySpacedRows) {

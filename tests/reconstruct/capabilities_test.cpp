@@ -166,6 +166,7 @@ Scan small_groove(const std::filesystem::path& folder, bool bounces, int setups)
   SimulateOptions options;
   options.bounces = bounces ? 1 : 0;
   options.albedo = 0.8;
+  options.samples_per_px = 4;  // as a camera averages over its pixels
   return simulate_scan(part, plan, options);
 }
 

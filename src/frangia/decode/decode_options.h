@@ -68,8 +68,8 @@ struct DecodeOptions {
   /// Removes the effect of the harmonics that the frames themselves show where they shift the phase
   /// by more than their own uncertainty would; not where `response` or `waveforms` are given.
   bool undo_own_response = true;
-  /// Corrects the phase for the blur of the camera where the brightness changes, if the patterns of
-  /// a direction show how wide it is.
+  /// Corrects the phase for the blur of the camera where the brightness changes or the surface
+  /// bends, if the patterns of a direction show how wide it is, else for the area of the pixels.
   bool undo_blur = true;
   /// Keeps the wrapped maps. Otherwise a sequence is decoded in one pass over its frames if all its
   /// unwrapping levels are safe for every pixel that `wrap` keeps.

@@ -14,6 +14,7 @@
 #include "frangia/decode/internal/wrap_pattern.h"
 #include "frangia/decode/select_stacks.h"
 #include "frangia/phase/blur/correct_blur.h"
+#include "frangia/phase/blur/correct_pixel_area.h"
 #include "frangia/phase/blur/estimate_blur.h"
 #include "frangia/phase/temporal/check_sequence.h"
 #include "frangia/phase/temporal/predict_frames.h"
@@ -22,6 +23,7 @@
 #include "frangia/phase/waveform/systematic_phase.h"
 #include "frangia/phase/wrap/decode_sequence.h"
 #include "frangia/phase/wrap/merge_exposures.h"
+#include "frangia/range/measured_volume.h"
 
 namespace frangia {
 namespace {
@@ -242,20 +244,50 @@ class LeastBlurred {
   const FrameStack* gray_ = nullptr;
 };
 
+/// The wrapped map of a pattern in a box, of all its exposures.
+WrappedPhase wrapped_in(const PixelBox& box,
+                        const FrameStack& pattern,
+                        const FittedAlgorithm& fit,
+                        const DirectionInput& input,
+                        const NoiseModel& noise) {
+  std::vector<FrameStack> cut;
+  for (const FrameStack& exposure : exposures_of(&pattern))
+    cut.push_back(sample_box(exposure, box));
+  return cut.size() > 1 ? merge_exposures(cut, fit.shifts_rad, noise, input.options.wrap)
+                        : wrap_phase(cut.front(), fit.algorithm, noise, input.options.wrap);
+}
+
+/// Corrects a phase for the area of the pixels alone.
+void undo_pixel_area(const DirectionInput& input, DirectionMaps& maps, double variance_px2) {
+  const PixelBox box = measured_box(maps.view.phase.phase_rad);
+  if (box.empty() || variance_px2 == 0.0) return;
+  const WrappedPhase finest =
+      wrapped_in(box, *maps.fringes.back(), maps.fits.back(), input, maps.view.noise);
+  correct_pixel_area(maps.view.phase, finest.modulation_counts, box, variance_px2);
+}
+
 }  // namespace
 
 void undo_blur(const DirectionInput& input, DirectionMaps& maps) {
   constexpr std::size_t kSampledPixels = 200'000;
   if (!input.options.undo_blur || input.options.own.any()) return;
+  double averaged_px2 = kPixelAreaVariance;
   const LeastBlurred least(input, maps);
-  if (!least.is_there()) return;
-  const WrappedPhase fine =
-      wrap_phase(sample_rows(*maps.fringes.back(), kSampledPixels, kBlurBandRows),
-                 maps.fits.back().algorithm,
-                 maps.view.noise,
-                 input.options.wrap);
-  maps.view.blur = estimate_blur(least.on_bands(kSampledPixels), fine);
-  if (maps.view.blur) correct_blur(maps.view.phase, least.everywhere().counts, *maps.view.blur);
+  if (least.is_there()) {
+    const WholeLight whole = least.on_bands(kSampledPixels);
+    const WrappedPhase fine =
+        wrap_phase(sample_rows(*maps.fringes.back(), kSampledPixels, kBlurBandRows),
+                   maps.fits.back().algorithm,
+                   maps.view.noise,
+                   input.options.wrap);
+    maps.view.blur = estimate_blur(whole, fine);
+    if (maps.view.blur) {
+      correct_blur(maps.view.phase, least.everywhere().counts, *maps.view.blur);
+      return;
+    }
+    averaged_px2 = averaged_variance(whole, fine);
+  }
+  undo_pixel_area(input, maps, averaged_px2);
 }
 
 bool allow_one_pass(const DirectionInput& input, const DirectionMaps& fitted) {

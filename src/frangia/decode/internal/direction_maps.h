@@ -56,7 +56,8 @@ enum class WrappedParts {
                                       WrappedParts parts = WrappedParts::All);
 
 /// Removes the error of the phase of `maps` that the blur of the camera makes where the brightness
-/// changes, if two of its patterns, or its fringes and a Gray code, show how wide it is.
+/// changes or the surface bends, if two of its patterns, or its fringes and a Gray code, show how
+/// wide it is, and else that of the area of the pixels.
 void undo_blur(const DirectionInput& input, DirectionMaps& maps);
 
 /// Whether the frames can be decoded in one pass: nothing but their algorithms is applied to them,

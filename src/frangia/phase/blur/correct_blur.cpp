@@ -7,14 +7,14 @@
 
 #include "frangia/core/missing.h"
 #include "frangia/core/parallel.h"
+#include "frangia/phase/blur/internal/phase_neighbours.h"
 
 namespace frangia {
 namespace {
 
-constexpr int kReach = 2;  // pixels around one from which its slopes are found
-
 bool is_inside(const Image<float>& image, int x, int y) {
-  return x >= kReach && y >= kReach && x + kReach < image.width() && y + kReach < image.height();
+  return x >= kBlurReach && y >= kBlurReach && x + kBlurReach < image.width() &&
+         y + kBlurReach < image.height();
 }
 
 /// The slopes of a modulation at a pixel.
@@ -30,8 +30,8 @@ BrightnessSlope brightness_slope(const Image<float>& modulation, int x, int y) {
     return (8.0F * (at(1) - at(-1)) - (at(2) - at(-2))) / 12.0F;
   };
   BrightnessSlope slope{{sharp(row), sharp(column)}, {0.0F, 0.0F}};
-  for (int dy = -kReach; dy <= kReach; ++dy) {
-    for (int dx = -kReach; dx <= kReach; ++dx)
+  for (int dy = -kBlurReach; dy <= kBlurReach; ++dy) {
+    for (int dx = -kBlurReach; dx <= kBlurReach; ++dx)
       slope.smooth += modulation(x + dx, y + dy) *
                       Eigen::Vector2f(static_cast<float>(dx), static_cast<float>(dy));
   }
@@ -39,53 +39,13 @@ BrightnessSlope brightness_slope(const Image<float>& modulation, int x, int y) {
   return slope;
 }
 
-/// Change of the phase over a pixel along one axis: of both sides the smaller one, which does not
-/// leave the surface.
-float smaller_step(float before, float here, float after) {
-  const float back = here - before;
-  const float on = after - here;
-  if (std::isnan(back)) return on;
-  if (std::isnan(on)) return back;
-  return std::abs(back) < std::abs(on) ? back : on;
-}
-
-/// The phase around a pixel, relative to it.
-class Neighbours {
- public:
-  /// `error_rad` is taken off the phase.
-  Neighbours(const Image<float>& phase, const Image<float>& error_rad, int x, int y)
-      : phase_(phase), error_rad_(error_rad), x_(x), y_(y), here_(at(0, 0)) {
-    constexpr float kSteeper = 2.0F;  // times the slope nearby, on the same surface
-    for (const float step :
-         {smaller_step(at(-1, 0), here_, at(1, 0)), smaller_step(at(0, -1), here_, at(0, 1))})
-      if (std::isfinite(step)) most_ += kSteeper * std::abs(step);
-  }
-  /// The change of the phase to a neighbour, NaN where that is on another surface.
-  [[nodiscard]] float change(int dx, int dy) const {
-    const float change = at(dx, dy) - here_;
-    const auto length = std::hypot(static_cast<float>(dx), static_cast<float>(dy));
-    return std::abs(change) <= most_ * std::max(1.0F, length) ? change : kMissing;
-  }
-
- private:
-  [[nodiscard]] float at(int dx, int dy) const {
-    return phase_(x_ + dx, y_ + dy) - error_rad_(x_ + dx, y_ + dy);
-  }
-  const Image<float>& phase_;
-  const Image<float>& error_rad_;
-  int x_;
-  int y_;
-  float here_;
-  float most_ = 0.3F;  // change over a pixel of a rough surface, rad
-};
-
 /// The slope of the phase by the plane through the neighbours on the same surface; zero where they
 /// form no plane.
-Eigen::Vector2f phase_slope(const Neighbours& neighbours) {
+Eigen::Vector2f phase_slope(const PhaseNeighbours& neighbours) {
   Eigen::Matrix3f normal = Eigen::Matrix3f::Zero();
   Eigen::Vector3f right = Eigen::Vector3f::Zero();
-  for (int dy = -kReach; dy <= kReach; ++dy) {
-    for (int dx = -kReach; dx <= kReach; ++dx) {
+  for (int dy = -kBlurReach; dy <= kBlurReach; ++dy) {
+    for (int dx = -kBlurReach; dx <= kBlurReach; ++dx) {
       const float change = neighbours.change(dx, dy);
       if (std::isnan(change)) continue;
       const Eigen::Vector3f place(1.0F, static_cast<float>(dx), static_cast<float>(dy));
@@ -102,11 +62,11 @@ Eigen::Vector2f phase_slope(const Neighbours& neighbours) {
 /// What the bend of the phase adds to it, by the paraboloid through all neighbours: with slope k
 /// and second derivatives H, a normal blur gives s^2 / 2 (tr H - s^2 k . H k). Zero where a
 /// neighbour is missing or on another surface.
-float bend_error(const Neighbours& neighbours, float variance_px2) {
+float bend_error(const PhaseNeighbours& neighbours, float variance_px2) {
   Eigen::Vector2f slope = Eigen::Vector2f::Zero();
   Eigen::Matrix2f bend = Eigen::Matrix2f::Zero();
-  for (int dy = -kReach; dy <= kReach; ++dy) {
-    for (int dx = -kReach; dx <= kReach; ++dx) {
+  for (int dy = -kBlurReach; dy <= kBlurReach; ++dy) {
+    for (int dx = -kBlurReach; dx <= kBlurReach; ++dx) {
       const float change = neighbours.change(dx, dy);
       const Eigen::Vector2f place(static_cast<float>(dx), static_cast<float>(dy));
       // Weights of least squares: 50 is the sum of dx^2, 35 half of that of (dx^2 - 2)^2, and 100
@@ -161,7 +121,7 @@ Image<float> errors_of(const AbsolutePhase& phase, const Image<Eigen::Vector2f>&
     parallel_rows(offsets.height(), [&](int y) {
       for (int x = 0; x < offsets.width(); ++x) {
         if (!offsets(x, y).isZero(0.0F))
-          next(x, y) = offsets(x, y).dot(phase_slope({phase.phase_rad, error, x, y}));
+          next(x, y) = offsets(x, y).dot(phase_slope({phase.phase_rad, &error, x, y}));
       }
     });
     error = std::move(next);
@@ -177,8 +137,8 @@ struct Surroundings {
 
 Surroundings surroundings(const Image<float>& phase, const Image<float>& error_rad, int x, int y) {
   Surroundings out;
-  for (int dy = -kReach; dy <= kReach; ++dy) {
-    for (int dx = -kReach; dx <= kReach; ++dx) {
+  for (int dy = -kBlurReach; dy <= kBlurReach; ++dy) {
+    for (int dx = -kBlurReach; dx <= kBlurReach; ++dx) {
       out.largest_rad = std::max(out.largest_rad, std::abs(error_rad(x + dx, y + dy)));
       out.dark = out.dark || std::isnan(phase(x + dx, y + dy));
     }
@@ -211,7 +171,7 @@ BlurCorrection correct_blur(AbsolutePhase& phase,
   parallel_rows(error.height(), [&](int y) {
     for (int x = 0; x < error.width(); ++x) {
       if (!is_inside(error, x, y) || !std::isfinite(phase.phase_rad(x, y))) continue;
-      phase.phase_rad(x, y) -= bend_error({before, error, x, y}, variance) + error(x, y);
+      phase.phase_rad(x, y) -= bend_error({before, &error, x, y}, variance) + error(x, y);
       const Surroundings around = surroundings(before, error, x, y);
       if (around.largest_rad == 0.0F) continue;
       if (around.dark && offsets(x, y).norm() > kBeyond * std::sqrt(variance)) {

@@ -128,6 +128,9 @@ double jackknifed(std::vector<Weakening> samples) {
   return std::sqrt(square * (count - 1.0) / count);
 }
 
+/// Fringes of the whole light, of those of the fine pattern: with more, both are weakened alike.
+constexpr double kMostFringes = 0.95;
+
 }  // namespace
 
 WholeLight whole_light(const WrappedPhase& coarse) {
@@ -154,8 +157,6 @@ WholeLight whole_light(const FrameStack& gray) {
 }
 
 std::optional<ImageBlur> estimate_blur(const WholeLight& whole, const WrappedPhase& fine) {
-  // Of those of the fine pattern: with more, both are weakened alike.
-  constexpr double kMostFringes = 0.95;
   constexpr double kLeast_px2 = 0.1;    // the area of a pixel has 0.083
   constexpr double kMost_px2 = 25.0;    // no fringes remain
   constexpr double kStraight = 0.35;    // of the line's own spread
@@ -169,6 +170,20 @@ std::optional<ImageBlur> estimate_blur(const WholeLight& whole, const WrappedPha
   blur.u_px2 = jackknifed(samples);
   if (!(blur.variance_px2 > kSignificant * blur.u_px2)) return {};
   return blur;
+}
+
+double averaged_variance(const WholeLight& whole, const WrappedPhase& fine) {
+  constexpr double kClearly = 3.0;          // times the uncertainty
+  constexpr std::size_t kSamples = 20'000;  // tell 0.01 px^2
+  if (whole.fringes > kMostFringes * fine.pattern.fringes_per_unit()) return kPixelAreaVariance;
+  const std::vector<Weakening> all = weakenings(whole, fine);
+  std::vector<Weakening> samples;
+  const std::size_t step = all.size() / kSamples + 1;
+  for (std::size_t i = 0; i < all.size(); i += step)
+    samples.push_back(all[i]);
+  const double found = -line_through(samples).slope;
+  const bool is_less = found + kClearly * jackknifed(samples) < kPixelAreaVariance;
+  return is_less ? std::max(0.0, found) : kPixelAreaVariance;
 }
 
 std::string describe(const ImageBlur& blur) {

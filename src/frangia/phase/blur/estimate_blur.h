@@ -54,6 +54,17 @@ struct WholeLight {
 [[nodiscard]] std::optional<ImageBlur> estimate_blur(const WholeLight& whole,
                                                      const WrappedPhase& fine);
 
+/// Variance of the area of a pixel along each axis, px^2.
+inline constexpr double kPixelAreaVariance = 1.0 / 12.0;
+
+/// The variance over which the pixels of a camera without a blur average the light: that of their
+/// area, unless `fine` is clearly weakened less, as where a renderer casts a single ray for each
+/// pixel. Then it is what the weakening shows.
+///
+/// @shape    as `estimate_blur`
+/// @units    px^2
+[[nodiscard]] double averaged_variance(const WholeLight& whole, const WrappedPhase& fine);
+
 /// One clause about the blur for which a phase is corrected.
 [[nodiscard]] std::string describe(const ImageBlur& blur);
 

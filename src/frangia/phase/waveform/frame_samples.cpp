@@ -6,6 +6,7 @@
 #include <type_traits>
 #include <utility>
 
+#include "frangia/core/error.h"
 #include "frangia/core/image.h"
 
 namespace frangia {
@@ -87,6 +88,27 @@ FrameStack sample_pixels(const FrameStack& stack, std::span<const std::uint32_t>
           for (std::size_t i = 0; i < pixels.size(); ++i)
             some.pixels()[i] = image.pixels()[pixels[i]];
           out.frames.emplace_back(std::move(some));
+        },
+        frame);
+  }
+  return out;
+}
+
+FrameStack sample_box(const FrameStack& stack, const PixelBox& box) {
+  FrameStack out{.pattern = stack.pattern,
+                 .frames = {},
+                 .white_level = stack.white_level,
+                 .exposure = stack.exposure};
+  for (const Frame& frame : stack.frames) {
+    require(box.left >= 0 && box.top >= 0 && box.right <= width_of(frame) &&
+                box.bottom <= height_of(frame),
+            "sample_box: the box leaves the frames");
+    std::visit(
+        [&](const auto& image) {
+          std::remove_cvref_t<decltype(image)> cut(box.width(), box.height(), Uninitialized{});
+          for (int y = 0; y < cut.height(); ++y)
+            std::copy_n(&image(box.left, box.top + y), cut.width(), &cut(0, y));
+          out.frames.emplace_back(std::move(cut));
         },
         frame);
   }

@@ -5,6 +5,7 @@
 
 #include <Eigen/Core>
 
+#include "frangia/core/image.h"
 #include "frangia/frames/frame_stack.h"
 
 namespace frangia {
@@ -25,6 +26,11 @@ namespace frangia {
 /// @shape    one index y * width + x for each pixel in, one row of these pixels out
 [[nodiscard]] FrameStack sample_pixels(const FrameStack& stack,
                                        std::span<const std::uint32_t> pixels);
+
+/// Cuts the pixels of a box out of all frames.
+///
+/// @errors   Error(Input) when the box leaves the frames
+[[nodiscard]] FrameStack sample_box(const FrameStack& stack, const PixelBox& box);
 
 /// Samples every `step`-th pixel along both axes, beginning with pixel (0, 0).
 ///
