@@ -70,6 +70,14 @@ TEST(FindTurntableTop, FindsAHighOneThatIsMuchWiderThanThePart) {
       find_turntable_top(look_at(testing::both(disc(45.0, 8.0), ball)), small_camera_model()));
 }
 
+TEST(FindTurntableTop, TakesNoWheelThatStandsAtTheOriginForOne) {
+  const Shape wheel = [](const Eigen::Vector3d& p) {
+    return std::max(p.head<2>().norm() - 32.0, std::max(p.z() - 24.0, -p.z()));
+  };
+  const Shape hub = testing::box({9.0, 9.0, 4.0}, {0.0, 0.0, 28.0});
+  EXPECT_FALSE(find_turntable_top(look_at(testing::both(wheel, hub)), small_camera_model()));
+}
+
 /// A camera that looks horizontally: of the turntable it sees only the rim.
 ViewStore look_horizontally_at(const Shape& scene) {
   return testing::snapshots(

@@ -247,6 +247,21 @@ Disc disc_of(const std::vector<Eigen::Vector3d>& points) {
   return disc;
 }
 
+/// Whether what bears a disc ends at the origin, where the top is stated: then the disc is the
+/// upper face of a wheel or a flange that stands there.
+bool stands_at_origin(const TableCloud& cloud, double disc_mm, double margin_mm) {
+  constexpr double kLowest = 0.02;  // of the points below the disc, where a foot begins
+  std::vector<double> below_mm;
+  for (const Eigen::Vector3d& point : cloud.points) {
+    if (point.z() < disc_mm - margin_mm) below_mm.push_back(point.z());
+  }
+  if (static_cast<double>(below_mm.size()) <
+      kTopLimits.min_share * static_cast<double>(cloud.points.size()))
+    return false;
+  return std::abs(quantile(std::move(below_mm), kLowest)) <
+         kTopLimits.relative_max_height * cloud.working_distance_mm;
+}
+
 /// The turntable top as a disc of horizontal points.
 std::optional<TurntableTop> find_disc(const TableCloud& cloud) {
   constexpr std::size_t kFewest = 50;  // points
@@ -288,7 +303,8 @@ std::optional<TurntableTop> find_disc(const TableCloud& cloud) {
   const bool expected =
       carries_part &&
       (std::abs(top.height_mm()) < kTopLimits.relative_max_height * cloud.working_distance_mm ||
-       disc.radius_mm > kTopLimits.min_width_ratio * above_mm);
+       (disc.radius_mm > kTopLimits.min_width_ratio * above_mm &&
+        !stands_at_origin(cloud, top.height_mm(), margin_mm)));
   return nothing_below && level && round && expected ? std::optional(top) : std::nullopt;
 }
 
