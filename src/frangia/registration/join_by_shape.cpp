@@ -15,6 +15,9 @@
 namespace frangia {
 namespace {
 
+/// Radius of the features that are tried where the usual ones find no pose, as a share of theirs.
+constexpr double kFinerFeatures = 0.5;
+
 /// A pose of one group on another that may be right.
 struct JoinCandidate {
   std::size_t to = 0;
@@ -34,15 +37,27 @@ bool may_be_valid(const GroupFit& fit, const JoinByShapeOptions& options) {
          fit.free_space_violation() <= options.max_violation && is_determined(fit, options, 1.0);
 }
 
+/// The features of all groups at one size.
+std::vector<Eigen::MatrixXf> features_of(std::span<const ViewGroup> groups, double radius_mm) {
+  std::vector<Eigen::MatrixXf> features;
+  for (const ViewGroup& group : groups)
+    features.push_back(surface_features(group.points, radius_mm));
+  return features;
+}
+
 /// The best pose hypotheses of every two groups, a few each.
 std::vector<JoinCandidate> find_join_candidates(std::span<const ViewGroup> groups,
                                                 const GroupViews& views,
                                                 const JoinByShapeOptions& options,
                                                 const Run& run) {
   const PoseSearchScale scale{options.spacing_mm};
-  std::vector<Eigen::MatrixXf> features;
-  for (const ViewGroup& group : groups)
-    features.push_back(surface_features(group.points, options.feature_radius * scale.spacing_mm));
+  const double radius_mm = options.feature_radius * scale.spacing_mm;
+  const std::vector<Eigen::MatrixXf> usual = features_of(groups, radius_mm);
+  std::vector<Eigen::MatrixXf> finer;
+  const auto hypotheses_of = [&](std::size_t to, std::size_t from, const auto& features) {
+    return find_pose_hypotheses(
+        {groups[to], features[to]}, {groups[from], features[from]}, views, scale);
+  };
   std::vector<JoinCandidate> candidates;
   const auto pairs = static_cast<double>(groups.size() * (groups.size() - 1)) / 2.0;
   double done = 0.0;
@@ -50,8 +65,17 @@ std::vector<JoinCandidate> find_join_candidates(std::span<const ViewGroup> group
     for (std::size_t from = to + 1; from < groups.size(); ++from) {
       run.report(done / pairs);
       done += 1.0;
-      const auto hypotheses = find_pose_hypotheses(
-          {groups[to], features[to]}, {groups[from], features[from]}, views, scale);
+      auto hypotheses = hypotheses_of(to, from, usual);
+      // Large features of edged parts are alike in wrong poses that contradict each other.
+      if (std::none_of(hypotheses.begin(), hypotheses.end(), [&](const PoseHypothesis& one) {
+            return may_be_valid(one.fit, options);
+          })) {
+        run.check();
+        if (finer.empty()) finer = features_of(groups, kFinerFeatures * radius_mm);
+        for (PoseHypothesis& hypothesis : hypotheses_of(to, from, finer))
+          hypotheses.push_back(std::move(hypothesis));
+        sort_hypotheses(hypotheses, std::numeric_limits<double>::infinity());
+      }
       for (std::size_t i = 0; i < std::min(hypotheses.size(), options.max_candidates); ++i)
         candidates.push_back({to, from, hypotheses[i]});
     }
