@@ -22,10 +22,10 @@ enum class LagPart : std::uint8_t { All, Above, Below };
 /// All frames of a view show what frames before or behind them should: projector and camera are
 /// out of step from the first frame on.
 struct FrameLag {
-  int frames = 0;             ///< places that they are late; below 0: early
-  Explanation explanation{};  ///< with the lags that predict the same
-  LagPart part = LagPart::All;
-  int row_px = 0;  ///< of the image, where that part ends or begins
+  int frames = 0;               ///< places that they are late; below 0: early
+  Explanation explanation{};    ///< with the lags that predict the same
+  LagPart part = LagPart::All;  ///< where they are
+  int row_px = 0;               ///< of the image, where that part ends or begins
 };
 
 /// Finds frames that are out of step all through a view.
