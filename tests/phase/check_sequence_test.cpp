@@ -350,6 +350,22 @@ TEST(CheckSequence, NamesBothStartsBetweenWhichTheFramesDoNotDecide) {
   EXPECT_GT(found.fits.size(), 1U) << describe(found);
 }
 
+TEST(CheckSequence, NamesASequenceThatBeganWithAnotherFrame) {
+  const auto declared = whole_counts({1.0, 8.0, 64.0}, 3);
+  auto shown = declared;
+  for (Pattern& pattern : shown)
+    std::rotate(
+        pattern.shifts_rad.begin(), pattern.shifts_rad.begin() + 1, pattern.shifts_rad.end());
+  std::vector<FrameStack> stacks;
+  for (std::size_t m = 0; m < shown.size(); ++m)
+    stacks.push_back(shown_frames(shown[m], declared[m], 1 + static_cast<unsigned>(m)));
+  const SequenceCheck found = checked_linear(declared, stacks);
+  EXPECT_FALSE(found.consistent);
+  EXPECT_TRUE(std::any_of(found.fits.begin(), found.fits.end(), [](const SequenceFault& one) {
+    return one.patterns.size() == 3 && one.keys == "shifts_deg = [120, 240, 0]";
+  })) << describe(found);
+}
+
 TEST(CheckSequence, SaysThatUnrelatedPatternsDisagree) {
   const auto declared = whole_counts({1.0, 8.0, 64.0});
   auto shown = declared;

@@ -171,6 +171,19 @@ void set_white_level(const ImportPlan& plan,
   }
 }
 
+/// Leaves out the noise that a rig states for a camera of another depth: its counts are others.
+void leave_out_noise_of_other_depth(const Camera& of_rig, Camera& camera, const Run& run) {
+  constexpr double kOtherDepth = 2.0;  // bits more or fewer double or halve the full scale
+  const double factor = static_cast<double>(camera.white_level) / of_rig.white_level;
+  if (!camera.noise || (factor < kOtherDepth && factor > 1.0 / kOtherDepth)) return;
+  run.warn(
+      fmt::format("camera.noise of the rig is left out: it is that of frames with a white level of "
+                  "{} counts, and these have {}; it is estimated from the frames",
+                  of_rig.white_level,
+                  camera.white_level));
+  camera.noise.reset();
+}
+
 /// The cameras beside the reference camera: those of the rig, or new ones of which the sizes alone
 /// are known.
 void add_cameras(const ImportPlan& plan, Scan& scan) {
@@ -217,7 +230,9 @@ Scan scan_of(const ImportPlan& plan, const std::vector<WrittenFrame>& written, c
   for (std::size_t i = 0; i < plan.cameras.size(); ++i) {
     Camera& camera = scan.rig.cameras[i].camera;
     if (bits != 32) {
+      const Camera of_rig = camera;
       set_white_level(plan, of_cameras[i], camera, run);
+      leave_out_noise_of_other_depth(of_rig, camera, run);
       continue;
     }
     if (camera.noise) {

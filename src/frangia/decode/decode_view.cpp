@@ -212,8 +212,9 @@ DecodedView decode_view(std::span<const FrameStack> captured,
   const std::vector<FrameStack> evened = at_even_light(shown, options, run);
   const std::span<const FrameStack> stacks = evened.empty() ? shown : evened;
   if (!options.accept_inconsistent) {
-    if (const std::optional<FrameLag> lag = explain_lag(stacks))
-      return decode_out_of_step(stacks, *lag, input, run);
+    std::optional<FrameLag> lag = explain_torn_frames(stacks);
+    if (!lag) lag = explain_lag(stacks);
+    if (lag) return decode_out_of_step(stacks, *lag, input, run);
   }
   HeldMessages held;  // of frames that turn out to be late, they would be consequences
   DecodedView out = held.during(

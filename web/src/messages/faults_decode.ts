@@ -110,6 +110,26 @@ export const FAULTS_DECODE = {
     'alle Bilder kommen um {0} zu früh: jedes zeigt, was {1} später zu sehen sein sollte',
     'tutti i fotogrammi sono in anticipo di {0}: ognuno mostra ciò che si dovrebbe vedere {1} dopo',
   ],
+  'fault.tornAboveBefore': [
+    'the frames are torn at about row {0}: above it each shows what should be seen one frame before',
+    'die Bilder sind etwa in Zeile {0} zerrissen: darüber zeigt jedes, was ein Bild früher zu sehen sein sollte',
+    'i fotogrammi sono spezzati circa alla riga {0}: sopra ognuno mostra ciò che si dovrebbe vedere un fotogramma prima',
+  ],
+  'fault.tornAboveLater': [
+    'the frames are torn at about row {0}: above it each shows what should be seen one frame later',
+    'die Bilder sind etwa in Zeile {0} zerrissen: darüber zeigt jedes, was ein Bild später zu sehen sein sollte',
+    'i fotogrammi sono spezzati circa alla riga {0}: sopra ognuno mostra ciò che si dovrebbe vedere un fotogramma dopo',
+  ],
+  'fault.tornBelowBefore': [
+    'the frames are torn at about row {0}: below it each shows what should be seen one frame before',
+    'die Bilder sind etwa in Zeile {0} zerrissen: darunter zeigt jedes, was ein Bild früher zu sehen sein sollte',
+    'i fotogrammi sono spezzati circa alla riga {0}: sotto ognuno mostra ciò che si dovrebbe vedere un fotogramma prima',
+  ],
+  'fault.tornBelowLater': [
+    'the frames are torn at about row {0}: below it each shows what should be seen one frame later',
+    'die Bilder sind etwa in Zeile {0} zerrissen: darunter zeigt jedes, was ein Bild später zu sehen sein sollte',
+    'i fotogrammi sono spezzati circa alla riga {0}: sotto ognuno mostra ciò che si dovrebbe vedere un fotogramma dopo',
+  ],
   'fault.oneFrame': ['one frame', 'ein Bild', 'un fotogramma'],
   'fault.twoFrames': ['two frames', 'zwei Bilder', 'due fotogrammi'],
   'fault.threeFrames': ['three frames', 'drei Bilder', 'tre fotogrammi'],
@@ -243,6 +263,11 @@ export const FAULTS_DECODE = {
     'the Gray code of {0} % of the measured pixels names {1} outside the projector of rig.toml, and they are not measured; check size_px there, and bits, stripe_px and offset_px of the code',
     'der Gray-Code von {0} % der gemessenen Pixel nennt {1} außerhalb des Projektors in rig.toml, sie werden nicht gemessen; dort size_px prüfen, und bits, stripe_px und offset_px des Codes',
     'il codice Gray del {0} % dei pixel misurati indica {1} fuori dal proiettore di rig.toml, e questi non sono misurati; controllare lì size_px, e bits, stripe_px e offset_px del codice',
+  ],
+  'fault.grayCodeOutside': [
+    'the Gray code of {0} % of the measured pixels names {1} outside the projector of rig.toml; check size_px there, and bits, stripe_px and offset_px of the code',
+    'der Gray-Code von {0} % der gemessenen Pixel nennt {1} außerhalb des Projektors in rig.toml; dort size_px prüfen, und bits, stripe_px und offset_px des Codes',
+    'il codice Gray del {0} % dei pixel misurati indica {1} fuori dal proiettore di rig.toml; controllare lì size_px, e bits, stripe_px e offset_px del codice',
   ],
   'fault.patternsDoDetermine': [
     'the patterns do not determine fringe orders, and the rig has no geometry that does: the phase of each region has an offset of its own',

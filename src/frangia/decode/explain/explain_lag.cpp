@@ -4,27 +4,21 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <cstdint>
 #include <cstdlib>
 #include <utility>
 
 #include <Eigen/Core>
 #include <fmt/format.h>
 
-#include "frangia/core/random.h"
-#include "frangia/core/statistics.h"
 #include "frangia/decode/explain/internal/frame_priors.h"
+#include "frangia/decode/explain/internal/frame_sequence.h"
 #include "frangia/decode/select_stacks.h"
 #include "frangia/diagnose/score.h"
-#include "frangia/phase/algorithm/phase_algorithm.h"
 
 namespace frangia {
 namespace {
 
-constexpr std::size_t kFewestFrames = 3;  ///< that determine a pixel
-constexpr int kGrid = 80;                 ///< pixels along the longer side of the image
 constexpr std::size_t kFewestPixels = 200;
-constexpr double kLeastChange = 0.25;  ///< least change of a pixel over the large changes
 /// RMS over the modulation of what blur, texture and harmonics leave of frames in step.
 constexpr double kRestInStep = 0.03;
 /// The same of frames out of step at least.
@@ -32,170 +26,6 @@ constexpr double kOutOfStep = 0.1;
 /// What a lag leaves of the mean square at most: the patterns that it concerns are not all the
 /// same.
 constexpr double kMostLeft = 0.5;
-
-/// A frame of the sequence.
-struct Shown {
-  const Frame* frame;
-  const FrameStack* stack;
-};
-
-std::vector<Shown> sequence_of(std::span<const FrameStack> stacks) {
-  std::vector<Shown> out;
-  for (const FrameStack& stack : stacks)
-    for (const Frame& frame : stack.frames)
-      out.push_back({&frame, &stack});
-  return out;
-}
-
-/// Whether all frames have one size; those that do not are refused where they are decoded.
-bool are_alike(const std::vector<Shown>& sequence) {
-  return std::all_of(sequence.begin(), sequence.end(), [&](const Shown& one) {
-    return width_of(*one.frame) == width_of(*sequence.front().frame) &&
-           height_of(*one.frame) == height_of(*sequence.front().frame);
-  });
-}
-
-bool has_fringes(const FrameStack& stack) {
-  return stack.pattern.kind == PatternKind::Fringe &&
-         stack.frames.size() == stack.pattern.shifts_rad.size() &&
-         stack.frames.size() >= kFewestFrames;
-}
-
-/// The counts of all frames at lit pixels: pixels x frames of the sequence.
-Eigen::ArrayXXd lit_counts(const std::vector<Shown>& sequence) {
-  const int width = width_of(*sequence.front().frame);
-  const int height = height_of(*sequence.front().frame);
-  const double step = std::max(1.0, static_cast<double>(std::max(width, height)) / kGrid);
-  std::vector<Eigen::ArrayXd> pixels;
-  std::vector<double> changes;
-  for (int row = 0; (row + 1) * step <= height; ++row) {
-    for (int column = 0; (column + 1) * step <= width; ++column) {
-      // At equal distances all pixels might see the same phase.
-      const std::uint64_t place =
-          hash(hash(static_cast<std::uint64_t>(row)), static_cast<std::uint64_t>(column));
-      const int x = static_cast<int>((column + uniform_from(place)) * step);
-      const int y = static_cast<int>((row + uniform_from(hash(place))) * step);
-      Eigen::ArrayXd pixel(std::ssize(sequence));
-      double least = INFINITY;
-      double most = 0.0;
-      bool saturated = false;
-      for (std::size_t j = 0; j < sequence.size(); ++j) {
-        const double counts = counts_at(*sequence[j].frame, x, y);
-        pixel(static_cast<Eigen::Index>(j)) = counts;
-        if (!has_fringes(*sequence[j].stack)) continue;
-        saturated = saturated || counts >= sequence[j].stack->white_level;
-        least = std::min(least, counts);
-        most = std::max(most, counts);
-      }
-      if (saturated) continue;
-      pixels.push_back(std::move(pixel));
-      changes.push_back(most - least);
-    }
-  }
-  if (pixels.empty()) return {};
-  std::vector<double> ordered = changes;
-  const auto high = ordered.begin() + std::ssize(ordered) * 9 / 10;
-  std::nth_element(ordered.begin(), high, ordered.end());
-  Eigen::ArrayXXd out(std::ssize(pixels), std::ssize(sequence));
-  Eigen::Index kept = 0;
-  for (std::size_t i = 0; i < pixels.size(); ++i)
-    if (changes[i] > std::max(kLeastChange * *high, 1.0)) out.row(kept++) = pixels[i];
-  return out.topRows(kept);
-}
-
-/// Mean, modulation and residual variance of all pixels by the frames of one pattern.
-struct Fitted {
-  Eigen::ArrayXd mean;
-  Eigen::ArrayXd modulation;
-  Eigen::ArrayXd rest;  ///< variance of the residual; empty for three frames
-};
-
-/// The frames of a pattern: their places in the sequence, and the shifts that they show.
-struct Placed {
-  std::vector<Eigen::Index> places;
-  std::vector<double> shifts_rad;
-};
-
-/// `pattern` has three frames or more.
-Fitted fit(const Eigen::ArrayXXd& counts, const Placed& pattern) {
-  const auto& [places, shifts_rad] = pattern;
-  const PhaseAlgorithm weights = least_squares(shifts_rad);
-  const auto sum = [&](const std::vector<double>& of) {
-    Eigen::ArrayXd out = Eigen::ArrayXd::Zero(counts.rows());
-    for (std::size_t k = 0; k < places.size(); ++k)
-      out += of[k] * counts.col(places[k]);
-    return out;
-  };
-  const Eigen::ArrayXd mean = sum(weights.mean);
-  const Eigen::ArrayXd cosine = sum(weights.cosine);
-  const Eigen::ArrayXd sine = sum(weights.sine);
-  Fitted out{mean, (cosine.square() + sine.square()).sqrt(), {}};
-  if (places.size() == kFewestFrames) return out;
-  out.rest = Eigen::ArrayXd::Zero(counts.rows());
-  for (std::size_t k = 0; k < places.size(); ++k)
-    out.rest += (counts.col(places[k]) - mean - std::cos(shifts_rad[k]) * cosine +
-                 std::sin(shifts_rad[k]) * sine)
-                    .square();
-  out.rest /= static_cast<double>(places.size() - kFewestFrames);
-  return out;
-}
-
-double median_of(const Eigen::ArrayXd& values) {
-  return median(std::vector<double>(values.begin(), values.end()));
-}
-
-/// What the patterns leave together: the median over the pixels of the mean square of residuals,
-/// and of how the patterns differ in mean and modulation, over the modulation. Nothing if no two
-/// patterns tell.
-std::optional<double> misfit_of(const std::vector<Fitted>& fits) {
-  if (fits.size() < 2) return std::nullopt;
-  constexpr double kLeast_counts2 = 1.0;  // of the modulation: less is none
-  Eigen::ArrayXd sum = Eigen::ArrayXd::Zero(fits.front().mean.size());
-  int terms = 0;
-  for (std::size_t i = 0; i < fits.size(); ++i) {
-    const Fitted& one = fits[i];
-    if (one.rest.size() > 0) {
-      sum += one.rest / one.modulation.square().max(kLeast_counts2);
-      ++terms;
-    }
-    if (i == 0) continue;
-    const Fitted& last = fits[i - 1];  // fine fringes have less contrast, by one factor
-    const double factor =
-        median_of(one.modulation / last.modulation.max(std::sqrt(kLeast_counts2)));
-    const Eigen::ArrayXd other = factor * last.modulation;
-    sum += ((one.mean - last.mean).square() + 0.5 * (one.modulation - other).square()) /
-           (0.5 * (one.modulation.square() + other.square())).max(kLeast_counts2);
-    ++terms;
-  }
-  return median_of(sum / terms);
-}
-
-/// The fringe patterns whose frames are late by `lag`, without those of fewer than three frames.
-std::vector<Placed> placed_at(std::span<const FrameStack> stacks,
-                              std::ptrdiff_t frames,
-                              std::ptrdiff_t lag) {
-  std::vector<Placed> out;
-  std::ptrdiff_t begin = lag;
-  for (const FrameStack& stack : stacks) {
-    Placed one;
-    for (std::size_t k = 0; has_fringes(stack) && k < stack.frames.size(); ++k) {
-      const std::ptrdiff_t place = begin + static_cast<std::ptrdiff_t>(k);
-      if (place < 0 || place >= frames) continue;
-      one.places.push_back(place);
-      one.shifts_rad.push_back(stack.pattern.shifts_rad[k]);
-    }
-    if (one.places.size() >= kFewestFrames) out.push_back(std::move(one));
-    begin += std::ssize(stack.frames);
-  }
-  return out;
-}
-
-std::vector<Fitted> fit_all(const Eigen::ArrayXXd& counts, const std::vector<Placed>& patterns) {
-  std::vector<Fitted> out;
-  for (const Placed& one : patterns)
-    out.push_back(fit(counts, one));
-  return out;
-}
 
 /// The frames of one pattern with a fault: two of them exchanged, or one left out.
 std::vector<Placed> with_one_fault(const Placed& pattern) {
@@ -263,7 +93,7 @@ std::optional<FrameLag> explain_lag(std::span<const FrameStack> stacks) {
   const auto fringes = std::count_if(stacks.begin(), stacks.end(), has_fringes);
   const std::vector<Shown> sequence = sequence_of(stacks);
   if (fringes < 2 || are_bracketed(stacks) || !are_alike(sequence)) return std::nullopt;
-  const Eigen::ArrayXXd counts = lit_counts(sequence);
+  const Eigen::ArrayXXd counts = lit_counts(sequence).counts;
   if (counts.rows() < static_cast<Eigen::Index>(kFewestPixels)) return std::nullopt;
   const auto frames_in_all = counts.cols();
   const std::vector<Placed> in_place = placed_at(stacks, frames_in_all, 0);
@@ -327,8 +157,9 @@ std::vector<FrameStack> moved_by(std::span<const FrameStack> stacks, int lag) {
 }
 
 std::vector<FrameStack> in_step(std::span<const FrameStack> stacks, const FrameLag& lag) {
-  return leaves_phases(stacks, lag.frames) ? moved_by(stacks, lag.frames)
-                                           : std::vector<FrameStack>{};
+  return lag.part == LagPart::All && leaves_phases(stacks, lag.frames)
+             ? moved_by(stacks, lag.frames)
+             : std::vector<FrameStack>{};
 }
 
 std::vector<FrameVerdict> judge_lag(std::span<const Pattern> patterns,
@@ -346,8 +177,9 @@ std::vector<FrameVerdict> judge_lag(std::span<const Pattern> patterns,
     found.alike = {found.best};
     found.explanation = lag.explanation;
     found.explanation.remedy =
-        lag.frames > 0 ? "capture the frames again with a longer delay_s of the projector"
-                       : "capture the frames again, the projector and the camera in step";
+        lag.frames > 0 && lag.part == LagPart::All
+            ? "capture the frames again with a longer delay_s of the projector"
+            : "capture the frames again, the projector and the camera in step";
     if (may_remedy)
       found.explanation.remedy += ", or set `accept_remedy` to decode each frame as what it shows";
     one.finding = describe(found.explanation);
@@ -358,6 +190,28 @@ std::vector<FrameVerdict> judge_lag(std::span<const Pattern> patterns,
 }
 
 std::string describe(const FrameLag& lag) {
+  if (lag.part == LagPart::Above) {
+    return lag.frames > 0
+               ? fmt::format(
+                     "the frames are torn at about row {}: above it each shows what should "
+                     "be seen one frame before",
+                     lag.row_px)
+               : fmt::format(
+                     "the frames are torn at about row {}: above it each shows what should "
+                     "be seen one frame later",
+                     lag.row_px);
+  }
+  if (lag.part == LagPart::Below) {
+    return lag.frames > 0
+               ? fmt::format(
+                     "the frames are torn at about row {}: below it each shows what should "
+                     "be seen one frame before",
+                     lag.row_px)
+               : fmt::format(
+                     "the frames are torn at about row {}: below it each shows what should "
+                     "be seen one frame later",
+                     lag.row_px);
+  }
   static constexpr std::array kFrames = {"one frame", "two frames", "three frames"};
   const char* const by = kFrames.at(static_cast<std::size_t>(std::abs(lag.frames)) - 1);
   return lag.frames > 0

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <string>
@@ -15,11 +16,16 @@ namespace frangia {
 /// Places that frames of a display out of step are late; early by more is no camera's fault.
 inline constexpr std::array kFrameLags = {1, 2, 3, -1};
 
+/// The part of the image that is out of step.
+enum class LagPart : std::uint8_t { All, Above, Below };
+
 /// All frames of a view show what frames before or behind them should: projector and camera are
 /// out of step from the first frame on.
 struct FrameLag {
-  int frames = 0;             ///< places that they are late; below 0: early
-  Explanation explanation{};  ///< with the lags that predict the same
+  int frames = 0;               ///< places that they are late; below 0: early
+  Explanation explanation{};    ///< with the lags that predict the same
+  LagPart part = LagPart::All;  ///< where they are
+  int row_px = 0;               ///< of the image, where that part ends or begins
 };
 
 /// Finds frames that are out of step all through a view.
@@ -33,8 +39,20 @@ struct FrameLag {
 ///           fewer than two fringe patterns, or several exposures
 [[nodiscard]] std::optional<FrameLag> explain_lag(std::span<const FrameStack> stacks);
 
-/// Finds the same for fringes beside a Gray code: moved by the lag, code and fringes agree, which
-/// they do not as described.
+/// Finds torn frames: above or below some row of the image all frames show what the frame before or
+/// behind them should, in the rest they are in step, as where the display changes while the camera
+/// exposes.
+///
+/// A lag of a part shifts the phase of all patterns there alike, so that they agree with each other
+/// at a wrong place; but the frames at which the pattern changes leave a residual, or another mean
+/// and modulation than those of the other patterns.
+///
+/// @shape    the stacks in the order in which their frames were captured
+/// @missing  as `explain_lag`
+[[nodiscard]] std::optional<FrameLag> explain_torn_frames(std::span<const FrameStack> stacks);
+
+/// Finds the same as `explain_lag` for fringes beside a Gray code: moved by the lag, code and
+/// fringes agree, which they do not as described.
 ///
 /// @shape    the stacks in the order in which their frames were captured
 /// @missing  nothing where code and fringes agree as described, or with no lag; for several

@@ -61,25 +61,6 @@ std::vector<std::size_t> useless_frames(const FrameExplanation& found) {
   return out;
 }
 
-/// Whether frames with these shifts determine the phase with at most twice the noise of as many
-/// equal steps.
-bool determine_phase(const std::vector<double>& shifts_rad) {
-  constexpr std::size_t kLeast = 3;
-  constexpr double kMostNoise = 2.0;
-  if (shifts_rad.size() < kLeast) return false;
-  const auto frames = shifts_rad.size();
-  const FrameDesign design = design_of({.frames = {},
-                                        .shifts_rad = shifts_rad,
-                                        .gains = std::vector<double>(frames, 1.0),
-                                        .free = std::vector<bool>(frames, false),
-                                        .lamp_on = {},
-                                        .displaced = {},
-                                        .path = {}});
-  if (design.inverse.size() == 0) return false;
-  const double noise = std::sqrt(0.5 * design.inverse.bottomRows(2).squaredNorm());
-  return noise <= kMostNoise * std::sqrt(2.0 / static_cast<double>(frames));
-}
-
 /// Whether mean, modulation and phase that these frames have by a hypothesis are those of other
 /// patterns, at nearly all pixels. Three frames have no other check of themselves.
 bool agree_with(std::span<const FrameStack* const> references,

@@ -128,30 +128,14 @@ AbsolutePhase inside_field(const DirectionInput& input, AbsolutePhase phase) {
   const PhaseRange range = phase_range(phase.pattern, input.rig.projector);
   if (!(range.width_rad() > 0.0)) return phase;
   const double margin = kTwoPi * phase.pattern.fringes_per_unit();  // one pixel of the projector
-  std::size_t measured = 0;
-  std::size_t outside = 0;
   for (std::size_t i = 0; i < phase.phase_rad.pixels().size(); ++i) {
     const auto found = static_cast<double>(phase.phase_rad.pixels()[i]);
-    if (std::isnan(found)) continue;
-    ++measured;
-    if (found >= range.min_rad - margin && found <= range.max_rad + margin) continue;
-    ++outside;
+    if (std::isnan(found) || (found >= range.min_rad - margin && found <= range.max_rad + margin))
+      continue;
     phase.phase_rad.pixels()[i] = kMissing;
     phase.sigma_rad.pixels()[i] = kMissing;
     if (!phase.systematic_rad.empty()) phase.systematic_rad.pixels()[i] = kMissing;
     phase.status.pixels()[i] = PixelStatus::OutOfField;
-  }
-  constexpr double kWarned = 0.02;  // wrong codes in shadows are fewer
-  const double share =
-      static_cast<double>(outside) / static_cast<double>(std::max<std::size_t>(1, measured));
-  if (share > kWarned) {
-    input.run.warn(
-        fmt::format("the Gray code of {:.0f} % of the measured pixels names {} outside the "
-                    "projector of rig.toml, "
-                    "and they are not measured; check size_px there, and bits, stripe_px and "
-                    "offset_px of the code",
-                    100.0 * share,
-                    input.plan.direction == FringeDirection::Vertical ? "columns" : "rows"));
   }
   return phase;
 }
@@ -388,6 +372,7 @@ DecodedDirection decode_direction(const DirectionInput& all) {
   }
   view.frames = std::move(judged.verdicts);
   view.check = report_frames(view.frames, std::move(view.check), all.run);
+  view.check = report_outside_field(view.phase, std::move(view.check), run);
   if (all.options.own.any()) return view;
   view.check = report_uncertain_phase(view.phase, std::move(view.check));
   const bool by_maps = std::holds_alternative<FromCoarserMaps>(all.plan.orders) ||

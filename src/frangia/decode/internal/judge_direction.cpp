@@ -12,6 +12,7 @@
 
 #include "frangia/core/angles.h"
 #include "frangia/decode/explain/explain_frames.h"
+#include "frangia/decode/explain/judge_coarse_frames.h"
 #include "frangia/decode/select_stacks.h"
 #include "frangia/phase/waveform/cut_dark_end.h"
 #include "frangia/phase/wrap/estimate_noise.h"
@@ -102,6 +103,23 @@ bool is_undecided_order(const FrameVerdict& verdict) {
          verdict.explanation.has_fault() && verdict.explanation.best.cause == FrameCause::Exchanged;
 }
 
+/// Adds the verdict on a pattern whose frames by themselves decide nothing, if the sound patterns
+/// name a lost frame.
+void judge_by_finer(const FrameStack& stack,
+                    const NoiseModel& noise,
+                    const JudgeOptions& options,
+                    std::vector<FrameVerdict>& verdicts) {
+  const auto verdict = std::find_if(verdicts.begin(), verdicts.end(), [&](const auto& one) {
+    return one.explanation.pattern == stack.pattern.name;
+  });
+  const bool is_known = verdict != verdicts.end() && verdict->explanation.decided;
+  if (stack.pattern.exposure_count() > 1 || is_known) return;
+  std::optional<FrameVerdict> found = judge_coarse_frames(stack, noise, options);
+  if (!found) return;
+  if (verdict != verdicts.end()) verdicts.erase(verdict);
+  verdicts.push_back(*std::move(found));
+}
+
 /// Explains each pattern by itself, and those that are not as described again beside the others.
 std::vector<FrameVerdict> judge_patterns(std::span<const FrameStack> captured,
                                          std::span<const FrameStack* const> fringes,
@@ -138,6 +156,8 @@ std::vector<FrameVerdict> judge_patterns(std::span<const FrameStack> captured,
     if (found.decided && !is_sound(found)) verdicts[i] = judge(*stacks[i]);
   }
   std::move(late.begin(), late.end(), std::back_inserter(verdicts));
+  for (const FrameStack* stack : fringes)
+    if (!sound.empty()) judge_by_finer(*stack, noise, options_of(*stack), verdicts);
   return verdicts;
 }
 
@@ -253,6 +273,41 @@ std::optional<SequenceCheck> report_uncertain_phase(const AbsolutePhase& phase,
       phase.pattern.name,
       100.0 * share,
       kMost_rad);
+  return check;
+}
+
+std::optional<SequenceCheck> report_outside_field(const AbsolutePhase& phase,
+                                                  std::optional<SequenceCheck> check,
+                                                  const Run& run) {
+  constexpr double kWarned = 0.02;  // wrong codes in shadows are fewer
+  constexpr double kMost = 0.5;
+  std::size_t measured = 0;
+  std::size_t outside = 0;
+  for (std::size_t i = 0; i < phase.status.pixels().size(); ++i) {
+    if (phase.status.pixels()[i] == PixelStatus::OutOfField) ++outside;
+    if (!std::isnan(phase.phase_rad.pixels()[i])) ++measured;
+  }
+  const double share = static_cast<double>(outside) /
+                       static_cast<double>(std::max<std::size_t>(1, measured + outside));
+  if (share <= kWarned) return check;
+  const char* const places =
+      phase.pattern.direction == FringeDirection::Vertical ? "columns" : "rows";
+  if (share <= kMost || !check || !check->consistent) {
+    run.warn(
+        fmt::format("the Gray code of {:.0f} % of the measured pixels names {} outside the "
+                    "projector of rig.toml, and they are not measured; check size_px there, "
+                    "and bits, stripe_px and offset_px of the code",
+                    100.0 * share,
+                    places));
+    return check;
+  }
+  check = SequenceCheck{.decided = true, .consistent = false};
+  check->patterns = {phase.pattern.name};
+  check->finding = fmt::format(
+      "the Gray code of {:.0f} % of the measured pixels names {} outside the projector of "
+      "rig.toml; check size_px there, and bits, stripe_px and offset_px of the code",
+      100.0 * share,
+      places);
   return check;
 }
 

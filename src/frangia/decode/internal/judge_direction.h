@@ -42,6 +42,13 @@ struct JudgedFrames {
 [[nodiscard]] std::optional<SequenceCheck> report_uncertain_phase(
     const AbsolutePhase& phase, std::optional<SequenceCheck> check);
 
+/// Reports pixels whose Gray code names columns or rows outside the projector, which are not
+/// measured. Where they are most of the pixels, the code is not what scan.toml or rig.toml says,
+/// and the others are right by chance: the check is inconsistent.
+[[nodiscard]] std::optional<SequenceCheck> report_outside_field(const AbsolutePhase& phase,
+                                                                std::optional<SequenceCheck> check,
+                                                                const Run& run);
+
 /// The check of a direction whose orders come from a pattern of one fringe, which orders by chance
 /// make inconsistent: the phase of a pattern is unrelated to that of the next finer one, of which
 /// some order agrees with any phase.

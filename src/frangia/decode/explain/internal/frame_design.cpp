@@ -54,4 +54,21 @@ Eigen::MatrixXd explained_space(const FrameHypothesis& hypothesis) {
   return out;
 }
 
+bool determine_phase(const std::vector<double>& shifts_rad) {
+  constexpr std::size_t kLeast = 3;
+  constexpr double kMostNoise = 2.0;
+  if (shifts_rad.size() < kLeast) return false;
+  const auto frames = shifts_rad.size();
+  const FrameDesign design = design_of({.frames = {},
+                                        .shifts_rad = shifts_rad,
+                                        .gains = std::vector<double>(frames, 1.0),
+                                        .free = std::vector<bool>(frames, false),
+                                        .lamp_on = {},
+                                        .displaced = {},
+                                        .path = {}});
+  if (design.inverse.size() == 0) return false;
+  const double noise = std::sqrt(0.5 * design.inverse.bottomRows(2).squaredNorm());
+  return noise <= kMostNoise * std::sqrt(2.0 / static_cast<double>(frames));
+}
+
 }  // namespace frangia

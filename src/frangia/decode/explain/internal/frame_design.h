@@ -19,6 +19,10 @@ struct FrameDesign {
 
 [[nodiscard]] FrameDesign design_of(const FrameHypothesis& hypothesis);
 
+/// Whether frames with these shifts determine the phase with at most twice the noise of as many
+/// equal steps.
+[[nodiscard]] bool determine_phase(const std::vector<double>& shifts_rad);
+
 /// The projection on what the hypothesis explains, 0 for free frames.
 ///
 /// @shape    N x N for N frames

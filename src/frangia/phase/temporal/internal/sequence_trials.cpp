@@ -217,7 +217,13 @@ std::vector<SequenceTrial> joint_trials(std::span<const Pattern> patterns) {
       trials.push_back(std::move(trial));
     }
   }
-  for (const double start_deg : kStarts) {
+  // Sequences that begin with another frame differ by a step in all patterns.
+  const double step_deg = 360.0 / static_cast<double>(patterns.front().shifts_rad.size());
+  std::vector<double> starts_deg(kStarts.begin(), kStarts.end());
+  for (const double start_deg : {step_deg, 360.0 - step_deg})
+    if (std::find(starts_deg.begin(), starts_deg.end(), start_deg) == starts_deg.end())
+      starts_deg.push_back(start_deg);
+  for (const double start_deg : starts_deg) {
     SequenceTrial trial;
     trial.fault.what = start_text(patterns.front(), rad_from_deg(start_deg));
     for (std::size_t map = 0; map < patterns.size(); ++map) {
