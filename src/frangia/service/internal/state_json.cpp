@@ -185,6 +185,8 @@ Json json_of_project(const OpenProject& project, const CommandLines& commands) {
                            : Json()},
             {"surface_loading", project.surface_loading},
             {"surface", project.surface ? json_of_surface(*project.surface) : Json()}};
+  if (project.surface && project.surface->inspection)
+    json["surface"]["inspection"]["current"] = has_current_inspection(project);
   const SurfaceVersions none;
   const SurfaceVersions& versions = project.versions ? *project.versions : none;
   json["revision"] = versions.revision;

@@ -111,6 +111,9 @@ struct OpenProject {
 /// Reads the plan of a project into it.
 void read_plan_of(const ProjectFolder& folder, OpenProject& project);
 
+/// Whether its surface was inspected by the present plan against the present reference.
+[[nodiscard]] bool has_current_inspection(const OpenProject& project);
+
 /// Whether its camera is one in software.
 [[nodiscard]] bool is_simulated(const OpenProject& project);
 
