@@ -289,7 +289,8 @@ std::string state_json(const ServiceView& view) {
                                 {"thumbnail_s", entry.thumbnail_s},
                                 {"notes", entry.notes}});
   }
-  json["discarded"] = view.discarded;
+  json["discarded"] = view.bin.names;
+  json["discarded_bytes"] = view.bin.bytes;
   json["project"] = view.project ? json_of_project(*view.project, view.commands) : Json();
   json["jobs"] = Json::array();
   for (const Job& job : view.jobs)

@@ -129,7 +129,7 @@ struct ServiceView {
   std::string version;
   std::vector<ProjectEntry> projects;
   std::vector<LibraryRig> rigs;
-  std::vector<std::string> discarded;          ///< names of the projects in the bin
+  DiscardedProjects bin;                       ///< what was deleted
   std::shared_ptr<const DeviceSearch> search;  ///< null before the first one
   std::optional<OpenProject> project;
   CommandLines commands;  ///< of the project
