@@ -163,10 +163,15 @@ nlohmann::ordered_json Service::Implementation::empty_bin(CommandArguments& argu
   arguments.check_all_read();
   constexpr std::size_t kMostNames = 10'000;
   const bool texts =
-      given.is_array() && given.size() <= kMostNames &&
+      given.is_array() && !given.empty() && given.size() <= kMostNames &&
       std::all_of(given.begin(), given.end(), [](const auto& one) { return one.is_string(); });
   require(texts, "names: is a list of texts");
   const auto names = given.get<std::vector<std::string>>();
+  const std::vector<std::string> known = library_.discarded();
+  for (const std::string& name : names) {
+    require(std::find(known.begin(), known.end(), name) != known.end(),
+            "there is no deleted project of this name");
+  }
   return started("empty", [this, names](const Run& run) {
     run.stage("files");
     try {
