@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cstdint>
 #include <cstdlib>
 #include <filesystem>
@@ -6,6 +7,7 @@
 #include <stop_token>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -28,6 +30,7 @@
 #include "serve/command_lines.h"
 #include "serve/http_server.h"
 #include "serve/lan_door.h"
+#include "serve/own_certificate.h"
 #include "serve/runtime_file.h"
 #include "show_file.h"
 #include "verbs.h"
@@ -107,25 +110,49 @@ void set_password(Terminal& terminal) {
   print_text("wrote {}\n", file.string());
 }
 
-std::unique_ptr<HttpServer> listen(const ServeArguments& arguments) {
+/// `tls_pem`: a certificate with its key; empty without encryption
+std::unique_ptr<HttpServer> listen(const ServeArguments& arguments, const std::string& tls_pem) {
   const std::string address =
       arguments.access.listen.empty() ? "127.0.0.1" : arguments.access.listen;
-  if (arguments.port) return std::make_unique<HttpServer>(address, *arguments.port, HttpLimits{});
+  const auto at = [&](std::uint16_t port) {
+    return std::make_unique<HttpServer>(address, port, HttpLimits{}, tls_pem);
+  };
+  if (arguments.port) return at(*arguments.port);
   try {
-    return std::make_unique<HttpServer>(address, kUsualPort, HttpLimits{});
+    return at(kUsualPort);
   } catch (const Error& error) {  // in use; any other one serves as well
     if (error.kind() != ErrorKind::Device) throw;
-    return std::make_unique<HttpServer>(address, std::uint16_t{0}, HttpLimits{});
+    return at(0);
   }
 }
 
+/// The certificate by which browsers on other machines are answered; empty without encryption.
+OwnCertificate certificate_for(const NetworkAccess& access) {
+  if (!access.encrypts()) return {};
+  std::vector<std::string> addresses = network_addresses();
+  const bool all = access.listen == "0.0.0.0" || access.listen == "::";
+  if (!all && std::find(addresses.begin(), addresses.end(), access.listen) == addresses.end())
+    addresses.push_back(access.listen);
+  return own_certificate(certificate_file(), addresses);
+}
+
+/// `fingerprint`: of the certificate; empty without one
 void print_link(const std::string& link,
+                const std::string& fingerprint,
                 const std::filesystem::path& projects,
                 Terminal& terminal) {
   if (terminal.json) {
-    print_json({{"url", link}, {"projects", projects.string()}});
+    nlohmann::ordered_json json{{"url", link}, {"projects", projects.string()}};
+    if (!fingerprint.empty()) json["fingerprint"] = fingerprint;
+    print_json(json);
   } else {
     print_text("the app is at {}\n", link);
+    if (!fingerprint.empty()) {
+      print_text(
+          "No browser knows the certificate of this machine; compare its SHA-256 fingerprint:\n"
+          "{}\n",
+          fingerprint);
+    }
     if (!terminal.quiet) {
       print_text("The link opens one browser. Projects are in {}. Stop with Ctrl-C.\n",
                  projects.string());
@@ -146,7 +173,8 @@ void serve(ServeArguments& arguments, Terminal& terminal) {
   if (arguments.projects.empty()) arguments.projects = usual_projects();
   arguments.projects = std::filesystem::absolute(arguments.projects).lexically_normal();
   const Run run = terminal.run();
-  const std::unique_ptr<HttpServer> server = listen(arguments);
+  const OwnCertificate certificate = certificate_for(arguments.access);
+  const std::unique_ptr<HttpServer> server = listen(arguments, certificate.pem);
   LanDoor door(certificate_file());
   const auto announce = [&server, &door] {
     server->announce_change();
@@ -182,7 +210,7 @@ void serve(ServeArguments& arguments, Terminal& terminal) {
   const std::shared_ptr<void> closing(nullptr, [&door](void*) { door.close(); });
   const RuntimeFile file(server->port(), keys.issue_key());
   const std::string link = routes.new_link();
-  print_link(link, arguments.projects, terminal);
+  print_link(link, certificate.fingerprint, arguments.projects, terminal);
   std::optional<LinkPage> page;
   std::jthread opener;  // xdg-open may last as long as the browser, which the server must answer
   if (arguments.open) {
@@ -222,7 +250,8 @@ void add_serve_verb(CLI::App& program, Terminal& terminal) {
                  "print a link for one more browser to the server that runs");
   verb->add_option("--listen",
                    arguments->access.listen,
-                   "IP address of this machine for browsers on others; default: 127.0.0.1");
+                   "IP address of this machine for browsers on others, encrypted by a certificate "
+                   "of its own; default: 127.0.0.1");
   verb->add_flag("--behind-proxy",
                  arguments->access.behind_proxy,
                  "browsers come through a reverse proxy that adds TLS");

@@ -29,7 +29,8 @@ class Access(unittest.TestCase):
                 self.assertNotEqual(done.returncode, 0, arguments)
                 return done.stderr
 
-            self.assertIn("--plain-lan", refusal("--listen", "0.0.0.0"))
+            self.assertIn("--allowed-host", refusal("--listen", "0.0.0.0"))
+            self.assertIn("--set-password", refusal("--listen", "0.0.0.0", "--allowed-host", "scanner.test:6328"))
             self.assertIn("--allowed-host", refusal("--behind-proxy"))
             self.assertIn("--allowed-host", refusal("--listen", "0.0.0.0", "--plain-lan"))
             self.assertIn("--set-password", refusal("--listen", "127.0.0.2", "--plain-lan"))

@@ -121,6 +121,14 @@ await tell(home, async () => {
   expect(compared.project.reference.name === 'plate.stp' && compared.project.plan.tolerance_mm[1] === 0.2, 'the mesh is not inspected by what came with it');
   await idle();
   await look('part');
+  // A mesh has no devices and was not scanned: the steps say so, and lead to where devices are chosen.
+  await step(2);
+  await look('no-rig');
+  await step(4);
+  expect((await page.locator('.panel table').count()) === 0, 'a mesh has stations');
+  await look('no-scan');
+  await page.click('[data-next=rig]');
+  await page.waitForSelector('#find-devices');
   passed('a mesh, a cloud, a STEP file, and a mesh with its STEP file and plan');
 
   // A rig, then what was scanned with it, as a folder and as its zip.

@@ -284,18 +284,27 @@ export async function look(page, folder, name) {
 export const stateOf = (page) =>
   page.evaluate(async () => (await fetch('/api/state', { headers: { Authorization: `Bearer ${sessionStorage.getItem('frangia-key')}` } })).json());
 
-/** Waits for the next state that the server sends the page after the one that was noted as `stateSeen`. */
-const nextState = (page) =>
-  page.waitForFunction(() => document.querySelector('frangia-app')?.session.state !== window.stateSeen, null, { timeout: PATIENCE });
+/**
+ * Waits for the next state that the server sends the page after the one that was noted as `stateSeen`, until `deadline`, in
+ * milliseconds of the clock: states that come again and again, as of a live preview, do not prolong it.
+ */
+const nextState = async (page, deadline) => {
+  const timeout = Math.min(PATIENCE, deadline - Date.now());
+  if (timeout <= 0) throw new Error('too late');
+  await page.waitForFunction(() => document.querySelector('frangia-app')?.session.state !== window.stateSeen, null, { timeout });
+};
+/** How long what a story waits for may take, in milliseconds. */
+const LONGEST_WAIT = 5 * PATIENCE;
 
 /** Asks the server for its state, again whenever it sends the page a new one, until it is as wanted; returns it. */
-export async function waitForState(page, wanted) {
+export async function waitForState(page, wanted, longest = LONGEST_WAIT) {
+  const deadline = Date.now() + longest;
   for (;;) {
     // Noted before the question, so that no state is missed that comes meanwhile.
     await page.evaluate(() => (window.stateSeen = document.querySelector('frangia-app')?.session.state));
     const state = await stateOf(page);
     if (wanted(state)) return state;
-    await nextState(page).catch(() => expect(false, `the state does not come: ${wanted}; the jobs are ${JSON.stringify(state.jobs)}`));
+    await nextState(page, deadline).catch(() => expect(false, `the state does not come: ${wanted}; the jobs are ${JSON.stringify(state.jobs)}`));
   }
 }
 
@@ -303,7 +312,8 @@ export async function waitForState(page, wanted) {
 export const lastFailure = async (page) => Math.max(0, ...(await stateOf(page)).jobs.filter((job) => job.state === 'failed').map((job) => job.number));
 
 /** Waits until the open project, as the page knows it and has drawn it, is as wanted; returns it. A job that fails and has a number above `forgiven` ends the wait with its error. */
-export async function waitForProject(page, what, wanted, forgiven = 0) {
+export async function waitForProject(page, what, wanted, forgiven = 0, longest = LONGEST_WAIT) {
+  const deadline = Date.now() + longest;
   for (;;) {
     const { project, jobs } = await page.evaluate(async () => {
       const app = document.querySelector('frangia-app');
@@ -314,7 +324,7 @@ export async function waitForProject(page, what, wanted, forgiven = 0) {
     if (wanted(project)) return project;
     const failed = jobs.find((job) => job.state === 'failed' && job.number > forgiven);
     expect(!failed, `${what}: ${failed?.error}`);
-    await nextState(page).catch(() => expect(false, `${what} does not come; the jobs are ${JSON.stringify(jobs)}`));
+    await nextState(page, deadline).catch(() => expect(false, `${what} does not come; the jobs are ${JSON.stringify(jobs)}`));
   }
 }
 

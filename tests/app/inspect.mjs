@@ -7,7 +7,7 @@
 import { spawnSync } from 'node:child_process';
 import fs from 'node:fs';
 import path from 'node:path';
-import { check, expect, idle as allDone, launch, look as lookAt, newHome, newProject, openPage, passed, requireChromium, settled, startServer, stateOf, stlOf, tell, waitForProject } from './harness.mjs';
+import { check, expect, idle as allDone, lastFailure, launch, look as lookAt, newHome, newProject, openPage, passed, requireChromium, settled, startServer, stateOf, stlOf, tell, waitForProject } from './harness.mjs';
 
 const [program, shots] = process.argv.slice(2).map((name) => path.resolve(name));
 const here = import.meta.dirname ?? path.dirname(new URL(import.meta.url).pathname);
@@ -69,7 +69,8 @@ await tell(home, async () => {
   const page = await openPage(browser, server.url, undefined, { expected: /status of 400/ }); // of a plan with a wrong key
   const look = (name) => lookAt(page, shots, name);
   const idle = () => allDone(page);
-  const until = (what, wanted) => waitForProject(page, what, wanted);
+  let forgiven = 0; // the last job that was to fail
+  const until = (what, wanted) => waitForProject(page, what, wanted, forgiven);
   const state = () => until('the state', () => true);
   const submit = (form) => page.locator(`${form} button`).last().click();
   await page.waitForSelector('#try');
@@ -138,7 +139,7 @@ await tell(home, async () => {
   if ((await page.getAttribute('#pick-feature', 'aria-pressed')) === 'true') await page.click('#pick-feature');
   await settled(page);
   const labels = page.locator('.view-labels text[data-label^="row "]');
-  expect((await labels.count()) === 3 && (await labels.first().textContent()).startsWith('sphere 2 diameter 20.05'), `the labels are ${await labels.allTextContents()}`);
+  expect((await labels.count()) === 3 && (await labels.first().textContent()).startsWith('sphere 2 diameter: 20.05'), `the labels are ${await labels.allTextContents()}`);
   const label = page.locator('.view-labels text[data-label="row Distance 1"]');
   const spot = async () => {
     const { x, y, width, height } = await label.boundingBox();
@@ -176,6 +177,49 @@ await tell(home, async () => {
   await look('results');
   await page.locator('#plan-group').scrollIntoViewIfNeeded();
   await look('plan');
+
+  // The places stand there with their coordinates, and a click on one looks at it alone.
+  await page.click('#places');
+  const inPanel = () => page.evaluate(() => {
+    const panel = document.querySelector('.panel');
+    return panel.scrollWidth <= panel.clientWidth + 1;
+  });
+  expect(await inPanel(), 'the table of places is wider than the panel');
+  expect((await page.locator('.places thead').innerText()).includes('mm'), 'the places have no unit');
+  const rings = () => page.evaluate(() => document.querySelector('frangia-app').inspecting.marks.length);
+  const ringed = await rings();
+  expect(ringed > 1, `${ringed} places are ringed`);
+  await page.locator('.places .link').first().click();
+  await settled(page);
+  expect((await rings()) === 1, 'the place that was clicked is not ringed alone');
+  await look('place');
+  await page.click('#places');
+  await page.evaluate(() => document.querySelector('frangia-app').viewer.frame([0.9, -1.1, 0.6]));
+
+  // What was found by another plan is said to be so, and no report is written of it.
+  await page.locator('#add-characteristic [name=kind]').selectOption('flatness');
+  await page.locator('#add-characteristic [name=feature]').selectOption('sphere 1');
+  await submit('#add-characteristic');
+  await page.waitForSelector('.notice >> text=has no flatness');
+  await page.waitForSelector('#inspect-again:not([disabled])');
+  expect((await page.locator('#verdict .lit').count()) === 0, 'the verdict is that of another plan');
+  expect(await page.locator('#report').isDisabled(), 'a report of another plan');
+  await page.locator('.panel').evaluate((panel) => (panel.scrollTop = 0));
+  await look('outdated');
+  forgiven = await lastFailure(page);
+  await page.locator('[data-planned="Flatness 1"] .icon-btn').click();
+  await until('the verdict again', (project) => project.surface.inspection.current);
+  await idle();
+  await page.waitForSelector('#verdict .out.lit');
+  if (await page.locator('.notice .icon-btn').count()) await page.locator('.notice .icon-btn').first().click();
+
+  // A feature is called as the drawing calls it, also where others refer to it.
+  const naming = page.locator('[data-planned="sphere 1"] .name');
+  await naming.fill('ball A');
+  await naming.press('Tab');
+  const renamed = await until('the name', (project) => project.plan.features.some(({ name }) => name === 'ball A') && project.surface.inspection.current);
+  expect(renamed.plan.characteristics[0].datum === 'ball A', 'the distance refers to a feature that is gone');
+  await idle();
 
   // The command line below finds the same.
   const [, ...line] = (await state()).commands.inspect;

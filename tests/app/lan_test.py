@@ -4,14 +4,16 @@
 """
 import hashlib
 import json
+import os
 import pathlib
 import socket
 import ssl
+import subprocess
 import sys
 import tempfile
 import unittest
 
-from serve_client import PATIENCE, Server
+from serve_client import PATIENCE, PROGRAM, Server
 
 
 class Lan(unittest.TestCase):
@@ -64,6 +66,38 @@ class Lan(unittest.TestCase):
                 self.assertEqual(opened(encrypted=True)["fingerprint"], encrypted["fingerprint"])
             finally:
                 self.assertEqual(server.stop(), 0)
+
+    def test_listens_beyond_this_machine_with_the_same_certificate(self):
+        with tempfile.TemporaryDirectory() as folder:
+            done = subprocess.run(
+                [PROGRAM, "serve", "--set-password"],
+                env={**os.environ, "XDG_CONFIG_HOME": folder},
+                input="a long password\n",
+                text=True,
+                timeout=PATIENCE,
+            )
+            self.assertEqual(done.returncode, 0)
+            fingerprints = []
+            for _ in range(2):
+                server = Server(folder, "--listen", "0.0.0.0", "--allowed-host", "scanner.test", XDG_CONFIG_HOME=folder)
+                try:
+                    self.assertTrue(server.url.startswith("https://scanner.test/#token="), server.url)
+                    certificate = ssl.get_server_certificate(("127.0.0.1", server.port))
+                    fingerprints.append(hashlib.sha256(ssl.PEM_cert_to_DER_cert(certificate)).hexdigest().upper())
+                    context = ssl.create_default_context()
+                    context.check_hostname, context.verify_mode = False, ssl.CERT_NONE
+                    tablet = Tablet(server, "127.0.0.1", server.port, context)
+                    tablet.host = "scanner.test"
+                    wanted = {"password": "a long password"}
+                    for origin, status in (("http://scanner.test", 403), ("https://scanner.test", 200)):
+                        answer = tablet.ask("POST", "/api/session", wanted, key=None, Origin=origin)
+                        self.assertEqual(answer[0], status, answer)
+                    # Nothing is answered without encryption.
+                    self.assertNotIn(b"200 OK", server.raw(b"GET / HTTP/1.1\r\nHost: scanner.test\r\n\r\n", 2))
+                    self.assertEqual(":".join(fingerprints[-1][i : i + 2] for i in range(0, 64, 2)), server.fingerprint)
+                finally:
+                    self.assertEqual(server.stop(), 0)
+            self.assertEqual(*fingerprints)
 
 
 class Tablet(Server):

@@ -4,7 +4,7 @@
 //   node phone.mjs PROGRAM FOLDER      FOLDER receives the screenshots
 import fs from 'node:fs';
 import path from 'node:path';
-import { axe, check, expect, fail, faultsOfLayout, idle, launch, newHome, newProject, openPage, passed, requireChromium, settled, startServer, stateOf, tell, waitForProject, waitForState } from './harness.mjs';
+import { axe, check, expect, fail, faultsOfLayout, idle, launch, look, newHome, newProject, openPage, passed, requireChromium, settled, startServer, stateOf, tell, waitForProject, waitForState } from './harness.mjs';
 
 const [program, shots] = process.argv.slice(2).map((name) => path.resolve(name));
 requireChromium();
@@ -62,6 +62,26 @@ await tell(home, async () => {
   await page.waitForSelector('[data-project="Deckel"]');
   await listed('box', 'Deckel');
   passed('projects are copied, named, deleted and brought back');
+
+  // The bin is emptied after a question that names what it frees, and not without an answer.
+  await act('Deckel', 'discard');
+  await page.click('#ask [data-answer="0"]');
+  await page.waitForSelector('#bin');
+  if (!(await page.locator('#bin').getAttribute('open').then((open) => open !== null))) await page.click('#bin summary');
+  expect(/\d (B|kB|MB)/.test(await page.locator('#empty-bin').innerText()), 'the size of the bin is not told');
+  await look(page, shots, 'phone-bin');
+  await page.click('#empty-bin');
+  await page.waitForSelector('#ask[open]');
+  expect(/Deckel.*\d (B|kB|MB)/s.test(await page.locator('#ask').innerText()), 'the question does not say what is deleted');
+  await page.keyboard.press('Escape');
+  await page.waitForSelector('#ask:not([open])', { state: 'attached' });
+  expect((await stateOf(page)).discarded.length === 1, 'the bin is emptied without an answer');
+  await page.click('#empty-bin');
+  await page.click('#ask [data-answer="0"]');
+  await waitForState(page, ({ discarded, discarded_bytes: size }) => discarded.length === 0 && size === 0);
+  await page.waitForSelector('#bin', { state: 'detached' });
+  await listed('box');
+  passed('the bin is emptied');
 
   await page.getByText('box', { exact: true }).click();
   await page.waitForSelector('#measuring');

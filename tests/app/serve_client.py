@@ -46,6 +46,7 @@ class Server:
                 raise RuntimeError("the server did not start")
             printed += line
         self.url = json.loads(printed)["url"]
+        self.fingerprint = json.loads(printed).get("fingerprint", "")
         self.port = json.loads((self.runtime / "frangia-serve.json").read_text())["port"]
         self.token = self.url.split("#token=")[1]
         self.host = f"127.0.0.1:{self.port}"

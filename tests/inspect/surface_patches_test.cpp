@@ -43,6 +43,25 @@ TEST(SurfacePatches, AveragesNoiseAndKeepsTheSystematicPart) {
   EXPECT_GT(within, patches.size() * 95 / 100);
 }
 
+TEST(SurfacePatches, AreMeasuredWhereverAVertexLies) {
+  // Patches of slightly less than two distances of the vertices: some hold a single one.
+  constexpr int kSize = 201;
+  const Mesh mesh = testing::level_grid(kSize, kSize);
+  const RayScene reference(testing::level_grid(kSize, kSize));
+  const SurfacePatches patches =
+      surface_patches(mesh, deviations_of(mesh, reference), reference, 1.8);
+  std::size_t inner = 0;
+  std::size_t unmeasured = 0;
+  for (std::size_t i = 0; i < patches.size(); ++i) {
+    const Vector3f& at = patches.center_mm[i];
+    if (at.head<2>().minCoeff() < 3.0F || at.head<2>().maxCoeff() > kSize - 4.0F) continue;
+    ++inner;
+    unmeasured += patches.is_measured(i) ? 0U : 1U;
+  }
+  EXPECT_GT(inner, 10'000U);
+  EXPECT_EQ(unmeasured, 0U);
+}
+
 TEST(SurfacePatches, CountsNoiseThatNeighborsShare) {
   Plate plate;
   // All vertices of squares of 3 x 3 err alike: a mean of nine is no better than one vertex.

@@ -194,6 +194,7 @@ TEST(ReportPages, BeginWithPartVerdictAndReason) {
                    .paper = "Letter",
                    .logo = {}};
   report.logo = ReportLogo{"image/png", {'a', 'b', 'c'}};
+  report.reference = "flange.step";
   report.surface.emplace();
   report.surface->conformity = Conformity::In;
   report.surface->coverage = 0.973;
@@ -208,6 +209,8 @@ TEST(ReportPages, BeginWithPartVerdictAndReason) {
                            "Müller &amp; Co",
                            "A. Smith",
                            "2026-11-26",
+                           "flange.step",
+                           ">signature<",
                            "data:image/png;base64,YWJj",
                            "In tolerance",
                            "surface: in, over 97.3 % of the nominal area"})
@@ -239,7 +242,7 @@ TEST(ReportPages, AreThoseThatThePlanNames) {
   const std::map<ReportPage, std::string> headings{
       {ReportPage::Results, "Results, the worst first"},
       {ReportPage::Pictures, "<h2>Pictures"},
-      {ReportPage::Places, "Places that are out or undecided"},
+      {ReportPage::Places, "Places that are out, undecided or not measured"},
       {ReportPage::Thickness, "Thickness of the walls"},
       {ReportPage::Sections, "<h2>Sections"},
       {ReportPage::Features, "Features that were found"},

@@ -127,6 +127,49 @@ TEST_F(ServiceTest, InspectsByAPlanThatThePageMakesAndTheFolderKeeps) {
   EXPECT_NE(state().at("project").at("plan_fault"), "");
 }
 
+TEST_F(ServiceTest, SaysThatResultsAreOfAnotherPlanThanThePresentOne) {
+  open_box();
+  const auto is_current = [&] {
+    return state().at("project").at("surface").at("inspection").at("current").get<bool>();
+  };
+  const Json top = {{"name", "top"}, {"kind", "plane"}, {"near_mm", {0, 0, 5}}};
+  const Json other = {
+      {"name", "other"}, {"kind", "torus"}, {"near_mm", {0, 0, 0}}, {"diameter_mm", 1}};
+  static_cast<void>(command("set-plan", {{"plan", {{"features", {top, other}}}}}));
+  static_cast<void>(command("inspect"));
+  ASSERT_EQ(finish().at("state"), "done");
+  EXPECT_TRUE(is_current());
+  const Json warnings = state().at("project").at("surface").at("inspection").at("warnings");
+  EXPECT_NE(warnings.dump().find("other: no torus was found"), std::string::npos) << warnings;
+  Json plan = state().at("project").at("plan");
+  plan["part"] = "box";
+  plan["report"] = {{"serial", "17"}};
+  static_cast<void>(command("set-plan", {{"plan", plan}}));
+  EXPECT_TRUE(is_current()) << "the head of the report changes nothing that was measured";
+
+  // A plan by which nothing can be inspected leaves the results of the plan before.
+  plan["characteristics"] = {{{"name", "wrong"}, {"kind", "roundness"}, {"feature", "top"}}};
+  static_cast<void>(command("set-plan", {{"plan", plan}}));
+  static_cast<void>(command("inspect"));
+  EXPECT_EQ(finish().at("state"), "failed");
+  EXPECT_FALSE(is_current());
+  EXPECT_NE(refusal("report", R"({"format": "html"})").find("inspect again"), std::string::npos);
+  static_cast<void>(command("report", {{"format", "toml"}}));
+  EXPECT_EQ(finish().at("state"), "done") << "the plan can be saved";
+  plan.erase("characteristics");
+  static_cast<void>(command("set-plan", {{"plan", plan}}));
+  EXPECT_TRUE(is_current());
+
+  const auto file = folder_.path() / "nominal.stl";
+  write_mesh(file, testing::box({-5, -5, -5}, {5, 5, 5}));
+  const std::string bytes = read_text_file(file);
+  service_->add_to_reference(0, bytes);
+  static_cast<void>(command("set-reference",
+                            {{"name", "nominal.stl"}, {"format", "stl"}, {"bytes", bytes.size()}}));
+  static_cast<void>(finish());
+  EXPECT_FALSE(is_current()) << "nothing was compared with the reference yet";
+}
+
 TEST_F(ServiceTest, InspectsTheNextPartByTheSamePlan) {
   open_box(60);
   const Json side = {{"name", "ball"},

@@ -9,7 +9,9 @@
 
 #include <gtest/gtest.h>
 
+#include "frangia/core/durable_file.h"
 #include "frangia/core/folder_lock.h"
+#include "frangia/core/read_file.h"
 
 #include "support/error_of.h"
 #include "support/temporary_folder.h"
@@ -83,6 +85,42 @@ TEST(ProjectLibrary, RenamesCopiesDeletesAndPutsBack) {
   EXPECT_EQ(library.take_back("Other"), "Other 2") << "the name was given to another one since";
   EXPECT_EQ(names(), (Names{"Other", "Other 2", "Part"}));
   EXPECT_NE(error_of([&] { static_cast<void>(library.take_back("../Part")); }), "");
+}
+
+TEST(ProjectLibrary, EmptiesItsBinAndNothingElse) {
+  const testing::TemporaryFolder folder;
+  const auto outside = folder.path() / "outside.txt";
+  write_text_file(outside, "kept");
+  const ProjectLibrary library(folder.path() / "projects");
+  for (const char* name : {"A", "B", "C"}) {
+    const ProjectFolder made = library.create(name);
+    write_text_file(made.folder / "notes.txt", "12345");
+    std::filesystem::create_symlink(outside, made.folder / "link");
+    std::filesystem::create_directory_symlink(folder.path(), made.folder / "folder");
+  }
+  library.discard("A");
+  library.discard("B");
+  const auto size_of_a = library.in_bin().bytes / 2;
+  EXPECT_GT(size_of_a, 5U);
+  EXPECT_LT(size_of_a, 200U) << "links are not followed";
+  EXPECT_NE(error_of([&] { library.empty_bin({"A", "C"}, {}); }), "") << "C is not in the bin";
+  EXPECT_NE(error_of([&] { library.empty_bin({"../C"}, {}); }), "");
+  EXPECT_NE(error_of([&] { library.empty_bin({".."}, {}); }), "");
+  EXPECT_EQ(library.discarded().size(), 2U) << "nothing is deleted before all names are known";
+  library.empty_bin({"A"}, {});
+  EXPECT_EQ(library.discarded(), std::vector<std::string>{"B"});
+  EXPECT_EQ(library.in_bin().bytes, size_of_a);
+  // What an interrupted deletion left goes with the next one.
+  std::filesystem::create_directories(library.bin() / ".deleted" / "rest");
+  library.empty_bin({"B"}, {});
+  EXPECT_TRUE(std::filesystem::is_empty(library.bin()));
+  EXPECT_EQ(library.list().size(), 1U);
+  EXPECT_EQ(read_text_file(outside), "kept");
+  // Nothing is deleted through a link in place of the bin.
+  std::filesystem::remove(library.bin());
+  std::filesystem::create_directory_symlink(library.root(), library.bin());
+  EXPECT_NE(error_of([&] { library.empty_bin({"C"}, {}); }), "");
+  EXPECT_EQ(library.list().size(), 1U);
 }
 
 TEST(ProjectLibrary, LeavesAProjectThatSomebodyHasOpen) {

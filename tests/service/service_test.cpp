@@ -297,6 +297,26 @@ TEST_F(ServiceTest, CopiesTheProjectThatItHasOpenAndNoneThatAnotherOneHas) {
   EXPECT_EQ(state().at("project").at("name"), "Part");
 }
 
+TEST_F(ServiceTest, EmptiesTheBinOfWhatIsNamed) {
+  for (const char* name : {"A", "B"}) {
+    static_cast<void>(command("create-project", {{"name", name}, {"devices", true}}));
+    static_cast<void>(finish());
+    static_cast<void>(command("discard-project", {{"name", name}}));
+  }
+  EXPECT_GT(state().at("discarded_bytes"), 0);
+  EXPECT_NE(refusal("empty-bin", R"({"names": "A"})"), "");
+  EXPECT_NE(refusal("empty-bin", R"({"names": [1]})"), "");
+  static_cast<void>(command("empty-bin", {{"names", {"A"}}}));
+  EXPECT_EQ(finish().at("state"), "done");
+  EXPECT_EQ(state().at("discarded"), Json::array({"B"})) << "what came after the question stays";
+  EXPECT_NE(refusal("empty-bin", R"({"names": ["A"]})"), "") << "it is gone";
+  EXPECT_NE(refusal("empty-bin", R"({"names": ["../A"]})"), "");
+  EXPECT_NE(refusal("empty-bin", R"({"names": []})"), "");
+  static_cast<void>(command("empty-bin", {{"names", {"B"}}}));
+  EXPECT_EQ(finish().at("state"), "done");
+  EXPECT_EQ(state().at("discarded_bytes"), 0);
+}
+
 TEST_F(ServiceTest, OpensAMeshInAProjectOfItsOwnAndLeavesNothingOfWhatItCannotRead) {
   const auto send = [&](const std::string& name, const std::string& bytes) {
     static_cast<void>(command("create-project", {{"name", name}, {"devices", true}}));

@@ -6,6 +6,7 @@ import type { Drawn } from './ruler';
 import { requireSendable } from './session';
 import type { CharacteristicKind, Plan, PlannedCharacteristic, PlannedFeature } from './inspection_types';
 import type { FoundFeature, Inspection, Triple } from './types';
+import type { Viewer } from './viewer';
 import type { PickedFace } from './viewer_events';
 
 /** The name of the next part: the number at the end of this one's grows. */
@@ -66,6 +67,8 @@ export class Inspecting {
   sent: number | null = null;
   /** Whether the places that are out or undecided are ringed in the picture. */
   placesShown = false;
+  /** Index of the place that was looked at last. */
+  placeChosen: number | null = null;
   /** The kind of the characteristic that is being added. */
   kind: CharacteristicKind = 'distance';
   /** Index of the feature that was clicked last. */
@@ -175,6 +178,24 @@ export class Inspecting {
   foundOf(planned: PlannedFeature): FoundFeature | undefined {
     return this.found?.features.find(({ name }) => name === planned.name);
   }
+  /** Gives a feature or characteristic another name, also where others refer to it. */
+  rename(name: string, wanted: string): void {
+    const { plan } = this;
+    const names = [...(plan.features ?? []), ...(plan.characteristics ?? [])].map((one) => one.name);
+    if (wanted === name || !wanted) return this.app.requestUpdate();
+    if (names.includes(wanted)) return this.app.say(t('inspect.nameTaken', { name: wanted }));
+    const to = <T extends string | undefined>(one: T) => (one === name ? wanted : one);
+    void this.change({
+      features: (plan.features ?? []).map((one) => ({ ...one, name: to(one.name) })),
+      characteristics: (plan.characteristics ?? []).map((one) => ({
+        ...one,
+        name: to(one.name),
+        ...(one.feature === undefined ? {} : { feature: to(one.feature) }),
+        ...(one.datum === undefined ? {} : { datum: to(one.datum) }),
+      })),
+      ...(plan.datums ? { datums: plan.datums.map(to) } : {}),
+    });
+  }
   changeFeature(name: string, change: Partial<PlannedFeature>): void {
     void this.change({
       features: (this.plan.features ?? []).map((one) => (one.name === name ? { ...one, ...change } : one)),
@@ -214,6 +235,19 @@ export class Inspecting {
   }
   showPlaces(shown: boolean): void {
     this.placesShown = shown;
+    this.placeChosen = null;
+    this.app.requestUpdate();
+  }
+  /** Looks at a place from where it faces, and rings it alone; a second time rings all of them again. */
+  choosePlace(index: number, viewer: Viewer): void {
+    const place = this.found?.places[index];
+    this.placeChosen = this.placeChosen === index ? null : index;
+    if (place && this.placeChosen !== null && viewer.supported)
+      viewer.view.visit(
+        placed(place.at_mm),
+        placed(place.normal),
+        Math.max(viewer.size.length() / 8, 1.5 * place.area_mm2 ** 0.5),
+      );
     this.app.requestUpdate();
   }
   /** What is ringed in the picture. */
@@ -221,9 +255,13 @@ export class Inspecting {
     const { found } = this;
     if (!found) return [];
     const feature = this.chosen === null ? undefined : found.features[this.chosen];
-    const places = this.placesShown ? found.places : [];
+    const places = this.placesShown && found.current ? found.places : [];
+    const alone = this.placeChosen === null ? undefined : places[this.placeChosen];
     return [
-      ...places.map(({ at_mm, area_mm2 }) => ({ center_mm: placed(at_mm), size_mm: Math.sqrt(area_mm2) })),
+      ...(alone ? [alone] : places).map(({ at_mm, area_mm2 }) => ({
+        center_mm: placed(at_mm),
+        size_mm: Math.sqrt(area_mm2),
+      })),
       ...(feature ? [{ center_mm: placed(feature.at_mm), size_mm: feature.diameter_mm ?? 0 }] : []),
     ];
   }
@@ -232,6 +270,7 @@ export class Inspecting {
   get labels(): Drawn[] {
     const MOST = 12; // more cover each other and the part
     const { found, plan } = this;
+    if (found && !found.current && !this.app.occupied) return [];
     const features = plan.features ?? [];
     const ofName = (name: string) =>
       (plan.characteristics ?? []).find((one) => one.name === name)?.feature ??
@@ -245,11 +284,11 @@ export class Inspecting {
         const feature = found?.features.find(({ name }) => name !== null && name === ofName(row.name));
         if (!feature || row.value === null) return [];
         const at = placed(feature.at_mm);
-        const value = `${number(row.value, row.unit === 'mm' ? 3 : 2)} ${row.unit === 'mm' ? 'mm' : '°'}`;
+        const value = `${number(row.value, row.unit === 'mm' ? 3 : 2)}${row.unit === 'mm' ? ' mm' : '°'}`;
         return [
           {
             key: `row ${row.name}`,
-            text: `${row.name} ${value}`,
+            text: `${row.name}: ${value}`,
             verdict: row.verdict,
             points: [at],
             from: at,
@@ -293,11 +332,13 @@ export class Inspecting {
   /** Shows the deviations that were asked for, and none that there are no longer. */
   follow(): void {
     const { app, revision } = this;
-    const compared = Boolean(app.state.project?.surface?.comparison);
+    // Results of another plan or reference color nothing, unless new ones are on their way.
+    const compared = Boolean(app.state.project?.surface?.comparison) && (this.found?.current || app.occupied);
     if (revision >= 0 && this.wantedAfter !== null && this.wantedAfter !== revision) {
       this.wantedAfter = null;
       if (compared) app.setLook({ coloring: 'deviation' });
     }
+    if (this.placeChosen !== null && this.placeChosen >= (this.found?.places.length ?? 0)) this.placeChosen = null;
     if (this.chosen !== null && this.chosen >= (this.found?.features.length ?? 0)) this.chosen = null;
     if (!compared && app.look.coloring === 'deviation') app.setLook({ coloring: 'plain' });
     const job = this.report && app.state.jobs.find((one) => one.number === this.report?.job);

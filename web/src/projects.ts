@@ -122,6 +122,15 @@ export class Projects {
       this.pictured.delete(name); // another one may get the name
     }
   }
+  /** Deletes for good what the bin holds now; `size` is that of it, for the question. */
+  async emptyBin(size: string): Promise<void> {
+    const { discarded: names } = this.app.state;
+    const asked =
+      names.length === 1
+        ? t('home.emptyAskOne', { name: names[0] as string, size })
+        : t('home.emptyAsk', { count: names.length, size });
+    if (await this.app.asking.confirm(asked, t('home.emptyBin'))) await this.app.command('empty-bin', { names });
+  }
   async forgetRig(name: string): Promise<void> {
     if (await this.app.asking.confirm(t('rigs.discardAsk', { name }), t('rigs.discard')))
       await this.app.command('discard-rig', { name });

@@ -59,7 +59,9 @@ export const bytes = (count: number, format: (value: number, digits: number) => 
     ? `${format(count, 0)} B`
     : count < 1e6
       ? `${format(count / 1e3, 0)} kB`
-      : `${format(count / 1e6, 1)} MB`;
+      : count < 1e9
+        ? `${format(count / 1e6, 1)} MB`
+        : `${format(count / 1e9, 1)} GB`;
 
 /** A field with a number and the button that uses it. */
 export const numberForm = (

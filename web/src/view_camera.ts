@@ -1,5 +1,6 @@
 import * as THREE from 'three';
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
+import type { Triple } from './types';
 import { listenToFingers } from './view_fingers';
 
 /** A lasso in space: the eye, then the corners, as `frangia edit --select-outline` takes them. */
@@ -62,6 +63,11 @@ export class ViewCamera {
   /** Puts a point into the middle of the picture, nearer than before. */
   approach(point: THREE.Vector3): void {
     this.place(point, this.away, this.halfHeight * CLOSER);
+  }
+
+  /** Puts a point into the middle of the picture, seen from a direction; `halfHeight` of it is shown upright, mm. */
+  visit(point: Triple, from: Triple, halfHeight: number): void {
+    this.place(new THREE.Vector3(...point), new THREE.Vector3(...from), halfHeight);
   }
 
   /** Looks from where a camera is, along its axis and with its field of view, at what is a distance away. */

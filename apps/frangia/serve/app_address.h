@@ -17,14 +17,17 @@ struct AppAddress {
 
 /// How a server is reached from other machines.
 struct NetworkAccess {
-  std::string listen;                      ///< IP address; empty: 127.0.0.1 only
-  bool behind_proxy = false;               ///< a reverse proxy on this machine adds TLS
-  bool plain_lan = false;                  ///< without encryption, by explicit wish
-  bool encrypted_lan = false;              ///< by a certificate of the machine's own
+  std::string listen;          ///< IP address; empty: 127.0.0.1 only
+  bool behind_proxy = false;   ///< a reverse proxy on this machine adds TLS
+  bool plain_lan = false;      ///< without encryption, by explicit wish
+  bool encrypted_lan = false;  ///< by a certificate of the machine's own, see `encrypts`
   std::vector<std::string> allowed_hosts;  ///< names of the machine, with a port where not usual
 
   /// @errors   Error(Input) that names the option which is missing or contradicts another one
   void check(bool has_password) const;
+  /// Whether the server encrypts by a certificate of the machine's own: beyond this machine, unless
+  /// a proxy does or it is not wanted.
+  [[nodiscard]] bool encrypts() const;
 };
 
 /// The addresses of a server on a port.

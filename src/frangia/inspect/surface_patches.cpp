@@ -261,7 +261,9 @@ SurfacePatches surface_patches(const Mesh& mesh,
   run.check();
   for (std::size_t i = 0; i < patch_count; ++i) {
     const auto [mean, area_mm2] = filter.average(i);
-    if (!(area_mm2 > 0.0 && area_mm2 >= kMeasuredShare * inside[i])) continue;
+    // A ball holds as much of a plane or a sphere through its center as a disk of its diameter:
+    // what the samples count beyond that is their scatter, of three samples of nine.
+    if (!(area_mm2 > 0.0 && area_mm2 >= kMeasuredShare * std::min(inside[i], disk))) continue;
     means[i] = mean;
     patches.deviation_mm[i] = static_cast<float>(means[i]->deviation_mm);
     patches.noise_mm[i] = static_cast<float>(means[i]->noise_mm);

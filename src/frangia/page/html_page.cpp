@@ -25,6 +25,11 @@ th{background:#eef0f4;font-weight:600;vertical-align:bottom}
 table.facts{width:100%;table-layout:fixed}table.facts td{text-align:left;overflow-wrap:anywhere}
 table.facts td:first-child{width:27%;color:#5a6470}
 table.short{break-inside:avoid}
+table.fixed{width:100%;table-layout:fixed}
+.fixed td,.fixed th{padding-left:.25em;padding-right:.25em;box-sizing:border-box}.fixed th{font-size:7pt}
+.signature{width:100%;table-layout:fixed;margin:11mm 0 0}
+.signature td{border:0;border-top:.5pt solid #5a6470;padding:.2em 0 0;text-align:left;color:#5a6470}
+.signature .space{width:6%;border:0}
 .in{color:#0a6b2d;font-weight:600}.out{color:#b00020;font-weight:600}.undecided{color:#8a5a00;font-weight:600}
 .verdict{padding:.45em .8em;border-left:4pt solid #888;background:#f4f4f6;break-inside:avoid}
 .good{border-color:#0a8a3d;background:#eaf6ee}.bad{border-color:#b00020;background:#fbeaec}
@@ -127,15 +132,23 @@ void HtmlPage::verdict(std::string_view kind, std::string_view text) {
 }
 
 void HtmlPage::table(const std::vector<std::string>& columns,
-                     const std::vector<std::vector<std::string>>& rows) {
+                     const std::vector<std::vector<std::string>>& rows,
+                     const std::vector<double>& shares) {
   // Without names a table lists facts.
   const bool named = std::any_of(
       columns.begin(), columns.end(), [](const auto& column) { return !column.empty(); });
   constexpr std::size_t kShort = 12;  // rows: such a table stays on one page
   const char* const classes = rows.size() <= kShort ? " short" : "";
-  body_ += fmt::format(
-      "<table class=\"{}{}\">{}", named ? "list" : "facts", classes, named ? "<thead><tr>" : "");
+  body_ += fmt::format("<table class=\"{}{}{}\">",
+                       named ? "list" : "facts",
+                       classes,
+                       shares.empty() ? "" : " fixed");
+  if (!shares.empty()) body_ += "<colgroup>";
+  for (const double share : shares)
+    body_ += fmt::format("<col style=\"width:{:.4g}%\">", 100.0 * share);
+  if (!shares.empty()) body_ += "</colgroup>";
   if (named) {
+    body_ += "<thead><tr>";
     for (const std::string& column : columns)
       body_ += fmt::format("<th>{}</th>", word(column));
     body_ += "</tr></thead>";

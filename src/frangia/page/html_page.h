@@ -36,10 +36,12 @@ class HtmlPage {
   /// A line that stands out: `kind` is "good", "bad" or "open".
   void verdict(std::string_view kind, std::string_view text);
   /// A table; a cell that is in, out or undecided is colored. Its head is repeated on each sheet.
+  /// `shares` are the widths of the columns, of that of the sheet; empty: as their texts need.
   ///
-  /// @shape    each row has one cell for each column
+  /// @shape    each row has one cell for each column, and `shares` one number
   void table(const std::vector<std::string>& columns,
-             const std::vector<std::vector<std::string>>& rows);
+             const std::vector<std::vector<std::string>>& rows,
+             const std::vector<double>& shares = {});
   void begin_figures();  ///< figures until `end_figures` stand side by side
   /// A picture, as PNG within the page.
   void picture(const Image<Rgb>& picture, std::string_view caption);

@@ -105,7 +105,7 @@ std::vector<ReportPicture> feature_pictures(const Mesh& mesh,
       if (!shown[i]) continue;
       labelled[i] = true;
       picture.labels.push_back(
-          {fmt::format("{}: {}", i + 1, names[i]), "", Conformity::In, *shown[i]});
+          {fmt::format("{}: {}", i + 1, names[i]), "", std::nullopt, *shown[i]});
     }
     pictures.push_back(std::move(picture));
     return true;

@@ -26,6 +26,7 @@ struct InspectionReport {
   ReportFields fields;             ///< of the plan
   std::optional<ReportLogo> logo;  ///< that `fields` names
   std::string mesh;                ///< name of the file of the mesh
+  std::string reference;           ///< name of the file that it was compared with; empty: none
   std::string created;             ///< date and time
   std::string version;             ///< of the software
   /// Further facts, each with its name: files, checksums, rig, date of the calibration.

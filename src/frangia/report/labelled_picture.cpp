@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <optional>
 #include <set>
 
 #include <fmt/format.h>
@@ -56,7 +57,8 @@ namespace {
 constexpr double kSheetWidth_mm = 182.0;  // A4 less its margins
 constexpr double kBoxInset_px = 4.0;      // of a label in its column
 
-const char* color_of_label(Conformity conformity) {
+const char* color_of_label(std::optional<Conformity> conformity) {
+  if (!conformity) return "#3a434d";
   if (conformity == Conformity::Out) return "#b00020";
   return conformity == Conformity::In ? "#0a6b2d" : "#8a5a00";
 }

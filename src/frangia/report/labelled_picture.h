@@ -35,9 +35,9 @@ namespace frangia {
 
 /// A label of a place in a picture.
 struct PictureLabel {
-  std::string text;    ///< value and uncertainty, such as "+0.153 ± 0.021 mm"
-  std::string detail;  ///< what it is: "largest", or the name of a characteristic
-  Conformity conformity = Conformity::Undecided;    ///< its color
+  std::string text;                      ///< value and uncertainty, such as "+0.153 ± 0.021 mm"
+  std::string detail;                    ///< what it is: "largest", or the name of a characteristic
+  std::optional<Conformity> conformity;  ///< its color; none: has no tolerance
   Eigen::Vector2d at_px = Eigen::Vector2d::Zero();  ///< the place, from the upper left
 };
 

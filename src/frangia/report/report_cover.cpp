@@ -49,6 +49,7 @@ std::vector<std::pair<const char*, const std::string*>> facts_of(const Inspectio
   add("customer", fields.customer);
   add("operator", fields.inspector);
   add("mesh", report.mesh);
+  add("reference", report.reference);
   return facts;
 }
 
@@ -92,7 +93,7 @@ std::size_t rows_on_cover(const InspectionReport& report,
   constexpr double kWarning_mm = 10.0;
   constexpr double kPicture_mm = 92.0;
   constexpr std::size_t kWarnings = 4;  // three, and how many there are besides
-  double room_mm = report.fields.paper == "Letter" ? 71.0 : 90.0;
+  double room_mm = report.fields.paper == "Letter" ? 55.0 : 74.0;  // less the signature
   if (report.pictures.empty()) room_mm += kPicture_mm;
   room_mm -= kWarning_mm * static_cast<double>(std::min(report.warnings.size(), kWarnings));
   for (const std::string& reason : reasons_of(report, words))
@@ -189,6 +190,15 @@ void add_verdict(HtmlPage& page, const InspectionReport& report, const ReportWor
                   reasons));
 }
 
+/// Where the report is signed.
+void add_signature(HtmlPage& page) {
+  page.html(
+      fmt::format("<table class=\"signature\"><tr><td>{}</td><td class=\"space\"></td><td>{}</td>"
+                  "</tr></table>\n",
+                  page.word("date"),
+                  page.word("signature")));
+}
+
 /// Rows of the table of results, the worst first.
 std::vector<MeasuredCharacteristic> rows_of_results(const InspectionReport& report) {
   std::vector<MeasuredCharacteristic> rows = report.characteristics;
@@ -232,6 +242,7 @@ void add_cover(HtmlPage& page, const InspectionReport& report, const ReportWords
   }
   if (has_verdict(report)) {
     page.html(fmt::format("<p class=\"small\">{}</p>\n", page.word(kDecisionRule)));
+    add_signature(page);
   }
   page.new_sheet();
   if (all_follow) add_all_results(page, report, words);

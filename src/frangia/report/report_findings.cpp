@@ -42,7 +42,7 @@ std::string decision_text(const SurfacePlace& place) {
 void add_places(HtmlPage& page, const InspectionReport& report, const ReportWords& words) {
   constexpr std::size_t kMostPlaces = 12;
   if (!report.surface || report.surface->places.empty()) return;
-  page.heading("Places that are out or undecided");
+  page.heading("Places that are out, undecided or not measured");
   Rows rows;
   for (const SurfacePlace& place : report.surface->places) {
     if (rows.size() == kMostPlaces) break;
@@ -125,9 +125,12 @@ void add_found_features(HtmlPage& page, const InspectionReport& report, const Re
   }
   std::vector<std::string> names{
       "feature", "no.", "diameter, mm", "U95, mm", "form, mm", "center, mm", "axis", "points"};
-  if (!report.nominals.empty())
+  std::vector<double> shares{0.29, 0.05, 0.13, 0.1, 0.1, 0.12, 0.11, 0.1};
+  if (!report.nominals.empty()) {
     names.insert(names.begin() + 3, {"CAD face", "nominal, mm", "difference, mm"});
-  page.table(names, rows);
+    shares = {0.175, 0.04, 0.115, 0.075, 0.095, 0.1, 0.075, 0.075, 0.09, 0.085, 0.075};
+  }
+  page.table(names, rows, shares);
 }
 
 void add_blades(HtmlPage& page,

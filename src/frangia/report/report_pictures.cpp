@@ -97,7 +97,7 @@ std::vector<LabelledPlace> labelled_places(const Inspection& part) {
     const char* const unit = row.unit == "degrees" ? "°" : " mm";
     PictureLabel label{fmt::format("{:.4f}{}", row.value, unit),
                        row.name,
-                       row.limits ? row.conformity : Conformity::Undecided,
+                       row.limits ? std::optional(row.conformity) : std::nullopt,
                        {}};
     const std::size_t count = ++labelled[row.feature];
     if (count > kMostOfFeature) continue;
@@ -123,7 +123,7 @@ std::vector<LabelledPlace> thinnest_place(const Inspection& part) {
       normals[static_cast<std::size_t>(at - part.mesh.vertices_mm.begin())];
   std::string text = fmt::format("{:.4f}", walls.min_mm);
   if (std::isfinite(walls.min_u_mm)) text += fmt::format(" ± {:.4f}", kNormal95 * walls.min_u_mm);
-  return {{{text, "thinnest", Conformity::Undecided, {}},
+  return {{{text, "thinnest", std::nullopt, {}},
            {walls.min_at_mm, normal.cast<double>().normalized()}}};
 }
 

@@ -72,15 +72,19 @@ std::vector<std::pair<std::string, double>> uncertainty_terms_of(const Inspectio
   return terms;
 }
 
+/// For people; empty without a reference.
+std::string reference_name(const ReportSources& sources) {
+  return sources.reference_name.empty() ? sources.reference.filename().string()
+                                        : sources.reference_name;
+}
+
 NamedTexts conditions_of(const InspectionPlan& plan, const ReportSources& sources) {
   const ReportWords words(plan.report.language);
   NamedTexts conditions;
   if (!sources.mesh.empty())
     conditions.emplace_back("SHA-256 of the mesh", sha256_of_file(sources.mesh));
   if (!sources.reference.empty()) {
-    conditions.emplace_back("reference",
-                            sources.reference_name.empty() ? sources.reference.filename().string()
-                                                           : sources.reference_name);
+    conditions.emplace_back("reference", reference_name(sources));
     conditions.emplace_back("SHA-256 of the reference", sha256_of_file(sources.reference));
   }
   if (!plan.file.empty()) {
@@ -205,6 +209,7 @@ InspectionReport report_of(const Inspection& part,
   report.fields = plan.report;
   if (!plan.report.logo.empty()) report.logo = read_logo(plan.report.logo);
   report.mesh = sources.mesh.filename().string();
+  report.reference = reference_name(sources);
   report.created = created_now();
   report.version = sources.version;
   report.conditions = conditions_of(plan, sources);

@@ -19,6 +19,7 @@ namespace {
 
 constexpr const char* kProjectFile = "project.json";
 constexpr const char* kBin = ".bin";
+constexpr const char* kDeleted = ".deleted";  // in the bin: what is being deleted
 constexpr const char* kProjectText = "{\"format\": \"frangia-project\", \"version\": 1}\n";
 
 bool is_file(const std::filesystem::path& path) {
@@ -273,6 +274,47 @@ std::string ProjectLibrary::take_back(const std::string& name) const {
   const auto folder = free_name(root_, name);
   move_folder(bin() / name, folder);
   return folder.filename().string();
+}
+
+DiscardedProjects ProjectLibrary::in_bin() const {
+  DiscardedProjects found{discarded(), 0};
+  for (const std::string& name : found.names) {
+    std::error_code error;
+    std::filesystem::recursive_directory_iterator entry(bin() / name, error);
+    for (; !error && entry != std::filesystem::end(entry); entry.increment(error)) {
+      std::error_code unknown;
+      if (!entry->is_symlink(unknown) && entry->is_regular_file(unknown)) {
+        const auto size = entry->file_size(unknown);
+        if (!unknown) found.bytes += size;
+      }
+    }
+  }
+  return found;
+}
+
+void ProjectLibrary::empty_bin(const std::vector<std::string>& names, const Run& run) const {
+  const std::vector<std::string> known = discarded();
+  for (const std::string& name : names) {
+    if (std::find(known.begin(), known.end(), name) == known.end())
+      throw Error(ErrorKind::Input, "there is no deleted project of this name");
+  }
+  const auto below = path_below(root_, kBin);
+  const auto away = path_below(below, kDeleted);
+  const auto remove = [&] {
+    std::error_code error;
+    std::filesystem::remove_all(away, error);
+    if (error) {
+      throw Error(ErrorKind::File,
+                  fmt::format("{}: cannot be deleted: {}", away.string(), error.message()));
+    }
+  };
+  remove();
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    run.check();
+    move_folder(below / names[i], away);
+    remove();
+    run.report(static_cast<double>(i + 1) / static_cast<double>(names.size()));
+  }
 }
 
 ProjectFolder ProjectLibrary::create(const std::string& name) const {

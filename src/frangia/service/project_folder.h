@@ -91,6 +91,12 @@ struct ProjectEntry {
 /// @errors   Error(Input) that names the folder when it is neither a project nor a scan folder
 [[nodiscard]] ProjectFolder project_in(const std::filesystem::path& folder);
 
+/// What a library has in its bin.
+struct DiscardedProjects {
+  std::vector<std::string> names;  ///< sorted
+  std::uintmax_t bytes = 0;        ///< size of all their files
+};
+
 /// The projects in one folder. Names that arrive from a network reach the file system through this
 /// class only: `find` compares them with the folder's entries and never makes a path from them.
 class ProjectLibrary {
@@ -136,6 +142,14 @@ class ProjectLibrary {
   ///
   /// @errors   Error(Input) when the bin holds none of this name
   std::string take_back(const std::string& name) const;
+  /// The names with the size of their files; links are not followed.
+  [[nodiscard]] DiscardedProjects in_bin() const;
+  /// Deletes projects of the bin for good, and what an interrupted deletion left. Nothing outside
+  /// of the bin is deleted, and no project halfway: one that was begun is no project any more.
+  ///
+  /// @errors   Error(Input) when the bin holds none of a name, before anything is deleted, or is a
+  ///          link; Error(File) when something cannot be deleted; Error(Cancelled)
+  void empty_bin(const std::vector<std::string>& names, const Run& run) const;
 
  private:
   /// The folder of a name that no project has.

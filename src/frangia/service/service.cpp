@@ -42,7 +42,7 @@ Service::Implementation::Implementation(ServiceOptions options, std::function<vo
       }),
       projects_(library_.list()),
       kept_rigs_(rigs_.list()),
-      discarded_(library_.discarded()),
+      bin_(library_.in_bin()),
       queue_(on_change_) {}
 
 std::string Service::Implementation::command(const std::string& name, const std::string& text) {
@@ -54,6 +54,7 @@ std::string Service::Implementation::command(const std::string& name, const std:
       {"duplicate-project", &Implementation::duplicate_project},
       {"discard-project", &Implementation::discard_project},
       {"take-back-project", &Implementation::take_back_project},
+      {"empty-bin", &Implementation::empty_bin},
       {"set-notes", &Implementation::set_notes},
       {"set-thumbnail", &Implementation::set_thumbnail},
       {"measure", &Implementation::start_measure},
@@ -114,6 +115,7 @@ std::string Service::Implementation::command(const std::string& name, const std:
                                                        "duplicate-project",
                                                        "discard-project",
                                                        "take-back-project",
+                                                       "empty-bin",
                                                        "set-notes",
                                                        "find-devices",
                                                        "identify-displays",
@@ -157,7 +159,7 @@ std::string Service::Implementation::state() const {
     view.version = options_.version;
     view.projects = projects_;
     view.rigs = kept_rigs_;
-    view.discarded = discarded_;
+    view.bin = bin_;
     view.project = project_;
     view.search = search_;
   }
@@ -257,12 +259,12 @@ void Service::Implementation::change(const std::function<void(OpenProject&)>& ed
 void Service::Implementation::refresh_projects() {
   auto entries = library_.list();
   auto rigs = rigs_.list();
-  auto discarded = library_.discarded();
+  auto bin = library_.in_bin();
   {
     const std::lock_guard lock(mutex_);
     projects_ = std::move(entries);
     kept_rigs_ = std::move(rigs);
-    discarded_ = std::move(discarded);
+    bin_ = std::move(bin);
   }
   on_change_();
 }

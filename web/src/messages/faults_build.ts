@@ -239,4 +239,9 @@ export const FAULTS_BUILD = {
     'die Fläche hat sich geändert; neu prüfen',
     'la superficie è cambiata; ispezionarla di nuovo',
   ],
+  'fault.planChanged': [
+    'the plan or the reference has changed; inspect again',
+    'der Plan oder die Referenz hat sich geändert; neu prüfen',
+    'il piano o il riferimento è cambiato; ispezionare di nuovo',
+  ],
 } as const satisfies Rows;

@@ -222,4 +222,5 @@ export const FAULTS_SERVICE_COMMANDS = {
     'seit der Aufnahme dieser Station wurde das Teil umgedreht; sie in einer neuen Aufspannung aufnehmen',
     'il pezzo è stato girato dopo la ripresa di questa stazione; riprenderla in un nuovo piazzamento',
   ],
+  'fault.listOfTexts': ['names: is a list of texts', 'names: ist eine Liste von Texten', 'names: è un elenco di testi'],
 } as const satisfies Rows;

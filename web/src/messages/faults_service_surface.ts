@@ -127,6 +127,11 @@ export const FAULTS_SERVICE_SURFACE = {
     '{0}: kann nicht umbenannt werden: {1}',
     '{0}: non si può rinominare: {1}',
   ],
+  'fault.cannotDeleted': [
+    '{0}: cannot be deleted: {1}',
+    '{0}: kann nicht gelöscht werden: {1}',
+    '{0}: non si può eliminare: {1}',
+  ],
   'fault.referenceShowChoose': [
     'there is no reference to show; choose one',
     'es gibt keine Referenz zu zeigen; eine wählen',

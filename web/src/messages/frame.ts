@@ -328,6 +328,7 @@ export const FRAME = {
   ],
   'job.display': ['Measuring the display', 'Anzeige wird vermessen', 'Misura del proiettore'],
   'job.rig': ['Storing the rig', 'Aufbau wird gespeichert', "Salvataggio dell'apparato"],
+  'job.empty': ['Deleting', 'Wird gelöscht', 'Eliminazione'],
   'job.copy': ['Copying', 'Wird kopiert', 'Copia'],
   'ask.title': ['Question', 'Frage', 'Domanda'],
   'ask.cancel': ['Cancel', 'Abbrechen', 'Annulla'],

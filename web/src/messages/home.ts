@@ -131,6 +131,17 @@ export const HOME = {
     'Eliminare {name}? Va nel cestino, da cui si può rimettere.',
   ],
   'home.bin': ['Bin ({count})', 'Papierkorb ({count})', 'Cestino ({count})'],
+  'home.emptyBin': ['Delete all for good', 'Alle endgültig löschen', 'Elimina tutto per sempre'],
+  'home.emptyAsk': [
+    'Delete the {count} projects in the bin for good? That frees {size}, and nothing brings them back.',
+    'Die {count} Projekte im Papierkorb endgültig löschen? Das gibt {size} frei, und nichts holt sie zurück.',
+    'Eliminare per sempre i {count} progetti nel cestino? Libera {size} e nulla li riporta indietro.',
+  ],
+  'home.emptyAskOne': [
+    'Delete {name} for good? That frees {size}, and nothing brings it back.',
+    '{name} endgültig löschen? Das gibt {size} frei, und nichts holt es zurück.',
+    'Eliminare {name} per sempre? Libera {size} e nulla lo riporta indietro.',
+  ],
   'home.takeBack': ['Put back', 'Zurücklegen', 'Rimetti'],
   'home.search': ['Search names and notes', 'Namen und Notizen durchsuchen', 'Cerca in nomi e note'],
   'home.noMatch': ['No project matches.', 'Kein Projekt passt.', 'Nessun progetto corrisponde.'],

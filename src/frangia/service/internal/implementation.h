@@ -70,6 +70,7 @@ class Service::Implementation {
   Json duplicate_project(CommandArguments& arguments);
   Json discard_project(CommandArguments& arguments);
   Json take_back_project(CommandArguments& arguments);
+  Json empty_bin(CommandArguments& arguments);
   Json set_notes(CommandArguments& arguments);
   Json set_thumbnail(CommandArguments& arguments);
   Json open_file(CommandArguments& arguments);
@@ -228,7 +229,7 @@ class Service::Implementation {
   mutable std::mutex mutex_;
   std::vector<ProjectEntry> projects_;
   std::vector<LibraryRig> kept_rigs_;
-  std::vector<std::string> discarded_;
+  DiscardedProjects bin_;
   std::shared_ptr<const DeviceSearch> search_;
   std::optional<OpenProject> project_;
   int openings_ = 0;

@@ -17,6 +17,7 @@
 #include "frangia/report/write_report.h"
 #include "frangia/service/internal/implementation.h"
 #include "frangia/service/internal/rig_json.h"
+#include "frangia/service/internal/shown_inspection.h"
 
 namespace frangia {
 namespace {
@@ -41,14 +42,6 @@ InspectionPlan with_reference(InspectionPlan plan,
   return plan;
 }
 
-/// A plan that nobody made: the best fit, with the usual tolerance.
-InspectionPlan usual_plan() {
-  InspectionPlan plan;
-  plan.align = "best-fit";
-  plan.tolerance_mm = plan.tolerance();
-  return plan;
-}
-
 /// Whether a plan measures something without a reference.
 bool measures_alone(const InspectionPlan& plan) {
   return !plan.features.empty() || !plan.sections.empty() || plan.thickness;
@@ -65,6 +58,13 @@ bool lies_as_scanned(const SurfaceSnapshot& surface) {
 }
 
 }  // namespace
+
+bool has_current_inspection(const OpenProject& project) {
+  if (!project.surface || !project.surface->inspection) return false;
+  const ProjectReference& reference = project.reference;
+  return project.surface->inspection->asked.basis ==
+         inspection_basis(project.plan.value_or(usual_plan()), reference.name, reference.number);
+}
 
 void read_plan_of(const ProjectFolder& folder, OpenProject& project) {
   std::error_code ignored;
@@ -131,7 +131,11 @@ nlohmann::ordered_json Service::Implementation::start_inspect(CommandArguments& 
         if (opened().plan)
           write_inspection_plan(project.plan(), with_reference(plan, project, reference));
         const bool measures = features || !wanted.features.empty();
-        InspectionRequest asked{std::move(wanted), reference.name, features, nullptr};
+        InspectionRequest asked{std::move(wanted),
+                                reference.name,
+                                inspection_basis(plan, reference.name, reference.number),
+                                features,
+                                nullptr};
         if (measures && lies_as_scanned(*model.snapshot()) && opened().scan_complete)
           asked.scan = std::make_shared<const Scan>(read_scan(project.scan, run));
         SurfaceModel inspected = model.inspected(asked, count, run);
@@ -148,7 +152,7 @@ nlohmann::ordered_json Service::Implementation::next_part(CommandArguments& argu
   require(now.folder.scan != now.folder.folder,
           "the next part needs a project; this is a plain scan folder");
   // The serial number may have been stated since the inspection.
-  if (now.surface && now.surface->inspection && now.lock)
+  if (has_current_inspection(now) && now.lock)
     write_series_results(now.folder,
                          now.surface->inspection->found,
                          now.plan.value_or(now.surface->inspection->asked.plan));
@@ -198,6 +202,8 @@ nlohmann::ordered_json Service::Implementation::start_report(CommandArguments& a
   const SurfacePtr shown = surface();
   require(format == "toml" || (shown && shown->inspection),
           "there is no inspection to report; inspect the surface first");
+  require(format == "toml" || has_current_inspection(opened()),
+          "the plan or the reference has changed; inspect again");
   require(format != "pdf" || options_.print_page,
           "this program makes no PDF files; write the report as HTML and print it");
   return started("report", [this, project, format, language](const Run& run) {

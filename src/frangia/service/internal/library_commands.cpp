@@ -158,6 +158,32 @@ nlohmann::ordered_json Service::Implementation::take_back_project(CommandArgumen
   return {{"name", now}};
 }
 
+nlohmann::ordered_json Service::Implementation::empty_bin(CommandArguments& arguments) {
+  const nlohmann::json& given = arguments.value("names");
+  arguments.check_all_read();
+  constexpr std::size_t kMostNames = 10'000;
+  const bool texts =
+      given.is_array() && !given.empty() && given.size() <= kMostNames &&
+      std::all_of(given.begin(), given.end(), [](const auto& one) { return one.is_string(); });
+  require(texts, "names: is a list of texts");
+  const auto names = given.get<std::vector<std::string>>();
+  const std::vector<std::string> known = library_.discarded();
+  for (const std::string& name : names) {
+    require(std::find(known.begin(), known.end(), name) != known.end(),
+            "there is no deleted project of this name");
+  }
+  return started("empty", [this, names](const Run& run) {
+    run.stage("files");
+    try {
+      library_.empty_bin(names, run);
+    } catch (...) {
+      refresh_projects();
+      throw;
+    }
+    refresh_projects();
+  });
+}
+
 nlohmann::ordered_json Service::Implementation::set_notes(CommandArguments& arguments) {
   const std::string name = arguments.text("name");
   const std::string text = arguments.text("text");

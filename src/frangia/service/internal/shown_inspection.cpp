@@ -5,11 +5,13 @@
 #include <optional>
 #include <utility>
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "frangia/core/angles.h"
 #include "frangia/core/missing.h"
 #include "frangia/inspection/verdict_reasons.h"
+#include "frangia/inspection/write_inspection_plan.h"
 #include "frangia/report/inspection_json.h"
 #include "frangia/service/internal/project_names.h"
 
@@ -17,6 +19,8 @@ namespace frangia {
 namespace {
 
 using Json = nlohmann::ordered_json;
+
+constexpr std::size_t kMostWarnings = 50;  // a plan of another part has one for each feature
 
 Json finite_or_null(double value) {
   return std::isfinite(value) ? Json(value) : Json();
@@ -85,6 +89,23 @@ Json json_of_feature(const Inspection& found,
 }
 
 }  // namespace
+
+InspectionPlan usual_plan() {
+  InspectionPlan plan;
+  plan.align = "best-fit";
+  plan.tolerance_mm = plan.tolerance();
+  return plan;
+}
+
+std::string inspection_basis(InspectionPlan plan,
+                             const std::string& reference,
+                             int reference_number) {
+  plan.file.clear();
+  plan.part.clear();
+  plan.reference.clear();
+  plan.report = {};
+  return fmt::format("{} {} {}", reference_number, reference, inspection_plan_json(plan, {}));
+}
 
 std::shared_ptr<const ShownInspection> shown_inspection(const Mesh& mesh,
                                                         const InspectionRequest& asked,
@@ -183,16 +204,22 @@ nlohmann::ordered_json json_of_inspection(const ShownInspection& shown) {
     for (const SurfacePlace& place : found.surface->verdict.places) {
       places.push_back({{"decision", name_of(place.decision)},
                         {"at_mm", json_of_vector(surface_from_reference * place.at_mm)},
+                        {"near_mm", json_of_vector(place.at_mm)},
+                        {"normal", json_of_vector(surface_from_reference.linear() * place.normal)},
                         {"deviation_mm", finite_or_null(place.deviation_mm)},
                         {"u95_mm", finite_or_null(place.u95_mm)},
                         {"area_mm2", place.area_mm2},
                         {"missing", place.missing}});
     }
   }
+  Json warnings = Json::array();
+  for (std::size_t i = 0; i < std::min(kMostWarnings, found.warnings.size()); ++i)
+    warnings.push_back(found.warnings[i]);
   const auto& walls = found.walls;
   return {{"revision", shown.revision},
           {"verdict", name_of(found.verdict)},
           {"reasons", Json::parse(reasons_json(found.reasons))},
+          {"warnings", warnings},
           {"searched", found.searched},
           {"characteristics", rows},
           {"features", features},

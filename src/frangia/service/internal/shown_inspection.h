@@ -1,10 +1,20 @@
 #pragma once
 
 #include <memory>
+#include <string>
 
 #include "frangia/service/internal/surface_model.h"
 
 namespace frangia {
+
+/// A plan that nobody made: the best fit, with the usual tolerance.
+[[nodiscard]] InspectionPlan usual_plan();
+
+/// What the results of an inspection depend on: the plan without the head of the report, and which
+/// file is its reference. Two inspections of one surface with the same text have the same results.
+[[nodiscard]] std::string inspection_basis(InspectionPlan plan,
+                                           const std::string& reference,
+                                           int reference_number);
 
 /// Inspects a mesh against the file that its plan names; nothing is measured against where the plan
 /// names none.

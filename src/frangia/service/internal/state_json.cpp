@@ -185,6 +185,8 @@ Json json_of_project(const OpenProject& project, const CommandLines& commands) {
                            : Json()},
             {"surface_loading", project.surface_loading},
             {"surface", project.surface ? json_of_surface(*project.surface) : Json()}};
+  if (project.surface && project.surface->inspection)
+    json["surface"]["inspection"]["current"] = has_current_inspection(project);
   const SurfaceVersions none;
   const SurfaceVersions& versions = project.versions ? *project.versions : none;
   json["revision"] = versions.revision;
@@ -287,7 +289,8 @@ std::string state_json(const ServiceView& view) {
                                 {"thumbnail_s", entry.thumbnail_s},
                                 {"notes", entry.notes}});
   }
-  json["discarded"] = view.discarded;
+  json["discarded"] = view.bin.names;
+  json["discarded_bytes"] = view.bin.bytes;
   json["project"] = view.project ? json_of_project(*view.project, view.commands) : Json();
   json["jobs"] = Json::array();
   for (const Job& job : view.jobs)

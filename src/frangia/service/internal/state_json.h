@@ -111,6 +111,9 @@ struct OpenProject {
 /// Reads the plan of a project into it.
 void read_plan_of(const ProjectFolder& folder, OpenProject& project);
 
+/// Whether its surface was inspected by the present plan against the present reference.
+[[nodiscard]] bool has_current_inspection(const OpenProject& project);
+
 /// Whether its camera is one in software.
 [[nodiscard]] bool is_simulated(const OpenProject& project);
 
@@ -126,7 +129,7 @@ struct ServiceView {
   std::string version;
   std::vector<ProjectEntry> projects;
   std::vector<LibraryRig> rigs;
-  std::vector<std::string> discarded;          ///< names of the projects in the bin
+  DiscardedProjects bin;                       ///< what was deleted
   std::shared_ptr<const DeviceSearch> search;  ///< null before the first one
   std::optional<OpenProject> project;
   CommandLines commands;  ///< of the project

@@ -62,6 +62,7 @@ struct SurfacePreview {
 struct InspectionRequest {
   InspectionPlan plan;    ///< with the file of its reference
   std::string reference;  ///< name of that file, for people; empty: none
+  std::string basis;      ///< see `inspection_basis`
   bool features = false;  ///< looks for all of them, not only for those of the plan
   /// Of the surface, which still lies as it was scanned; null otherwise.
   std::shared_ptr<const Scan> scan;

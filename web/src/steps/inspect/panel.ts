@@ -10,77 +10,16 @@ import type { Plan } from '../../inspection_types';
 import type { Comparison, Inspection, MeasuredRow } from '../../types';
 import { choice, nextStep } from '../../ui';
 import { type Term, term } from '../../terms';
-import { verdictSentence } from '../../verdict_words';
 import { accepting } from './accept';
 import { planned } from './plan';
 import { reporting } from './report';
 import { series } from './series';
+import { signed, verdict } from './verdict';
 
-/** With its sign, which a value that rounds to zero does not have. */
-export const signed = (value: number | null, digits = 3): string => {
-  if (value === null) return '·';
-  const sign = Math.abs(value) < 0.5 * 10 ** -digits ? '' : value > 0 ? '+' : '−';
-  return `${sign}${number(Math.abs(value), digits)}`;
-};
 const percent = (share: number): string => number(100 * share, 1);
 
 type Verdict = Inspection['verdict'];
 const DOTS: Record<Verdict, string> = { in: 'done', out: 'bad', undecided: 'poor' };
-
-/** Three lamps, of which one is lit. */
-const light = (verdict: Verdict): TemplateResult =>
-  html`<svg class="traffic" viewBox="0 0 22 58" aria-hidden="true">
-    ${svg`<rect x="1" y="1" width="20" height="56" rx="10" />`}
-    ${(['out', 'undecided', 'in'] as const).map(
-      (lamp, i) => svg`<circle class="${lamp} ${lamp === verdict ? 'lit' : ''}" cx="11" cy=${11 + 18 * i} r="7" />`,
-    )}
-  </svg>`;
-
-/** Why the part is what it is, in words, and where. */
-function verdict(app: App, found: Inspection): TemplateResult | string {
-  const { inspecting } = app;
-  if (found.reasons.length === 0) return '';
-  return html`<section class="group" id="verdict">
-    <div class="verdict-line ${found.verdict}">
-      ${light(found.verdict)}
-      <div>
-        <b>${t(`inspect.${found.verdict}`)}</b>
-        ${found.reasons.map(({ clauses }) => html`<p class="quiet">${verdictSentence(clauses)}</p>`)}
-      </div>
-    </div>
-    ${
-      found.places.length > 0
-        ? html`<button
-            class="btn wide"
-            id="places"
-            aria-pressed=${inspecting.placesShown}
-            @click=${() => inspecting.showPlaces(!inspecting.placesShown)}
-          >
-            ${t('inspect.places', { count: found.places.length })}
-          </button>`
-        : ''
-    }
-    ${
-      inspecting.placesShown
-        ? html`<table class="table places">
-            <tbody class="num">
-              ${found.places.map(
-                (place) =>
-                  html`<tr>
-                    <td>
-                      <span class="dot ${place.decision === 'out' ? 'bad' : 'poor'}"></span
-                      >${t(place.missing ? 'inspect.missing' : `inspect.place.${place.decision}`)}
-                    </td>
-                    <td>${place.deviation_mm === null ? '' : `${signed(place.deviation_mm)} mm`}</td>
-                    <td>${place.at_mm.map((one) => (one === null ? '·' : number(one, 1))).join('  ')}</td>
-                  </tr>`,
-              )}
-            </tbody>
-          </table>`
-        : ''
-    }
-  </section>`;
-}
 
 /** The tolerance, how much of it is used, and where the value stands in it. */
 function bar(row: MeasuredRow): TemplateResult | string {
@@ -111,7 +50,7 @@ function limitsOf({ limits, nominal, unit }: MeasuredRow): string {
 function rows(found: Inspection): TemplateResult | string {
   if (found.characteristics.length === 0) return '';
   const value = (one: number | null, unit: string) => (one === null ? '·' : number(one, unit === 'mm' ? 4 : 3));
-  return html`<section class="group">
+  return html`<section class="group ${found.current ? '' : 'outdated'}">
     <h2>${t('inspect.results')}</h2>
     <table class="table results">
       <thead>
@@ -164,7 +103,8 @@ function deviations(app: App, found: Comparison): TemplateResult {
   const row = (key: Parameters<typeof t>[0], value: string, unit: string, of?: Term) =>
     html`<dt>${t(key)}${of ? term(of) : ''}</dt>
       <dd class="num">${value}<span>${unit}</span></dd>`;
-  return html`<section class="group">
+  const current = app.inspecting.found?.current ?? true;
+  return html`<section class="group ${current ? '' : 'outdated'}">
     <h2>${t('inspect.surface')}</h2>
     <p class="quiet">
       ${
@@ -272,6 +212,7 @@ function reference(app: App): TemplateResult {
             )}
             ${plan.align === 'datum' ? datums(app, plan) : ''} ${app.pairing.panel(plan, off)}
             ${surface?.comparison ? poses(app, surface.comparison) : ''}
+            <p class="quiet">${t('inspect.tolerance')}</p>
             <form class="row" @submit=${run}>
               <label class="field grow"
                 ><span>${t('inspect.lower')}</span

@@ -1,4 +1,5 @@
 import { html, type TemplateResult } from 'lit';
+import { live } from 'lit/directives/live.js';
 
 import type { App } from '../../parts';
 import { icon } from '../../icons';
@@ -96,6 +97,18 @@ function choosing(app: App, inspection: Inspection | null): TemplateResult {
     </details>`;
 }
 
+/** The name of a feature or characteristic, which can be written over. */
+const named = (app: App, name: string): TemplateResult =>
+  html`<input
+    class="name grow"
+    aria-label="${t('inspect.name')} ${name}"
+    title=${t('inspect.name')}
+    maxlength="60"
+    ?disabled=${app.occupied || app.session.watches}
+    .value=${live(name)}
+    @change=${(event: Event) => app.inspecting.rename(name, (event.target as HTMLInputElement).value.trim())}
+  />`;
+
 const remove = (app: App, name: string, act: () => void): TemplateResult =>
   html`<button
     class="icon-btn"
@@ -132,9 +145,7 @@ function feature(app: App, one: PlannedFeature): TemplateResult {
       ><input class="num" name=${name} ?disabled=${off} .defaultValue=${shownNumber(value)} ${numeric({})}
     /></label>`;
   return html`<div class="planned" data-planned=${one.name}>
-    <div class="row">
-      <b class="grow">${one.name}</b>${remove(app, one.name, () => inspecting.removeFeature(one.name))}
-    </div>
+    <div class="row">${named(app, one.name)}${remove(app, one.name, () => inspecting.removeFeature(one.name))}</div>
     ${
       kind === 'plane' || kind === 'line'
         ? ''
@@ -151,7 +162,7 @@ function feature(app: App, one: PlannedFeature): TemplateResult {
 function characteristic(app: App, one: PlannedCharacteristic): TemplateResult {
   return html`<div class="planned row" data-planned=${one.name}>
     <span class="grow"
-      ><b>${one.name}</b><br /><span class="quiet"
+      >${named(app, one.name)}<br /><span class="quiet"
         >${t(`inspect.what.${one.kind}`)}:
         ${one.feature ?? one.section ?? ''}${one.datum ? ` – ${one.datum}` : ''}</span
       ></span
@@ -188,6 +199,7 @@ function adding(app: App, features: readonly PlannedFeature[]): TemplateResult |
   };
   const names = features.map(({ name }, i) => html`<option ?selected=${i === features.length - 1}>${name}</option>`);
   const { kind: adds } = app.inspecting;
+  const unit = adds === 'angle' ? '°' : 'mm';
   return html`<form class="adding" id="add-characteristic" @submit=${add}>
     <h2>${t('inspect.addCharacteristic')}</h2>
     <label class="field"
@@ -222,12 +234,13 @@ function adding(app: App, features: readonly PlannedFeature[]): TemplateResult |
       ${
         TWO_SIDED.includes(adds)
           ? html`<label class="field grow"
-              ><span>${t('inspect.nominalOf')}</span><input class="num" name="nominal" ?disabled=${off} ${numeric({})}
+              ><span>${t('inspect.nominalOf', { unit })}</span
+              ><input class="num" name="nominal" ?disabled=${off} ${numeric({})}
             /></label>`
           : ''
       }
       <label class="field grow"
-        ><span>${t(TWO_SIDED.includes(adds) ? 'inspect.plusMinus' : 'inspect.limit')}</span
+        ><span>${TWO_SIDED.includes(adds) ? t('inspect.plusMinus', { unit }) : t('inspect.limit')}</span
         ><input class="num" name="limit" ?disabled=${off} ${numeric({ min: 0 })}
       /></label>
       <button class="btn" ?disabled=${off}>${t('inspect.add')}</button>

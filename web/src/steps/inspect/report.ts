@@ -10,6 +10,7 @@ export function reporting(app: App, found: Inspection | null): TemplateResult {
   const { inspecting } = app;
   const { plan } = inspecting;
   const off = app.occupied || app.session.watches;
+  const none = off || !found?.current;
   const field = (key: 'serial' | 'order' | 'customer' | 'operator' | 'drawing') =>
     html`<label class="field"
       ><span>${t(`inspect.field.${key}`)}</span
@@ -40,19 +41,17 @@ export function reporting(app: App, found: Inspection | null): TemplateResult {
       ${field('drawing')}${field('serial')}${field('order')}${field('customer')}${field('operator')}
     </details>
     <div class="pair">
-      <button class="btn" id="report" ?disabled=${off || !found} @click=${() => void inspecting.write('pdf')}>
+      <button class="btn" id="report" ?disabled=${none} @click=${() => void inspecting.write('pdf')}>
         ${icon('download')}${t('inspect.writeReport')}
       </button>
-      <button class="btn" id="report-html" ?disabled=${off || !found} @click=${() => void inspecting.write('html')}>
-        HTML
-      </button>
+      <button class="btn" id="report-html" ?disabled=${none} @click=${() => void inspecting.write('html')}>HTML</button>
     </div>
     <div class="pair">
       ${(['csv', 'qif'] as const).map(
         (format) =>
           html`<button
             class="btn"
-            ?disabled=${off || !found?.characteristics.length}
+            ?disabled=${none || !found?.characteristics.length}
             @click=${() => void inspecting.write(format)}
           >
             ${format.toUpperCase()}

@@ -7,7 +7,7 @@ import { numeric } from '../../number_field';
 import { numberIn } from '../../written_numbers';
 import { freeName, type Source, SOURCES } from '../../projects';
 import type { ProjectEntry } from '../../types';
-import { acts, choice } from '../../ui';
+import { acts, bytes, choice } from '../../ui';
 import { term } from '../../terms';
 import { rigWords } from '../../rig_facts';
 
@@ -184,7 +184,8 @@ function card(app: App, one: ProjectEntry): TemplateResult {
 
 /** The projects that were deleted, each of which can be put back. */
 function bin(app: App): TemplateResult | string {
-  const { discarded } = app.state;
+  const { discarded, discarded_bytes: total } = app.state;
+  const size = bytes(total, number);
   if (discarded.length === 0) return '';
   return html`<details class="more" id="bin">
     <summary>${t('home.bin', { count: discarded.length })}</summary>
@@ -197,6 +198,14 @@ function bin(app: App): TemplateResult | string {
           </button>
         </div>`,
     )}
+    <button
+      class="btn small danger"
+      id="empty-bin"
+      ?disabled=${app.occupied || app.session.watches}
+      @click=${() => app.projects.emptyBin(size)}
+    >
+      ${icon('trash')}${t('home.emptyBin')}, ${size}
+    </button>
   </details>`;
 }
 

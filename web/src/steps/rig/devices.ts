@@ -126,7 +126,12 @@ function choosing(app: App, draft: DeviceDraft): TemplateResult {
       >
         ${t('rig.keep')}
       </button>
-      <button class="btn primary" id="set-devices" ?disabled=${app.occupied || !search || !ready} @click=${use}>
+      <button
+        class="btn ${search ? 'primary' : ''}"
+        id="set-devices"
+        ?disabled=${app.occupied || !search || !ready}
+        @click=${use}
+      >
         ${t('rig.use')}
       </button>
     </div>`;

@@ -4,7 +4,7 @@ import { dial } from '../../dial';
 import { icon } from '../../icons';
 import { number, stageName, t } from '../../messages';
 import type { Station } from '../../types';
-import { numberForm, plain, span } from '../../ui';
+import { nextStep, numberForm, plain, span } from '../../ui';
 import { axisAfter, axisFirst, axisFound, lacksAxis, scanArguments } from './axis_of_scan';
 import { scanCheck } from './check';
 import { presentSetup } from '../../setups';
@@ -57,6 +57,10 @@ export function scanStep(app: App): TemplateResult {
       : before || (complete && lacksAxis(app))
         ? ''
         : t('scan.lead');
+  // A mesh that was dropped has neither stations nor devices.
+  if (!project.can_scan && !project.scan_complete && !begun && !job)
+    return html`<section class="group"><p class="quiet">${t('live.noDevices')}</p></section>
+      ${nextStep(app, 'rig')}`;
   if (app.setups.turning && complete && !job) return nextSetup(app);
   return html`<section class="group">
       ${setupChoice(app)}
