@@ -36,8 +36,9 @@ struct TurntableTop {
 ///
 /// A round base or flange of the part has the same shape. A turntable top therefore must also lie
 /// near the origin of the object frame, or be much wider than everything above it and not stand on
-/// the origin itself, as a gear with a hub does; a rim must not lie above the origin. A flange at that height on a table too dark to be measured is still
-/// mistaken for a top: the caller reports what it removes.
+/// the origin itself, as a gear with a hub does; a rim must not lie above the origin. A flange at
+/// that height on a table too dark to be measured is still mistaken for a top: the caller reports
+/// what it removes.
 ///
 /// @missing  none when no disc or rim meets all criteria
 /// @errors   Error(Cancelled)
