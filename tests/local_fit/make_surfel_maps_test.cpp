@@ -18,9 +18,7 @@ TEST(MakeSurfelMaps, MakesTheMapOfEachView) {
   ASSERT_EQ(maps.size(), 3U);
   const CameraRays rays(camera);
   for (std::size_t i = 0; i < 3; ++i) {
-    const View view = views.load(i);
-    const SurfelMap alone =
-        make_surfel_map(local_planes(view, rays), view.range.depth_mm, rays, 4000);
+    const SurfelMap alone = make_surfel_map(local_planes(views.load(i), rays), rays, 4000);
     ASSERT_EQ(maps[i].stride, alone.stride);
     EXPECT_TRUE(std::equal(maps[i].surfels.pixels().begin(),
                            maps[i].surfels.pixels().end(),

@@ -22,7 +22,6 @@ struct SurfelMap {
   /// An oriented point of the surface; `sigma_mm` 0 marks a missing one.
   struct Surfel {
     /// The pixel's own point: the mean of its window is biased where the surface is curved.
-    /// Smoothed by a quadratic through the window, over the tangent plane where that is steep.
     Eigen::Vector3f point_mm = Eigen::Vector3f::Zero();
     Eigen::Vector3f normal = Eigen::Vector3f::Zero();  ///< unit, towards the camera
     float sigma_mm = 0.0F;                             ///< standard deviation along the normal
@@ -42,16 +41,10 @@ struct SurfelMap {
 /// Builds a surfel map of at most about `pixels` surfels. It covers the part of the view that has
 /// surfels.
 ///
-/// Near the limb of a round part a quadratic over the image is off by less than the noise of a
-/// pixel, but alike in all surfels, and an axis that is found by them by several times its
-/// uncertainty. Steeper than 60 degrees, points are therefore smoothed over the tangent plane.
-///
 /// @units    mm, rig frame
-/// @shape    `view` needs the planes of every `surfel_stride`-th pixel, see `LocalPlanesOptions`;
-///           `depth_mm` is that from which they were made
+/// @shape    `view` needs the planes of every `surfel_stride`-th pixel, see `LocalPlanesOptions`
 /// @missing  a pixel at a crease or a depth step, or without a centered window, has no surfel
 [[nodiscard]] SurfelMap make_surfel_map(const LocalPlanes& view,
-                                        const Image<float>& depth_mm,
                                         const CameraRays& camera,
                                         std::size_t pixels);
 

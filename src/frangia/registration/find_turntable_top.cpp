@@ -66,8 +66,7 @@ TableCloud gather_table_cloud(const ViewStore& views, const CameraModel& camera,
     run.report(static_cast<double>(i) / static_cast<double>(views.size()));
     planes = local_planes(view, rays, options, std::move(planes));
     const Eigen::Isometry3d object_from_rig = views.rig_from_object(i).inverse();
-    for (const auto& surfel :
-         pick_surfels(make_surfel_map(planes, view.range.depth_mm, rays, map_pixels), surfels)) {
+    for (const auto& surfel : pick_surfels(make_surfel_map(planes, rays, map_pixels), surfels)) {
       cloud.points.emplace_back(object_from_rig * surfel.point_mm.cast<double>());
       cloud.normals.emplace_back(object_from_rig.linear() * surfel.normal.cast<double>());
       sigmas_mm.push_back(surfel.sigma_mm);

@@ -11,14 +11,13 @@ namespace frangia {
 /// `variance_px2`, B the modulation, k the gradient of the phase and H its Hessian. Left as it is,
 /// it makes the radius R of a ball smaller by about w^2 / 8 R, w the width of a pixel on it.
 ///
-/// The derivatives are those between the three pixels around one, means over five rows or columns,
-/// and add 2 % to the noise of a pixel, hardly any to that of a surface smoothed over some. Next to
-/// a border of brightness or a crease, which only pixels on it mix, the smallest ones count. What
-/// the correction may be off, some micrometres where a pixel is half a millimetre wide, enters
-/// `systematic_rad` unless that is empty.
+/// The derivatives are those of the 5 x 5 pixels around one, and add half a percent to the noise of
+/// the phase. Next to a border of brightness or a crease, which only pixels on it mix, the smallest
+/// ones count. What the correction may be off, some micrometres where a
+/// pixel is half a millimetre wide, enters `systematic_rad` unless that is empty.
 /// @shape    `modulation_counts` covers `box` alone
 /// @units    rad, counts
-/// @missing  a pixel without eight neighbours on the same surface keeps its phase
+/// @missing  a pixel without 24 neighbours on the same surface keeps its phase
 void correct_pixel_area(AbsolutePhase& phase,
                         const Image<float>& modulation_counts,
                         const PixelBox& box,
