@@ -219,6 +219,7 @@ await tell(home, async () => {
   await page.click('#ask [data-answer="0"]');
   const own = await opened('Seed', (project) => project.surface?.comparison);
   expect(own.project.reference.name === 'wedge.stl', 'the mesh is not what the surface is compared with');
+  await idle();  // the inspection by the new reference
   await drop(['inspection.toml']);
   await waitForState(page, ({ project }) => project.plan?.tolerance_mm?.[1] === 0.2);
   await idle();

@@ -150,7 +150,7 @@ await tell(home, async () => {
   await press('Control+a');
   await page.keyboard.type('90');
   await press('Tab');
-  expect(Math.abs((await page.evaluate(() => document.querySelector('frangia-app').viewer.legend.high)) - 0.09) < 1e-9, 'the end of the legend stays');
+  await page.waitForFunction(() => Math.abs(document.querySelector('frangia-app').viewer.legend.high - 0.09) < 1e-9);
   await tabTo('[data-view=top]');
   await press('Enter');
   expect((await eye()).away[2] > 0.99, 'the button of the top does not lead there');
