@@ -54,7 +54,7 @@ TEST(SystematicPart, OfTheCalibrationStandsBesideTheNoiseOfTheMesh) {
 TEST(SystematicPart, CountsNoRigWhoseEffectOnTheViewsIsNotNoticeable) {
   const testing::TemporaryFolder folder;
   const Scan scan =
-      testing::small_scan(folder.path() / "scan", "shaft", "angular", 8, {.samples_per_px = 4}, 4);
+      testing::small_scan(folder.path() / "scan", "shaft", "angular", 8, {.samples_per_px = 4}, 2);
   const Reconstruction result = reconstruct(scan, {});
   EXPECT_LT(result.sigma.systematic_mm, result.sigma.noise_mm);
 }
