@@ -7,7 +7,6 @@
 
 #include "frangia/core/run.h"
 #include "frangia/dataset/import_frames.h"
-#include "frangia/rig/paper_rig.h"
 #include "frangia/rig/read_rig.h"
 #include "frangia/rig/write_rig.h"
 
@@ -19,13 +18,7 @@ namespace {
 using ImportDepth = testing::ImportFixture;
 
 TEST_F(ImportDepth, LeavesOutTheNoiseThatTheRigStatesForFramesOfAnotherDepth) {
-  Rig rig = make_paper_rig({});
-  rig.projector.model = PinholeModel{.width_px = 1280,
-                                     .height_px = 800,
-                                     .focal_px = {1900.0, 1900.0},
-                                     .principal_point_px = {640.0, 400.0}};
-  rig.reference().model.width_px = 8;
-  rig.reference().model.height_px = 6;
+  Rig rig = rig_of_images();
   rig.reference().white_level = 255;
   rig.reference().noise = NoiseModel::from_camera(78.0, 8.0);
   options_.rig = images().parent_path() / "rig.toml";

@@ -11,6 +11,7 @@
 
 #include "frangia/dataset/import_frames.h"
 #include "frangia/frames/png.h"
+#include "frangia/rig/paper_rig.h"
 
 #include "support/error_of.h"
 #include "support/temporary_folder.h"
@@ -32,6 +33,17 @@ class ImportFixture : public ::testing::Test {
     std::filesystem::create_directories(target().parent_path());
     options_.period_px = {{"", 20.0}};
     options_.names = "{pattern}_{frame:02}.png";
+  }
+  /// A rig with a projector of pixels, whose camera has as many pixels as `write` writes.
+  [[nodiscard]] static Rig rig_of_images(int width_px = 8, int height_px = 6) {
+    Rig rig = make_paper_rig({});
+    rig.projector.model = PinholeModel{.width_px = 1280,
+                                       .height_px = 800,
+                                       .focal_px = {1900.0, 1900.0},
+                                       .principal_point_px = {640.0, 400.0}};
+    rig.reference().model.width_px = width_px;
+    rig.reference().model.height_px = height_px;
+    return rig;
   }
   /// A PNG whose pixels hold `value`.
   template <typename T = std::uint8_t>

@@ -20,7 +20,6 @@
 #include "frangia/dataset/scan_folder.h"
 #include "frangia/frames/float_tiff.h"
 #include "frangia/frames/png.h"
-#include "frangia/rig/paper_rig.h"
 #include "frangia/rig/read_rig.h"
 #include "frangia/rig/rig_covariance.h"
 #include "frangia/rig/write_rig.h"
@@ -178,13 +177,7 @@ TEST_F(ImportFrames, DemosaicsAWhiteFrame) {
 }
 
 TEST_F(ImportFrames, TakesTheCovarianceOfACalibratedRigAlong) {
-  Rig rig = make_paper_rig({});
-  rig.projector.model = PinholeModel{.width_px = 1280,
-                                     .height_px = 800,
-                                     .focal_px = {1900.0, 1900.0},
-                                     .principal_point_px = {640.0, 400.0}};
-  rig.reference().model.width_px = 8;
-  rig.reference().model.height_px = 6;
+  Rig rig = rig_of_images();
   rig.calibration = Calibration{.date = "2026-01-01", .board = "checkerboard", .poses = 12};
   rig.calibration->covariance_file = "rig-covariance.csv";
   rig.calibration->covariance.parameters = {"camera.focal_px"};

@@ -12,7 +12,6 @@
 #include "frangia/dataset/import_frames.h"
 #include "frangia/dataset/read_frames.h"
 #include "frangia/frames/png.h"
-#include "frangia/rig/paper_rig.h"
 #include "frangia/rig/write_rig.h"
 
 #include "dataset/import_fixture.h"
@@ -24,15 +23,8 @@ class ImportOrientation : public testing::ImportFixture {
  protected:
   /// A rig with a digital projector and a camera of this size.
   void use_rig(int width_px, int height_px) {
-    Rig rig = make_paper_rig({});
-    rig.projector.model = PinholeModel{.width_px = 1280,
-                                       .height_px = 800,
-                                       .focal_px = {1900.0, 1900.0},
-                                       .principal_point_px = {640.0, 400.0}};
-    rig.reference().model.width_px = width_px;
-    rig.reference().model.height_px = height_px;
     options_.rig = images().parent_path() / "rig.toml";
-    write_rig(options_.rig, rig);
+    write_rig(options_.rig, rig_of_images(width_px, height_px));
   }
   /// States an EXIF orientation in a PNG.
   void orient(const std::string& name, char orientation) const {

@@ -10,6 +10,7 @@
 #include <Eigen/Core>
 #include <fmt/format.h>
 
+#include "frangia/decode/explain/internal/decided_fault.h"
 #include "frangia/decode/explain/internal/frame_priors.h"
 #include "frangia/decode/explain/internal/frame_sequence.h"
 #include "frangia/decode/select_stacks.h"
@@ -169,12 +170,7 @@ std::vector<FrameVerdict> judge_lag(std::span<const Pattern> patterns,
   for (const Pattern& pattern : patterns) {
     FrameVerdict one;
     FrameExplanation& found = one.explanation;
-    found.pattern = pattern.name;
-    found.decided = true;
-    found.best = frame_hypotheses(pattern).front();
-    found.best.cause = FrameCause::Late;
-    found.best.faults = 1;
-    found.alike = {found.best};
+    found = decided_fault(pattern, FrameCause::Late);
     found.explanation = lag.explanation;
     found.explanation.remedy =
         lag.frames > 0 && lag.part == LagPart::All

@@ -13,6 +13,7 @@
 #include <fmt/format.h>
 
 #include "frangia/core/angles.h"
+#include "frangia/decode/explain/internal/decided_fault.h"
 #include "frangia/decode/explain/internal/frame_design.h"
 #include "frangia/decode/explain/internal/frame_priors.h"
 #include "frangia/decode/explain/internal/frame_sample.h"
@@ -250,14 +251,7 @@ std::optional<FrameVerdict> judge_coarse_frames(const FrameStack& stack,
   auto& [frame, explanation] = *lost;
   FrameVerdict out;
   FrameExplanation& found = out.explanation;
-  found.pattern = stack.pattern.name;
-  found.decided = true;
-  found.best = frame_hypotheses(stack.pattern).front();
-  found.best.cause = FrameCause::Lost;
-  found.best.frames = {frame};
-  found.best.free[frame] = true;
-  found.best.faults = 1;
-  found.alike = {found.best};
+  found = decided_fault(stack.pattern, FrameCause::Lost, {frame});
   found.explanation = std::move(explanation);
   found.explanation.remedy = "capture the frames again, the projector and the camera in step";
   out.finding = fmt::format("pattern \"{}\": {}", found.pattern, describe(found.explanation));

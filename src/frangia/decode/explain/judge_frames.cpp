@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "frangia/core/statistics.h"
+#include "frangia/decode/explain/internal/decided_fault.h"
 #include "frangia/decode/explain/internal/frame_design.h"
 #include "frangia/decode/explain/internal/frame_sample.h"
 #include "frangia/decode/explain/internal/score_frames.h"
@@ -243,13 +244,7 @@ std::optional<FrameVerdict> judge_first_frame(const FrameStack& stack,
   if (!shows_again(stack, first, last, noise)) return std::nullopt;
   FrameVerdict out;
   FrameExplanation& found = out.explanation;
-  found.pattern = stack.pattern.name;
-  found.decided = true;
-  found.best = frame_hypotheses(stack.pattern).front();
-  found.best.cause = FrameCause::Repeated;
-  found.best.frames = {0};
-  found.best.faults = 1;
-  found.alike.push_back(found.best);
+  found = decided_fault(stack.pattern, FrameCause::Repeated, {0});
   found.explanation.best = {
       fmt::format("frame 0 shows the last frame of pattern \"{}\"", before.pattern.name)};
   found.explanation.second = {"the frames are as described"};
